@@ -1,0 +1,63 @@
+!> The strips of a contact: what the normal solution hands to the tangential one.
+module faststrip_normal_strips
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
+    implicit none
+    private
+
+    public :: contact_strips_t, reserve_strips, strip_load, strips_load
+
+    !> Contact patches cut into strips along the rolling direction x, each with the pressure
+    !> `p(x) = p0 sqrt(1 - (x/xd)^2)` (eq. (1)). Strips are ordered by y, patches too; the first
+    !> `n` entries count.
+    type :: contact_strips_t
+        integer :: n = 0         !! number of strips
+        integer :: n_patches = 0 !! number of patches, numbered 1, 2, ... along y
+        real(wp), allocatable :: y_left(:)      !! left edge, mm
+        real(wp), allocatable :: y_right(:)     !! right edge, mm
+        real(wp), allocatable :: half_length(:) !! xd, half-length along x, mm
+        real(wp), allocatable :: p0(:)          !! pressure on the centre line, MPa
+        integer, allocatable :: patch(:)        !! number of the patch the strip belongs to
+    end type contact_strips_t
+
+contains
+
+    !> Make room for strips; the only allocation, to be done before the first solution.
+    subroutine reserve_strips(strips, capacity, status)
+        type(contact_strips_t), intent(inout) :: strips !! emptied and sized
+        integer, intent(in) :: capacity                 !! largest number of strips, >= 1
+        type(status_t), intent(out) :: status           !! `st_bad_argument`
+
+        call clear_status(status)
+        strips%n = 0
+        strips%n_patches = 0
+        if (capacity < 1) then
+            call set_status(status, st_bad_argument, 'room for fewer than one strip asked')
+            return
+        end if
+        if (allocated(strips%p0)) then
+            if (size(strips%p0) == capacity) return
+            deallocate (strips%y_left, strips%y_right, strips%half_length, strips%p0, strips%patch)
+        end if
+        allocate (strips%y_left(capacity), strips%y_right(capacity), &
+                  strips%half_length(capacity), strips%p0(capacity), source=0.0_wp)
+        allocate (strips%patch(capacity), source=0)
+    end subroutine reserve_strips
+
+    !> Load of one strip, N: integral of its pressure, `(pi/2) p0 xd w`.
+    elemental real(wp) function strip_load(p0, half_length, width)
+        real(wp), intent(in) :: p0          !! pressure on the centre line, MPa
+        real(wp), intent(in) :: half_length !! xd, mm
+        real(wp), intent(in) :: width       !! right edge less left edge, mm
+
+        strip_load = 0.5_wp*pi*p0*half_length*width
+    end function strip_load
+
+    !> Load of all strips, N.
+    pure real(wp) function strips_load(strips)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+
+        strips_load = sum(strip_load(strips%p0(:strips%n), strips%half_length(:strips%n), &
+                                     strips%y_right(:strips%n) - strips%y_left(:strips%n)))
+    end function strips_load
+end module faststrip_normal_strips
