@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Run the unittest files test_*.py of some folders and count them.
+
+    run_pytests.py [--filter TEXT] FOLDER...
+
+The last line is `all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or
+none ran. With --filter only tests run whose `folder/module::class.test` contains TEXT.
+"""
+
+import argparse
+import importlib.util
+import pathlib
+import sys
+import unittest
+
+
+class Counts(unittest.TestResult):
+    """Counts tests, not their subtests, and tells of a failure at once."""
+
+    def __init__(self):
+        super().__init__()
+        self.started = set()
+        self.bad = set()
+
+    def startTest(self, test):
+        super().startTest(test)
+        self.started.add(test.id())
+
+    def addFailure(self, test, err):
+        super().addFailure(test, err)
+        self.tell(test, self.failures[-1][1])
+
+    def addError(self, test, err):
+        super().addError(test, err)
+        self.tell(test, self.errors[-1][1])
+
+    def addSubTest(self, test, subtest, err):
+        super().addSubTest(test, subtest, err)
+        if err is not None:
+            self.tell(test, f"{subtest}\n{self._exc_info_to_string(err, subtest)}")
+
+    def addUnexpectedSuccess(self, test):
+        super().addUnexpectedSuccess(test)
+        self.tell(test, "passed although it was expected to fail\n")
+
+    def tell(self, test, text):
+        self.started.add(test.id())
+        self.bad.add(test.id())
+        print(f"FAILED {test.id()}\n{text}", flush=True)
+
+    def totals(self):
+        skipped = {test.id() for test, _ in self.skipped} - self.bad
+        return len(self.started - self.bad - skipped), len(self.bad), len(skipped)
+
+
+def load(path, title):
+    """The tests of one file; a file that cannot be imported is a failing test."""
+    name = title.replace("/", "_")
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    sys.path.insert(0, str(path.parent))
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as problem:
+        error = problem
+
+        def cannot_import():
+            raise error
+
+        return unittest.TestSuite([unittest.FunctionTestCase(cannot_import, description=title)])
+    finally:
+        sys.path.remove(str(path.parent))
+    return unittest.defaultTestLoader.loadTestsFromModule(module)
+
+
+def flatten(suite):
+    for item in suite:
+        if isinstance(item, unittest.TestSuite):
+            yield from flatten(item)
+        else:
+            yield item
+
+
+def summary(totals):
+    passed, failed, skipped = totals
+    return f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else "")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--filter", default="")
+    parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="FOLDER")
+    options = parser.parse_args()
+    together = [0, 0, 0]
+    for folder in options.folders:
+        for path in sorted(folder.glob("test_*.py")):
+            title = f"{folder.as_posix()}/{path.stem}"
+            suite = unittest.TestSuite(
+                test
+                for test in flatten(load(path, title))
+                if options.filter in f"{title}::{'.'.join(test.id().split('.')[1:])}"
+            )
+            if suite.countTestCases() == 0:
+                continue
+            counts = Counts()
+            suite.run(counts)
+            together = [a + b for a, b in zip(together, counts.totals())]
+            print(f"{title:43} {summary(counts.totals())}", flush=True)
+    print(f"{'all modules together:':43} {summary(together)}")
+    return 0 if together[0] > 0 and together[1] == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
