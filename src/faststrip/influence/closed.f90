@@ -1,0 +1,248 @@
+!> The influence integral of a strip at its centre line, in closed form.
+!>
+!> A strip of half-length xd and half-width yd carries `p(x) = p0 sqrt(1 - (x/xd)^2)`; the
+!> displacement of the surface on the centre line of a strip n widths away is `H xd i_n(b) p0`,
+!> `b = yd/xd`, with (eq. (12) with its Jacobian, source and field exchanged)
+!>
+!>     i_n(b) = int_{-1}^{1} int_{(2n-1)b}^{(2n+1)b} sqrt(1 - u^2)/sqrt(u^2 + v^2) dv du
+!>            = G((2n+1)b) - G((2n-1)b),
+!>     G(c)   = int_{-1}^{1} sqrt(1 - u^2) asinh(c/|u|) du.
+!>
+!> G is one odd function of one variable: `c [A(c^2) - B(c^2) ln c]` for c <= 1 and
+!> `(pi/2)(ln 4c + 1/2) + R(1/c^2)/c^2` for c >= 0.7, with polynomials made by
+!> tools/influence_coefficients.py. Differences are formed from divided differences of the
+!> polynomials, so that no digit cancels for far or thin strips.
+!>
+!> Arguments that are not finite give a quiet NaN; nothing here raises a floating-point exception.
+module faststrip_influence_closed
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
+                                             ieee_positive_inf
+    use faststrip_kinds, only: wp, pi
+    use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre
+    use faststrip_numerics_elliptic, only: complete_elliptic_d
+    implicit none
+    private
+
+    public :: influence_primitive, influence_primitive_slope
+    public :: strip_influence, strip_influence_edges
+
+    ! The two forms of G overlap on [c_large, c_small].
+    real(wp), parameter :: c_small = 1.0_wp
+    real(wp), parameter :: c_large = 0.7_wp
+    real(wp), parameter :: c_middle = 0.84_wp
+    real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
+
+    integer :: k_
+    ! 2n atanh(1/(2n)) in powers of 1/(4n^2), |n| >= 2.
+    real(wp), parameter :: distance_series(0:13) = [(1.0_wp/(2*k_ + 1), k_=0, 13)]
+    real(wp), parameter :: log_3 = 1.098612288668109691395245236922525704647_wp
+
+contains
+
+    !> G(c), odd; relative error below 1e-15.
+    elemental real(wp) function influence_primitive(c) result(g)
+        real(wp), intent(in) :: c !! edge of the strip over its half-length, any size and sign
+
+        real(wp) :: size, w
+
+        size = abs(c)
+        if (.not. ieee_is_finite(c)) then
+            g = ieee_value(g, ieee_quiet_nan)
+            return
+        else if (size > c_small) then
+            w = (1.0_wp/size)**2
+            g = 0.5_wp*pi*(log(size) + (log_4 + 0.5_wp)) + w*polynomial(r_large, w - r_centre)
+        else if (size > 0.0_wp) then
+            w = size*size
+            g = size*(polynomial(a_small, w) - polynomial(b_small, w)*log(size))
+        else
+            g = 0.0_wp
+        end if
+        g = sign(g, c)
+    end function influence_primitive
+
+    !> G'(c) = 2 sqrt(1 + c^2) [K(m) - E(m)], m = 1/(1 + c^2), even; +Inf at c = 0.
+    elemental real(wp) function influence_primitive_slope(c) result(slope)
+        real(wp), intent(in) :: c !! edge of the strip over its half-length, any size and sign
+
+        real(wp), parameter :: tiny_c = 1.0e-9_wp
+        real(wp) :: size, root
+
+        if (.not. ieee_is_finite(c)) then
+            slope = ieee_value(slope, ieee_quiet_nan)
+            return
+        end if
+        size = abs(c)
+        if (size > tiny_c) then
+            root = hypot(1.0_wp, size)
+            slope = 2.0_wp*complete_elliptic_d((size/root)**2)/root
+        else if (size > 0.0_wp) then
+            slope = 2.0_wp*(log_4 - log(size) - 1.0_wp)
+        else
+            slope = ieee_value(slope, ieee_positive_inf)
+        end if
+    end function influence_primitive_slope
+
+    !> i_n(b) of eq. (12), equal strips; 0 for b <= 0. Relative error below 1e-15 for b in
+    !> [1e-8, 1e8] and n up to 1e4.
+    elemental real(wp) function strip_influence(n, b) result(value)
+        integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
+        real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
+
+        real(wp), parameter :: b_huge = 1.0e150_wp
+        real(wp) :: distance, cl, cr, t, wl, wr, xl, xr, p, q(2), r(2)
+
+        if (.not. ieee_is_finite(b)) then
+            value = ieee_value(value, ieee_quiet_nan)
+            return
+        else if (b <= 0.0_wp) then
+            value = 0.0_wp
+            return
+        else if (n == 0) then
+            value = 2.0_wp*influence_primitive(b)
+            return
+        end if
+        distance = 2.0_wp*abs(real(n, wp))
+        if (distance < 3.0_wp) then
+            t = log_3
+        else
+            t = polynomial(distance_series, 1.0_wp/distance**2)
+        end if
+        if (b > b_huge) then
+            value = pi*t/distance
+            return
+        end if
+        cl = (distance - 1.0_wp)*b
+        cr = (distance + 1.0_wp)*b
+        if (cl >= c_large) then
+            wl = 1.0_wp/cl
+            wr = 1.0_wp/cr
+            p = 4.0_wp*distance/((distance - 1.0_wp)*(distance + 1.0_wp))*wl*wr
+            wl = wl*wl
+            wr = wr*wr
+            q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+            value = pi*t/distance - p*(q(1) + wr*q(2))
+        else if (cr <= c_small) then
+            xl = cl*cl
+            xr = cr*cr
+            p = 2.0_wp*distance*(distance + 1.0_wp)*b*b
+            q = divided_difference(a_small, xr, xl)
+            r = divided_difference(b_small, xr, xl)
+            value = 2.0_wp*b*(q(1) + p*q(2) - log(cr)*(r(1) + p*r(2)) &
+                              - (1.0_wp - 1.0_wp/distance)*t*r(1))
+        else
+            value = influence_primitive(cr) - influence_primitive(cl)
+        end if
+    end function strip_influence
+
+    !> G(c_right) - G(c_left): influence of a strip of any width at any point of its centre line,
+    !> inside it or outside; without cancellation, antisymmetric in its arguments.
+    elemental real(wp) function strip_influence_edges(c_left, c_right) result(value)
+        real(wp), intent(in) :: c_left  !! left edge less the field point's y over the half-length
+        real(wp), intent(in) :: c_right !! right edge less the field point's y over the half-length
+
+        real(wp) :: near, far
+
+        if (.not. (ieee_is_finite(c_left) .and. ieee_is_finite(c_right))) then
+            value = ieee_value(value, ieee_quiet_nan)
+            return
+        end if
+        near = min(abs(c_left), abs(c_right))
+        far = max(abs(c_left), abs(c_right))
+        if ((c_left < 0.0_wp .and. c_right > 0.0_wp) &
+            .or. (c_left > 0.0_wp .and. c_right < 0.0_wp)) then
+            value = influence_primitive(far) + influence_primitive(near)
+        else if (near >= c_large) then
+            value = far_difference(near, far)
+        else if (far <= c_small) then
+            value = near_difference(near, far)
+        else
+            value = near_difference(near, c_middle) + far_difference(c_middle, far)
+        end if
+        if (c_left > c_right) value = -value
+    end function strip_influence_edges
+
+    !> G(cr) - G(cl) for c_large <= cl <= cr.
+    elemental real(wp) function far_difference(cl, cr) result(value)
+        real(wp), intent(in) :: cl, cr
+
+        real(wp), parameter :: c_huge = 1.0e300_wp
+        real(wp) :: wl, wr, p, q(2)
+
+        if (cr > c_huge) then
+            value = 0.5_wp*pi*(log(cr) - log(cl))
+            return
+        end if
+        wl = 1.0_wp/cl
+        wr = 1.0_wp/cr
+        p = (cr - cl)*wl*(1.0_wp + cl*wr)*wl*wr
+        wl = wl*wl
+        wr = wr*wr
+        q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+        value = 0.5_wp*pi*log_ratio(cl, cr) - p*(q(1) + wr*q(2))
+    end function far_difference
+
+    !> G(cr) - G(cl) for 0 <= cl <= cr <= c_small.
+    elemental real(wp) function near_difference(cl, cr) result(value)
+        real(wp), intent(in) :: cl, cr
+
+        real(wp) :: width, xl, xr, p, q(2), r(2)
+
+        width = cr - cl
+        value = 0.0_wp
+        if (.not. width > 0.0_wp) return
+        xl = cl*cl
+        xr = cr*cr
+        p = cr*(cr + cl)
+        q = divided_difference(a_small, xr, xl)
+        r = divided_difference(b_small, xr, xl)
+        value = width*(q(1) + p*q(2) - log(cr)*(r(1) + p*r(2)))
+        if (cl > 0.0_wp) value = value - cl*log_ratio(cl, cr)*r(1)
+    end function near_difference
+
+    !> ln(cr/cl) for 0 < cl <= cr, accurate when they are close and when they are far apart.
+    elemental real(wp) function log_ratio(cl, cr) result(value)
+        real(wp), intent(in) :: cl, cr
+
+        real(wp) :: d, one_d
+
+        if (cr - cl < cl) then
+            d = (cr - cl)/cl
+            one_d = 1.0_wp + d
+            value = log(one_d) + (d - (one_d - 1.0_wp))/one_d
+        else if (cl >= c_large) then
+            value = log(cr/cl)
+        else
+            value = log(cr) - log(cl)
+        end if
+    end function log_ratio
+
+    !> p(x) by Horner's rule.
+    pure real(wp) function polynomial(a, x) result(p)
+        real(wp), intent(in) :: a(0:)
+        real(wp), intent(in) :: x
+
+        integer :: k
+
+        p = a(ubound(a, 1))
+        do k = ubound(a, 1) - 1, 0, -1
+            p = p*x + a(k)
+        end do
+    end function polynomial
+
+    !> p(y) and the divided difference p[x,y] = (p(x) - p(y))/(x - y), together by Horner's rule.
+    pure function divided_difference(a, x, y) result(q)
+        real(wp), intent(in) :: a(0:)
+        real(wp), intent(in) :: x, y
+        real(wp) :: q(2)
+
+        integer :: k
+
+        q(1) = a(ubound(a, 1))
+        q(2) = 0.0_wp
+        do k = ubound(a, 1) - 1, 0, -1
+            q(2) = q(2)*x + q(1)
+            q(1) = q(1)*y + a(k)
+        end do
+    end function divided_difference
+end module faststrip_influence_closed
