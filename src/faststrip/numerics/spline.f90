@@ -1,0 +1,271 @@
+!> Cubic interpolation through points with increasing abscissae.
+!>
+!> Both kinds are kept the same way, as a slope at every knot, so that one evaluation serves
+!> both: between two knots the curve is the cubic with the two values and the two slopes.
+module faststrip_numerics_spline
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+    use faststrip_kinds, only: wp
+    use faststrip_numerics_lapack, only: dgtsv
+    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
+                                st_bad_argument, st_linear_algebra, st_not_finite, &
+                                st_not_increasing, st_too_few_points, st_workspace_too_small
+    implicit none
+    private
+
+    public :: spline_setup, spline_value, spline_work_size
+    public :: spline_not_a_knot, spline_monotone
+
+    !> Twice continuously differentiable; the third derivative does not jump at the second and
+    !> the last but one knot (not-a-knot).
+    integer, parameter :: spline_not_a_knot = 1
+
+    !> Once continuously differentiable, without overshoot: monotone between two points, extrema
+    !> only at points (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980); slopes by the weighted
+    !> harmonic mean of Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984)).
+    integer, parameter :: spline_monotone = 2
+
+    ! Numbers beyond this, and knots nearer to each other than its inverse, are refused: with
+    ! them no intermediate result can overflow.
+    real(wp), parameter :: largest = 1.0e30_wp
+
+contains
+
+    !> Length of the workspace `spline_setup` needs for n points.
+    pure integer function spline_work_size(n)
+        integer, intent(in) :: n !! number of points
+
+        spline_work_size = 3*max(n, 1)
+    end function spline_work_size
+
+    !> Slopes at the knots of the interpolating curve.
+    !>
+    !> Two points give a straight line, three a parabola (not-a-knot). On an error the slopes are
+    !> zero.
+    pure subroutine spline_setup(x, y, kind, slopes, work, status)
+        real(wp), intent(in) :: x(:)          !! knots, strictly increasing, at least 2
+        real(wp), intent(in) :: y(:)          !! values at the knots, as many
+        integer, intent(in) :: kind           !! `spline_not_a_knot` or `spline_monotone`
+        real(wp), intent(out) :: slopes(:)    !! dy/dx at the knots, as many
+        real(wp), intent(inout) :: work(:)    !! at least `spline_work_size(size(x))` long
+        type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
+                                              !! `st_not_finite`, `st_not_increasing`,
+                                              !! `st_workspace_too_small`, `st_linear_algebra`
+        integer :: n
+
+        slopes = 0.0_wp
+        n = size(x)
+        call check_points(x, y, status)
+        if (status%code /= 0) return
+        if (size(slopes) /= n) then
+            call set_status(status, st_bad_argument, 'spline: as many slopes as knots needed')
+            return
+        end if
+        if (size(work) < spline_work_size(n)) then
+            call set_status(status, st_workspace_too_small, 'spline: the workspace is too small')
+            return
+        end if
+        if (n == 2) then
+            slopes = (y(2) - y(1))/(x(2) - x(1))
+            return
+        end if
+        select case (kind)
+        case (spline_not_a_knot)
+            call not_a_knot_slopes(n, x, y, slopes, work(1:n), work(n + 1:2*n), &
+                                   work(2*n + 1:3*n), status)
+        case (spline_monotone)
+            call monotone_slopes(n, x, y, slopes)
+        case default
+            call set_status(status, st_bad_argument, 'spline: unknown kind')
+        end select
+    end subroutine spline_setup
+
+    pure subroutine check_points(x, y, status)
+        real(wp), intent(in) :: x(:), y(:)
+        type(status_t), intent(out) :: status
+        integer :: i
+
+        call clear_status(status)
+        if (size(y) /= size(x)) then
+            call set_status(status, st_bad_argument, 'spline: as many values as knots needed')
+            return
+        end if
+        if (size(x) < 2) then
+            call set_status(status, st_too_few_points, 'spline: fewer than 2 points')
+            return
+        end if
+        do i = 1, size(x)
+            if (.not. (ieee_is_finite(x(i)) .and. ieee_is_finite(y(i)))) then
+                call set_status(status, st_not_finite, 'spline: a point is not finite: (' // &
+                                trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
+                return
+            end if
+            if (max(abs(x(i)), abs(y(i))) > largest) then
+                call set_status(status, st_bad_argument, 'spline: a point is beyond 1e30: (' // &
+                                trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
+                return
+            end if
+        end do
+        do i = 2, size(x)
+            if (x(i) - x(i - 1) < 1.0_wp/largest) then
+                call set_status(status, st_not_increasing, &
+                                'spline: a knot is not above the one before: ' // &
+                                trim(number_text(x(i))))
+                return
+            end if
+        end do
+    end subroutine check_points
+
+    ! The slopes that make the second derivative continuous (de Boor, A Practical Guide to
+    ! Splines, ch. IV): a tridiagonal system, its first and last row from not-a-knot. Rows are
+    ! scaled by the sum of the two intervals, so that the diagonal is of order one.
+    pure subroutine not_a_knot_slopes(n, x, y, slopes, lower, diagonal, upper, status)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: x(n), y(n)
+        real(wp), intent(out) :: slopes(n)
+        real(wp), intent(inout) :: lower(n), diagonal(n), upper(n)
+        type(status_t), intent(inout) :: status
+        real(wp) :: a, b, left, right
+        integer :: i, info
+
+        if (n == 3) then
+            left = (y(2) - y(1))/(x(2) - x(1))
+            right = (y(3) - y(2))/(x(3) - x(2))
+            a = (x(2) - x(1))/(x(3) - x(1))
+            slopes(2) = (1.0_wp - a)*left + a*right
+            slopes(1) = 2.0_wp*left - slopes(2)
+            slopes(3) = 2.0_wp*right - slopes(2)
+            return
+        end if
+        do i = 2, n - 1
+            left = (y(i) - y(i - 1))/(x(i) - x(i - 1))
+            right = (y(i + 1) - y(i))/(x(i + 1) - x(i))
+            a = (x(i) - x(i - 1))/(x(i + 1) - x(i - 1))
+            b = 1.0_wp - a
+            lower(i - 1) = b
+            diagonal(i) = 2.0_wp
+            upper(i) = a
+            slopes(i) = 3.0_wp*(b*left + a*right)
+            if (i == 2) then
+                diagonal(1) = b
+                upper(1) = 1.0_wp
+                slopes(1) = (2.0_wp + a)*b*left + a**2*right
+            end if
+            if (i == n - 1) then
+                lower(n - 1) = 1.0_wp
+                diagonal(n) = a
+                slopes(n) = (2.0_wp + b)*a*right + b**2*left
+            end if
+        end do
+        call dgtsv(n, 1, lower, diagonal, upper, slopes, n, info)
+        if (info /= 0) then
+            slopes = 0.0_wp
+            call set_status(status, st_linear_algebra, 'spline: the system is singular')
+        end if
+    end subroutine not_a_knot_slopes
+
+    pure subroutine monotone_slopes(n, x, y, slopes)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: x(n), y(n)
+        real(wp), intent(out) :: slopes(n)
+        real(wp) :: h_left, h_right, left, right
+        integer :: i
+
+        do i = 2, n - 1
+            h_left = x(i) - x(i - 1)
+            h_right = x(i + 1) - x(i)
+            left = (y(i) - y(i - 1))/h_left
+            right = (y(i + 1) - y(i))/h_right
+            if (sign(1.0_wp, left) /= sign(1.0_wp, right) &
+                .or. min(abs(left), abs(right)) <= 0.0_wp) then
+                slopes(i) = 0.0_wp
+            else if (abs(left) < abs(right)) then
+                ! (w1 + w2)/(w1/left + w2/right), written so that nothing small is inverted
+                slopes(i) = left*(3.0_wp*(h_left + h_right) &
+                                  /((h_left + 2.0_wp*h_right) &
+                                    + (2.0_wp*h_left + h_right)*(left/right)))
+            else
+                slopes(i) = right*(3.0_wp*(h_left + h_right) &
+                                   /((2.0_wp*h_left + h_right) &
+                                     + (h_left + 2.0_wp*h_right)*(right/left)))
+            end if
+            if (i == 2) slopes(1) = end_slope(h_left, h_right, left, right)
+            if (i == n - 1) slopes(n) = end_slope(h_right, h_left, right, left)
+        end do
+    end subroutine monotone_slopes
+
+    ! One-sided three-point slope, held to the sign and to three times the first secant.
+    pure real(wp) function end_slope(h_near, h_far, near, far) result(slope)
+        real(wp), intent(in) :: h_near, h_far, near, far
+
+        slope = near + h_near/(h_near + h_far)*(near - far)
+        if (sign(1.0_wp, slope) /= sign(1.0_wp, near)) then
+            slope = 0.0_wp
+        else if (sign(1.0_wp, near) /= sign(1.0_wp, far) .and. abs(slope) > 3.0_wp*abs(near)) then
+            slope = 3.0_wp*near
+        end if
+    end function end_slope
+
+    !> Value and first two derivatives of the curve at one place.
+    !>
+    !> Outside the knots the curve goes on as the straight line with the slope of the end knot
+    !> (second derivative zero): callers for whom that is no answer check the range. A place that
+    !> is not finite or beyond 1e30 gives NaN. At a knot the second derivative is that of the
+    !> interval to the right (of the last interval at the last knot).
+    pure subroutine spline_value(x, y, slopes, at, value, d1, d2)
+        real(wp), intent(in) :: x(:)      !! knots as given to `spline_setup`
+        real(wp), intent(in) :: y(:)      !! values at the knots
+        real(wp), intent(in) :: slopes(:) !! slopes at the knots from `spline_setup`
+        real(wp), intent(in) :: at        !! where
+        real(wp), intent(out) :: value    !! the curve there
+        real(wp), intent(out) :: d1       !! its first derivative
+        real(wp), intent(out) :: d2       !! its second derivative
+        real(wp) :: h, t, secant, c2, c3
+        integer :: i, n
+
+        n = size(x)
+        if (.not. ieee_is_finite(at)) then
+            value = ieee_value(value, ieee_quiet_nan)
+            d1 = value
+            d2 = value
+        else if (abs(at) > largest) then
+            value = ieee_value(value, ieee_quiet_nan)
+            d1 = value
+            d2 = value
+        else if (at < x(1)) then
+            value = y(1) + slopes(1)*(at - x(1))
+            d1 = slopes(1)
+            d2 = 0.0_wp
+        else if (at > x(n)) then
+            value = y(n) + slopes(n)*(at - x(n))
+            d1 = slopes(n)
+            d2 = 0.0_wp
+        else
+            i = interval_of(x, at)
+            h = x(i + 1) - x(i)
+            t = at - x(i)
+            secant = (y(i + 1) - y(i))/h
+            c2 = (3.0_wp*secant - 2.0_wp*slopes(i) - slopes(i + 1))/h
+            c3 = (slopes(i) + slopes(i + 1) - 2.0_wp*secant)/h**2
+            value = y(i) + t*(slopes(i) + t*(c2 + t*c3))
+            d1 = slopes(i) + t*(2.0_wp*c2 + 3.0_wp*t*c3)
+            d2 = 2.0_wp*c2 + 6.0_wp*t*c3
+        end if
+    end subroutine spline_value
+
+    ! The interval [x(i), x(i+1)) that holds a place between the first and the last knot.
+    pure integer function interval_of(x, at) result(i)
+        real(wp), intent(in) :: x(:), at
+        integer :: upper, middle
+
+        i = 1
+        upper = size(x)
+        do while (upper - i > 1)
+            middle = i + (upper - i)/2
+            if (at < x(middle)) then
+                upper = middle
+            else
+                i = middle
+            end if
+        end do
+    end function interval_of
+end module faststrip_numerics_spline

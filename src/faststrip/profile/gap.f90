@@ -1,0 +1,96 @@
+!> The undeformed gap of a contact: what the profiles hand to the normal solution.
+module faststrip_profile_gap
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
+                                st_bad_argument, st_not_finite, st_not_increasing, &
+                                st_too_few_points
+    implicit none
+    private
+
+    public :: gap_t, check_gap, min_gap_points
+
+    !> Fewest points that describe a gap.
+    integer, parameter :: min_gap_points = 5
+
+    !> Distance of wheel and rail along the common normal before any load,
+    !> `h(x, y) = h(y) + x**2 inv2r(y)`; y = 0 is the rigid contact point.
+    type :: gap_t
+        real(wp), allocatable :: y(:)     !! lateral coordinate, strictly increasing, mm
+        real(wp), allocatable :: h(:)     !! gap on the line x = 0, mm
+        real(wp), allocatable :: inv2r(:) !! 1/(2 R), R the local radius along x, 1/mm
+    end type gap_t
+
+contains
+
+    !> Refuse a gap no solver can work on: missing or unequal arrays, fewer than
+    !> `min_gap_points` points, numbers that are not finite, y that does not increase strictly,
+    !> a negative radius. The message names the index and the value. `h` may have any sign and
+    !> `inv2r` may be zero (a cylinder along x).
+    pure subroutine check_gap(gap, status)
+        type(gap_t), intent(in) :: gap        !! mm, mm, 1/mm
+        type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
+                                              !! `st_not_finite`, `st_not_increasing`
+        integer :: i, n
+
+        call clear_status(status)
+        if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
+            call set_status(status, st_bad_argument, 'the gap has no y, h or inv2r')
+            return
+        end if
+        n = size(gap%y)
+        if (size(gap%h) /= n .or. size(gap%inv2r) /= n) then
+            call set_status(status, st_bad_argument, &
+                            'y, h and inv2r of the gap differ in length: ' // count_text(n) // &
+                            ', ' // count_text(size(gap%h)) // ', ' // &
+                            count_text(size(gap%inv2r)))
+            return
+        end if
+        if (n < min_gap_points) then
+            call set_status(status, st_too_few_points, 'the gap has fewer than ' // &
+                            count_text(min_gap_points) // ' points: ' // count_text(n))
+            return
+        end if
+        do i = 1, n
+            call check_finite('y', i, gap%y(i), status)
+            if (status%code == 0) call check_finite('h', i, gap%h(i), status)
+            if (status%code == 0) call check_finite('inv2r', i, gap%inv2r(i), status)
+            if (status%code /= 0) return
+            if (i > 1) then
+                if (gap%y(i) <= gap%y(i - 1)) then
+                    call set_status(status, st_not_increasing, 'y(' // count_text(i) // &
+                                    ') of the gap is not above the one before: ' // &
+                                    trim(number_text(gap%y(i))))
+                    return
+                end if
+            end if
+            if (gap%inv2r(i) < 0.0_wp) then
+                call set_status(status, st_bad_argument, 'inv2r(' // count_text(i) // &
+                                ') of the gap is negative: ' // &
+                                trim(number_text(gap%inv2r(i))))
+                return
+            end if
+        end do
+    end subroutine check_gap
+
+    pure subroutine check_finite(name, i, value, status)
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: i
+        real(wp), intent(in) :: value
+        type(status_t), intent(inout) :: status
+
+        if (.not. ieee_is_finite(value)) then
+            call set_status(status, st_not_finite, name // '(' // count_text(i) // &
+                            ') of the gap is not a finite number: ' // trim(number_text(value)))
+        end if
+    end subroutine check_finite
+
+    pure function count_text(n) result(text)
+        integer, intent(in) :: n
+        character(len=:), allocatable :: text
+        character(len=11) :: buffer
+
+        write (buffer, '(i0)') n
+        text = trim(buffer)
+    end function count_text
+end module faststrip_profile_gap
