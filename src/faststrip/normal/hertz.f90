@@ -1,0 +1,214 @@
+!> Hertz's contact of two smooth bodies: an ellipse under a semi-ellipsoidal pressure.
+!>
+!> The gap is `z = A x^2 + B y^2`. An ellipse with semi-axes a (along x) and b (along y) under
+!> `p = pmax sqrt(1 - (x/a)^2 - (y/b)^2)` moves the surface by `D - A x^2 - B y^2` when
+!> (Johnson, Contact Mechanics, 1985, section 4.2; g = short over long axis, L = the long one,
+!> m = 1 - g^2, A_L the curvature along the long axis, A_S across it)
+!>
+!>     A_S/A_L = B(m)/(g^2 D(m)),  L^3 = (3/2) Q H D(m)/A_L,  penetration = (3/2) Q H K(m)/L,
+!>
+!> with the complete elliptic integrals K, `D = (K - E)/m` and `B = K - D`.
+module faststrip_normal_hertz
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
+                                st_bad_argument, st_bad_load, st_bad_material, &
+                                st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
+                                st_out_of_range, st_workspace_too_small
+    use faststrip_normal_strips, only: contact_strips_t
+    implicit none
+    private
+
+    public :: hertz_t, hertz_solve, hertz_strips
+
+    !> A Hertz contact.
+    type :: hertz_t
+        real(wp) :: a = 0.0_wp           !! semi-axis along the rolling direction x, mm
+        real(wp) :: b = 0.0_wp           !! semi-axis along y, mm
+        real(wp) :: penetration = 0.0_wp !! approach of the bodies, mm
+        real(wp) :: pmax = 0.0_wp        !! pressure in the middle, MPa
+        real(wp) :: area = 0.0_wp        !! pi a b, mm^2
+        real(wp) :: load = 0.0_wp        !! the load it carries, N
+    end type hertz_t
+
+    ! |ln(A/B)| beyond which nothing is promised: axes in a ratio of about 1e20.
+    real(wp), parameter :: largest_log_ratio = 90.0_wp
+    ! |ln| of the results (mm, MPa) beyond which they are refused, far from overflow.
+    real(wp), parameter :: largest_log_result = 200.0_wp
+
+contains
+
+    !> Ellipse, penetration and pressure of a Hertz contact, relative error below 1e-13 for any
+    !> ratio of the axes between 1e-4 and 1e4 (and still finite far beyond).
+    !>
+    !> Newton's method on `ln(a/b)` against `ln(B/A)`: the relation is smooth, its slope runs from
+    !> 3/2 (circle) to just above 2, so that it converges from anywhere in a few steps.
+    pure subroutine hertz_solve(compliance, inv2r_x, inv2r_y, load, hertz, status)
+        real(wp), intent(in) :: compliance   !! H of eq. (4), 1/MPa (1/E* = pi H)
+        real(wp), intent(in) :: inv2r_x      !! A, gap per x^2: half the curvature along x, 1/mm
+        real(wp), intent(in) :: inv2r_y      !! B, gap per y^2: half the curvature along y, 1/mm
+        real(wp), intent(in) :: load         !! Q, N
+        type(hertz_t), intent(out) :: hertz  !! the contact; zero when there is an error
+        type(status_t), intent(out) :: status
+            !! `st_not_finite`, `st_bad_material`, `st_bad_load`, `st_no_hertz_ellipse` (a relative
+            !! curvature that is not positive), `st_out_of_range` (axes beyond all proportion)
+
+        integer, parameter :: most_steps = 40
+        real(wp) :: target, axes, step, k, d, s, slope, log_long, long, short
+        integer :: i
+
+        call check_arguments(compliance, inv2r_x, inv2r_y, load, status)
+        if (status%code /= 0) return
+
+        ! The long axis lies along the smaller curvature; work with ratios above one.
+        target = abs(log(inv2r_y) - log(inv2r_x))
+        if (target > largest_log_ratio) then
+            call set_status(status, st_out_of_range, 'curvatures beyond all proportion: ' // &
+                            trim(number_text(inv2r_x)) // ' and ' // trim(number_text(inv2r_y)) &
+                            // ' 1/mm')
+            return
+        end if
+        axes = target/1.5_wp
+        do i = 1, most_steps
+            call ellipse_integrals(exp(-axes), k, d, s, slope)
+            ! ln(A_S/A_L) = ln(B/D) + 2 ln(L/S); B/D = (1/2 - s)/(1/2 + s).
+            step = (target - 2.0_wp*axes - log((0.5_wp - s)/(0.5_wp + s)))/slope
+            axes = max(axes + step, 0.0_wp)
+            if (abs(step) <= 4.0_wp*epsilon(1.0_wp)*(1.0_wp + axes)) exit
+        end do
+        if (i > most_steps) then
+            call set_status(status, st_no_convergence, 'axes of the Hertz ellipse not found')
+            return
+        end if
+        call ellipse_integrals(exp(-axes), k, d, s, slope)
+
+        log_long = (log(1.5_wp*d) + log(load) + log(compliance) &
+                    - log(min(inv2r_x, inv2r_y)))/3.0_wp
+        if (abs(log_long) + axes + abs(log(load)) > largest_log_result) then
+            call set_status(status, st_out_of_range, 'a Hertz contact beyond all proportion: ' // &
+                            'load ' // trim(number_text(load)) // ' N')
+            return
+        end if
+        long = exp(log_long)
+        short = exp(log_long - axes)
+        if (inv2r_x <= inv2r_y) then
+            hertz%a = long
+            hertz%b = short
+        else
+            hertz%a = short
+            hertz%b = long
+        end if
+        hertz%penetration = 1.5_wp*load*compliance*k/long
+        hertz%area = pi*hertz%a*hertz%b
+        hertz%pmax = 1.5_wp*load/hertz%area
+        hertz%load = load
+    end subroutine hertz_solve
+
+    pure subroutine check_arguments(compliance, inv2r_x, inv2r_y, load, status)
+        real(wp), intent(in) :: compliance, inv2r_x, inv2r_y, load
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (.not. (ieee_is_finite(compliance) .and. ieee_is_finite(inv2r_x) &
+                   .and. ieee_is_finite(inv2r_y) .and. ieee_is_finite(load))) then
+            call set_status(status, st_not_finite, 'a Hertz contact from numbers that are not ' // &
+                            'finite: H ' // trim(number_text(compliance)) // ' 1/MPa, A ' // &
+                            trim(number_text(inv2r_x)) // ' 1/mm, B ' // &
+                            trim(number_text(inv2r_y)) // ' 1/mm, load ' // &
+                            trim(number_text(load)) // ' N')
+        else if (compliance <= 0.0_wp) then
+            call set_status(status, st_bad_material, 'compliance is not positive: ' // &
+                            trim(number_text(compliance)) // ' 1/MPa')
+        else if (load <= 0.0_wp) then
+            call set_status(status, st_bad_load, 'load is not positive: ' // &
+                            trim(number_text(load)) // ' N')
+        else if (inv2r_x <= 0.0_wp) then
+            call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
+                            'curvature along x is not positive: ' // &
+                            trim(number_text(inv2r_x)) // ' 1/mm')
+        else if (inv2r_y <= 0.0_wp) then
+            call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
+                            'curvature along y is not positive: ' // &
+                            trim(number_text(inv2r_y)) // ' 1/mm')
+        end if
+    end subroutine check_arguments
+
+    !> Complete elliptic integrals of modulus m = 1 - g^2 by the arithmetic-geometric mean, without
+    !> the cancellation of K - E near the circle: `K - E = K sum 2^(n-1) c_n^2` with `c_0^2 = m`
+    !> and `c_(n+1) = c_n^2/(4 a_(n+1))`, so that `(K - E)/m = K (1/2 + s)`.
+    pure subroutine ellipse_integrals(g, k, d, s, slope)
+        real(wp), intent(in) :: g      !! short over long axis, in (0, 1]
+        real(wp), intent(out) :: k     !! K(m)
+        real(wp), intent(out) :: d     !! D(m) = (K - E)/m = K (1/2 + s)
+        real(wp), intent(out) :: s     !! (D - B)/(2K), in [0, 1/2)
+        real(wp), intent(out) :: slope !! d ln(A_S/A_L)/d ln(L/S)
+
+        real(wp) :: mean, geometric, c, c_squared, s_over_m, weight, next
+
+        ! c_1 = (1 - g)/2; everything is kept over m = (1 - g)(1 + g).
+        mean = 0.5_wp*(1.0_wp + g)
+        geometric = sqrt(g)
+        c = 0.5_wp*(1.0_wp - g)
+        s_over_m = 0.25_wp/(1.0_wp + g)**2
+        weight = s_over_m
+        do while (abs(mean - geometric) > 4.0_wp*epsilon(1.0_wp)*mean)
+            next = 0.5_wp*(mean + geometric)
+            ! 2 c_(n+1)^2/c_n^2 = 2 (c_n/(4 a_(n+1)))^2
+            c_squared = (c/(4.0_wp*next))**2
+            weight = 2.0_wp*weight*c_squared
+            s_over_m = s_over_m + weight
+            c = c*c/(4.0_wp*next)
+            geometric = sqrt(mean*geometric)
+            mean = next
+        end do
+        k = pi/(mean + geometric)
+        s = s_over_m*(1.0_wp - g)*(1.0_wp + g)
+        d = k*(0.5_wp + s)
+        ! From dK/dm = B/(2 g^2), dE/dm = -D/2: no difference of nearly equal numbers is left.
+        slope = 1.0_wp + 2.0_wp*s_over_m*(g*g/(0.5_wp - s) + 1.0_wp/(0.5_wp + s))
+    end subroutine ellipse_integrals
+
+    !> The Hertz ellipse cut into strips of equal width, with the load of each strip exact: half
+    !> length and pressure of a strip are `a q` and `pmax q`, `q^2` the mean of `1 - (y/b)^2`
+    !> over its width.
+    pure subroutine hertz_strips(hertz, n, strips, status)
+        type(hertz_t), intent(in) :: hertz              !! a solved contact
+        integer, intent(in) :: n                        !! number of strips, >= 1
+        type(contact_strips_t), intent(inout) :: strips !! with room for n, see `reserve_strips`
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument` (n < 1, no ellipse), `st_workspace_too_small`
+
+        real(wp) :: left, right, q
+        integer :: i
+
+        call clear_status(status)
+        if (n < 1) then
+            call set_status(status, st_bad_argument, 'fewer than one strip asked')
+            return
+        end if
+        if (.not. (hertz%a > 0.0_wp .and. hertz%b > 0.0_wp)) then
+            call set_status(status, st_bad_argument, 'no Hertz ellipse to cut into strips')
+            return
+        end if
+        if (.not. allocated(strips%p0)) then
+            call set_status(status, st_workspace_too_small, 'no room reserved for strips')
+            return
+        end if
+        if (size(strips%p0) < n) then
+            call set_status(status, st_workspace_too_small, 'too little room for the strips')
+            return
+        end if
+        do i = 1, n
+            left = real(2*(i - 1) - n, wp)/n
+            right = real(2*i - n, wp)/n
+            q = sqrt(1.0_wp - (left*left + left*right + right*right)/3.0_wp)
+            strips%y_left(i) = hertz%b*left
+            strips%y_right(i) = hertz%b*right
+            strips%half_length(i) = hertz%a*q
+            strips%p0(i) = hertz%pmax*q
+            strips%patch(i) = 1
+        end do
+        strips%n = n
+        strips%n_patches = 1
+    end subroutine hertz_strips
+end module faststrip_normal_hertz

@@ -1,0 +1,64 @@
+!> What every tangential method gives: forces, friction power, and on demand a field.
+module faststrip_tangential_types
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
+    implicit none
+    private
+
+    public :: tangential_result_t, tangential_field_t, reserve_field
+    public :: state_adhesion, state_slip
+
+    !> State of an element, the numbers CONTACT uses.
+    integer, parameter :: state_adhesion = 1
+    integer, parameter :: state_slip = 2
+
+    !> Sums over the contact; forces act on the rail.
+    type :: tangential_result_t
+        real(wp) :: fx = 0.0_wp !! longitudinal force, N
+        real(wp) :: fy = 0.0_wp !! lateral force, N
+        real(wp) :: mz = 0.0_wp !! moment about the reference point, int(x py - y px), N mm
+        real(wp) :: friction_power = 0.0_wp
+            !! heat over rolling speed, -int(p . s), s = slip over rolling speed, N; never negative
+        real(wp) :: stick_fraction = 0.0_wp !! share of the contact area in adhesion, 0 to 1
+    end type tangential_result_t
+
+    !> Tractions and slip element by element; the caller owns it and its size (`reserve_field`).
+    !> The first `n` entries count.
+    type :: tangential_field_t
+        integer :: n = 0                 !! number of elements
+        real(wp), allocatable :: x(:)    !! middle of the element, mm
+        real(wp), allocatable :: y(:)    !! middle of the element, mm
+        real(wp), allocatable :: area(:) !! area of the element, mm^2
+        real(wp), allocatable :: pn(:)   !! pressure, MPa
+        real(wp), allocatable :: px(:)   !! traction on the rail along x, MPa
+        real(wp), allocatable :: py(:)   !! traction on the rail along y, MPa
+        real(wp), allocatable :: sx(:)   !! slip (rail less wheel) over rolling speed along x, -
+        real(wp), allocatable :: sy(:)   !! slip (rail less wheel) over rolling speed along y, -
+        integer, allocatable :: state(:) !! `state_adhesion` or `state_slip`
+    end type tangential_field_t
+
+contains
+
+    !> Make room for a field; the only allocation, to be done before the first solution.
+    subroutine reserve_field(field, capacity, status)
+        type(tangential_field_t), intent(inout) :: field !! emptied and sized
+        integer, intent(in) :: capacity                  !! largest number of elements, >= 1
+        type(status_t), intent(out) :: status            !! `st_bad_argument`
+
+        call clear_status(status)
+        field%n = 0
+        if (capacity < 1) then
+            call set_status(status, st_bad_argument, 'room for fewer than one element asked')
+            return
+        end if
+        if (allocated(field%x)) then
+            if (size(field%x) == capacity) return
+            deallocate (field%x, field%y, field%area, field%pn, field%px, field%py, field%sx, &
+                        field%sy, field%state)
+        end if
+        allocate (field%x(capacity), field%y(capacity), field%area(capacity), &
+                  field%pn(capacity), field%px(capacity), field%py(capacity), &
+                  field%sx(capacity), field%sy(capacity), source=0.0_wp)
+        allocate (field%state(capacity), source=0)
+    end subroutine reserve_field
+end module faststrip_tangential_types
