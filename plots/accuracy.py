@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""Write the accuracy table: errors against full CONTACT and time per contact."""
+
+import os
+import sys
+
+import numpy as np
+
+from faststrip_plots import command
+from faststrip_plots.results import (
+    QUANTITIES,
+    compare,
+    percent_errors,
+    read_reference,
+    read_sweep,
+)
+from faststrip_plots.style import method_look
+from faststrip_plots.tables import InputError, read_table
+
+FAST_MODES = "reference/contact/s1002_uic60_fast_modes_B.csv"
+HEADER = (
+    "method", "results", "penetration %", "area %", "pmax %", "Fx % µN", "Fy % µN", "Mz % µNc",
+    "normal µs", "tangential µs",
+)
+# error columns of CONTACT's fast modes, in the order of QUANTITIES
+PEER_ERRORS = (
+    "err_pen_pct", "err_area_pct", "err_pmax_pct", "err_Fx_pct_of_muN", "err_Fy_pct_of_muN",
+    "err_Mz_Nmm",
+)
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
+                        help="what `faststrip sweep` wrote")
+    parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
+                        help="the same sweep by full CONTACT")
+    parser.add_argument("--fast-modes", default=FAST_MODES, metavar="CSV",
+                        help="the same sweep by CONTACT's fast modes")
+    parser.add_argument("--no-fast-modes", action="store_true", help="leave the second table out")
+    parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
+                        help="coefficient of friction")
+    parser.add_argument("-o", "--output", default="out/accuracy.md", metavar="MD",
+                        help="file to write; the same goes to stdout")
+    options = parser.parse_args(arguments)
+    sweep = read_sweep(options.sweep)
+    reference = read_reference(options.reference)
+    text = report(sweep, reference, options)
+    try:
+        os.makedirs(os.path.dirname(os.path.abspath(options.output)), exist_ok=True)
+        with open(options.output, "w", encoding="utf-8") as stream:
+            stream.write(text)
+    except OSError as error:
+        raise InputError(
+            f"cannot write: {options.output} ({os.strerror(error.errno)})"
+        ) from None
+    print(text, end="")
+
+
+def report(sweep, reference, options):
+    """The whole text."""
+    parts = [
+        "# Accuracy against full CONTACT",
+        f"{sweep.stamp or 'faststrip, revision not given'}; sweep {options.sweep},"
+        f" reference {options.reference}, µ = {options.mu:g}.",
+        "Each cell: mean / largest absolute error over the shifts with a result. Penetration, area"
+        " and pmax in percent of CONTACT's on its 0.1 mm grid; Fx and Fy in percent of µN, Mz in"
+        " percent of µNc with c = sqrt(area/π) of CONTACT's patch, against CONTACT's values"
+        " extrapolated in the grid size (columns `*_extrap`). Times: median microseconds per"
+        " contact.",
+        table(HEADER, [method_row(sweep, m, reference, options.mu) for m in sweep.methods]),
+    ]
+    failures = [
+        f"{method_look(*method.key).label}: {number} of {len(method.yw)} shifts without a result"
+        f" ({status})"
+        for method in sweep.methods
+        for status, number in method.failures.items()
+    ]
+    if failures:
+        parts.append("\n".join(f"- {line}" for line in failures))
+    if not options.no_fast_modes:
+        parts += [
+            "## CONTACT's own fast modes on the same gaps",
+            "Times: median microseconds of processor time of one evaluation with the penetration"
+            " given; KPEC and ANALYN need several to find the penetration of a load.",
+            table(HEADER, fast_mode_rows(options.fast_modes, reference, options.mu)),
+        ]
+    return "\n\n".join(parts) + "\n"
+
+
+def method_row(sweep, method, reference, mu):
+    """One line of the table for a combination of methods."""
+    pairs = compare(sweep, method, reference)
+    errors = [percent_errors(pairs, reference, name, mu) for name in QUANTITIES]
+    times = [method.values[name][method.ok] for name in ("normal_us", "tangential_us")]
+    return line(
+        method_look(*method.key).label, len(pairs.rows), len(method.yw), errors, times
+    )
+
+
+def fast_mode_rows(path, reference, mu):
+    """Lines of the table for CONTACT's fast modes; moments are made relative here."""
+    data = read_table(
+        path, ("method", "dx_mm", "yw_mm", "cpu_norm_s", "cpu_tang_s") + PEER_ERRORS
+    )
+    rows = reference.rows_for(data.numbers("yw_mm"))
+    columns = [data.numbers(name, missing=True) for name in PEER_ERRORS]
+    columns[-1] = 100.0 * columns[-1] / reference.base("Mz", mu)[rows]
+    ok = (rows >= 0) & ~np.isnan(columns).any(axis=0)
+    times = [data.numbers(name, missing=True) * 1e6 for name in ("cpu_norm_s", "cpu_tang_s")]
+    names = [
+        f"{method}, {step:g} mm" for method, step in zip(data.words("method"), data.numbers("dx_mm"))
+    ]
+    lines = []
+    for name in sorted(set(names)):
+        own = np.array([other == name for other in names])
+        lines.append(
+            line(name, (own & ok).sum(), own.sum(), [c[own & ok] for c in columns],
+                 [t[own & ok] for t in times])
+        )
+    return lines
+
+
+def line(name, results, of, errors, times):
+    """Cells of one line."""
+    cells = [name, f"{results} / {of}"]
+    for values in errors:
+        size = np.abs(values)
+        cells.append(f"{digits(size.mean())} / {digits(size.max())}" if size.size else "–")
+    for values in times:
+        known = values[~np.isnan(values)]
+        cells.append(digits(np.median(known)) if known.size else "–")
+    return cells
+
+
+def digits(value):
+    """Two decimals below ten, one below a hundred, none above."""
+    return f"{value:.2f}" if value < 9.995 else f"{value:.1f}" if value < 99.95 else f"{value:.0f}"
+
+
+def table(header, rows):
+    """A Markdown table whose columns line up as plain text too."""
+    widths = [max(len(row[k]) for row in [header, *rows]) for k in range(len(header))]
+    form = lambda cells: "| " + " | ".join(
+        cell.ljust(width) if k == 0 else cell.rjust(width)
+        for k, (cell, width) in enumerate(zip(cells, widths))
+    ) + " |"
+    rule = "|" + "|".join(
+        "-" * (width + 2) if k == 0 else "-" * (width + 1) + ":" for k, width in enumerate(widths)
+    ) + "|"
+    return "\n".join([form(header), rule] + [form(row) for row in rows])
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))

@@ -1,0 +1,329 @@
+"""The panels the figures are made of; each draws on axes given to it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+
+from . import style
+from .results import (
+    NORMAL_QUANTITIES,
+    QUANTITIES,
+    compare,
+    grid_step,
+    percent_errors,
+)
+
+SHIFT_LABEL = "lateral shift of the wheel, mm"
+NEAR_ZERO = 0.05  # of mu N (or mu N c): below it a ratio to the reference says nothing
+RATIO_RANGE = (0.0, 2.0)
+
+
+# ---------------------------------------------------------------- sweep over lateral shifts
+
+
+def sweep_lines(sweep, name):
+    """Pairs of results and look to draw for a quantity: per normal method or per combination."""
+    if name in NORMAL_QUANTITIES:
+        return [(method, style.normal_look(method.normal)) for method in sweep.normals()]
+    return [(method, style.method_look(*method.key)) for method in sweep.methods]
+
+
+def draw_value(axes, sweep, reference, name):
+    """A quantity against the shift: methods as lines, CONTACT as symbols."""
+    quantity = QUANTITIES[name]
+    for method, look in sweep_lines(sweep, name):
+        _line(axes, method.yw, method.values[quantity.column] * quantity.scale, look)
+    if reference is not None:
+        axes.plot(reference.yw, reference.values[name] * quantity.scale, zorder=4, **style.CONTACT)
+    if name in NORMAL_QUANTITIES:
+        axes.set_ylim(bottom=0.0)
+    else:
+        axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
+    axes.set_ylabel(f"{quantity.symbol}, {quantity.unit}")
+    style.title(axes, quantity.name.capitalize())
+
+
+def draw_ratio(axes, sweep, reference, name, mu):
+    """A quantity over CONTACT's; forces and moments only where the reference is not near zero.
+
+    Returns whether some ratio lies beyond the axis, where a triangle stands for it.
+    """
+    quantity = QUANTITIES[name]
+    base = reference.base(name, mu)
+    low, high = RATIO_RANGE
+    outside = False
+    for method, look in sweep_lines(sweep, name):
+        pairs = compare(sweep, method, reference)
+        expected = reference.values[name][pairs.reference_rows]
+        ratio = np.full(len(method.yw), np.nan)
+        enough = np.abs(expected) >= NEAR_ZERO * base[pairs.reference_rows]
+        rows = pairs.rows[enough]
+        ratio[rows] = method.values[quantity.column][rows] / expected[enough]
+        _line(axes, method.yw, ratio, look)
+        for limit, marker, beyond in ((high, "^", ratio > high), (low, "v", ratio < low)):
+            if beyond.any():
+                axes.plot(
+                    method.yw[beyond], np.full(beyond.sum(), limit), linestyle="none",
+                    marker=marker, markersize=7, color=look.colour, clip_on=False, zorder=5,
+                )
+                outside = True
+    axes.axhline(1.0, color="#444444", linewidth=0.8, zorder=1)
+    axes.set_ylim(low, high)
+    axes.set_ylabel(f"{quantity.symbol} over CONTACT's {quantity.symbol}")
+    style.title(axes, quantity.name.capitalize() + ": ratio")
+    return outside
+
+
+def draw_difference(axes, sweep, reference, name, mu):
+    """A quantity less CONTACT's, in percent of mu N or mu N c."""
+    for method, look in sweep_lines(sweep, name):
+        pairs = compare(sweep, method, reference)
+        error = np.full(len(method.yw), np.nan)
+        error[pairs.rows] = percent_errors(pairs, reference, name, mu)
+        _line(axes, method.yw, error, look)
+    axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
+    unit = {"value": "%", "mu N": "% of µN", "mu N c": "% of µNc"}[QUANTITIES[name].base]
+    axes.set_ylabel(f"{QUANTITIES[name].symbol} less CONTACT's, {unit}")
+    style.title(axes, QUANTITIES[name].name.capitalize() + ": difference")
+
+
+def _line(axes, x, y, look):
+    axes.plot(
+        x, y, color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label,
+        marker="o", markersize=2.6, zorder=3,
+    )
+
+
+# ------------------------------------------------------------------------ patch and pressure
+
+
+def draw_outlines(axes, strips=None, ellipse=None, contact=None):
+    """Outlines of the contact: strips as bars and curve, Hertz ellipse, CONTACT's border."""
+    if strips is not None:
+        look = style.normal_look("strip")
+        for k, patch in enumerate(strips.patches):
+            bars = [
+                ((left, -half), (right, -half), (right, half), (left, half))
+                for left, right, half in zip(patch.y_left, patch.y_right, patch.half_length)
+            ]
+            axes.add_collection(
+                PolyCollection(bars, facecolor="#dfe8f3", edgecolor="white", linewidth=1.0, zorder=1)
+            )
+            y, half = patch.smooth(patch.half_length)
+            axes.plot(
+                np.concatenate([y, y[::-1]]), np.concatenate([half, -half[::-1]]),
+                color=look.colour, linestyle=look.line, linewidth=look.width,
+                label=look.label if k == 0 else None, zorder=3,
+            )
+    if ellipse is not None:
+        look = style.normal_look("hertz")
+        angle = np.linspace(0.0, 2.0 * math.pi, 241)
+        axes.plot(
+            ellipse.middle + ellipse.b * np.cos(angle), ellipse.a * np.sin(angle),
+            color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label, zorder=2,
+        )
+    if contact is not None:
+        y, x = border(contact)
+        axes.plot(y, x, zorder=4, **style.CONTACT)
+    axes.set_aspect("equal")
+    axes.margins(0.04)
+    axes.autoscale_view()
+    patch_axes(axes)
+
+
+def patch_axes(axes):
+    """Labels of a plane of contact: y to the right, x (rolling) up."""
+    axes.set_xlabel("lateral $y$, mm")
+    axes.set_ylabel("rolling direction $x$, mm")
+
+
+def share_limits(*several):
+    """Give several planes of contact the same window."""
+    x = [end for axes in several for end in axes.get_xlim()]
+    y = [end for axes in several for end in axes.get_ylim()]
+    for axes in several:
+        axes.set_xlim(min(x), max(x))
+        axes.set_ylim(min(y), max(y))
+
+
+def border(field, spacing=4.0):
+    """Points on the border of a regular grid's elements in contact, `spacing` elements apart."""
+    step = grid_step(field)
+    runs = [
+        (y, x[0] - 0.5 * step, x[-1] + 0.5 * step)
+        for y, row in zip(field.y, field.x)
+        for x in np.split(row, np.flatnonzero(np.diff(row) > 1.5 * step) + 1)
+    ]
+    points = [(y, end) for y, low, high in runs for end in (low, high)]
+    for x in np.unique(np.concatenate(field.x)):
+        column = np.array([y for y, low, high in runs if low < x < high])
+        for part in np.split(column, np.flatnonzero(np.diff(column) > 1.5 * step) + 1):
+            points += [(part[0] - 0.5 * step, x), (part[-1] + 0.5 * step, x)]
+    kept = []
+    for point in points:
+        if all(math.hypot(point[0] - p[0], point[1] - p[1]) >= spacing * step for p in kept):
+            kept.append(point)
+    return np.array([p[0] for p in kept]), np.array([p[1] for p in kept])
+
+
+def draw_strip_pressure(axes, strips, field, top):
+    """Pressure of the strips' elements, each a tile; returns the mappable."""
+    tiles, values = [], []
+    for patch in strips.patches:
+        for left, right, y, half in zip(patch.y_left, patch.y_right, patch.y, patch.half_length):
+            row = field.nearest_row(y)
+            if not left < field.y[row] < right:
+                continue
+            x = field.x[row]
+            edges = np.concatenate([[-half], 0.5 * (x[1:] + x[:-1]), [half]])
+            for low, high, p in zip(edges, edges[1:], field.pressure[row]):
+                tiles.append(((left, low), (right, low), (right, high), (left, high)))
+                values.append(p)
+    return _tiles(axes, tiles, values, top)
+
+
+def draw_grid_pressure(axes, field, top):
+    """Pressure on a regular grid, each element a tile; returns the mappable."""
+    half = 0.5 * grid_step(field)
+    tiles, values = [], []
+    for y, row, pressures in zip(field.y, field.x, field.pressure):
+        for x, p in zip(row, pressures):
+            low, high, left, right = x - half, x + half, y - half, y + half
+            tiles.append(((left, low), (right, low), (right, high), (left, high)))
+            values.append(p)
+    return _tiles(axes, tiles, values, top)
+
+
+def _tiles(axes, tiles, values, top):
+    collection = PolyCollection(
+        tiles, array=np.array(values), cmap=style.MAP, norm=Normalize(0.0, top),
+        edgecolor="face", linewidth=0.2,
+    )
+    axes.add_collection(collection)
+    axes.set_aspect("equal")
+    axes.margins(0.04)
+    axes.autoscale_view()
+    axes.grid(False)
+    patch_axes(axes)
+    return collection
+
+
+def draw_cut_along_y(axes, strips, ellipse=None, contact=None):
+    """Pressure on the centre line x = 0."""
+    look = style.normal_look("strip")
+    for k, patch in enumerate(strips.patches):
+        y, p = patch.smooth(patch.p0)
+        axes.plot(y, p, color=look.colour, linestyle=look.line, linewidth=look.width,
+                  label=look.label if k == 0 else None, zorder=3)
+        axes.plot(patch.y, patch.p0, color=look.colour, linestyle="none", marker="o",
+                  markersize=3.2, zorder=3)
+    if ellipse is not None:
+        _half_ellipse(axes, ellipse.middle, ellipse.b, ellipse.pmax)
+    if contact is not None:
+        # the elements beside the centre line, one or two a row
+        x = [float(np.abs(row).min()) for row in contact.x]
+        p = [float(p[np.argmin(np.abs(row))]) for row, p in zip(contact.x, contact.pressure)]
+        keep = np.array(x) < grid_step(contact)
+        _symbols(axes, contact.y[keep], np.array(p)[keep], 34)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("lateral $y$, mm")
+    axes.set_ylabel("pressure, MPa")
+
+
+def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None):
+    """Pressure along the strip with the largest pressure."""
+    patch, k = strips.strongest()
+    y = patch.y[k]
+    look = style.normal_look("strip")
+    row = field.nearest_row(y)
+    half = patch.half_length[k]
+    axes.plot(
+        np.concatenate([[-half], field.x[row], [half]]),
+        np.concatenate([[0.0], field.pressure[row], [0.0]]),
+        color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label, marker="o",
+        markersize=3.2, zorder=3,
+    )
+    if ellipse is not None:
+        rest = 1.0 - ((y - ellipse.middle) / ellipse.b) ** 2
+        if rest > 0.0:
+            _half_ellipse(axes, 0.0, ellipse.a * math.sqrt(rest), ellipse.pmax * math.sqrt(rest))
+    if contact is not None:
+        row = contact.nearest_row(y)
+        _symbols(axes, contact.x[row], contact.pressure[row], 24)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("rolling direction $x$, mm")
+    axes.set_ylabel("pressure, MPa")
+    return y
+
+
+def _symbols(axes, x, y, number):
+    """About `number` of CONTACT's points, the highest among them."""
+    if len(x):
+        every = max(1, round(len(x) / number))
+        first = int(np.argmax(y)) % every
+        axes.plot(x[first::every], y[first::every], zorder=4, **style.CONTACT)
+
+
+def _half_ellipse(axes, middle, half, top):
+    look = style.normal_look("hertz")
+    angle = np.linspace(0.0, math.pi, 181)
+    axes.plot(middle + half * np.cos(angle), top * np.sin(angle), color=look.colour,
+              linestyle=look.line, linewidth=look.width, label=look.label, zorder=2)
+
+
+class Ellipse:
+    """The Hertz ellipse of a row of the sweep: middle in y, half-axes a along x and b along y."""
+
+    def __init__(self, method, row):
+        low, high = method.values["ymin_mm"][row], method.values["ymax_mm"][row]
+        self.middle = 0.5 * (low + high)
+        self.b = 0.5 * (high - low)
+        self.a = method.values["xmax_mm"][row]
+        self.pmax = method.values["pmax_MPa"][row]
+
+
+def hertz_ellipse(sweep, shift):
+    """The Hertz ellipse of a shift, none where there is no Hertz result."""
+    found = sweep.find("hertz", shift)
+    return None if found is None else Ellipse(*found)
+
+
+# --------------------------------------------------------------------------------- profiles
+
+
+def distance(profiles):
+    """Lateral y and the distance rail less wheel along z where both are, mm."""
+    wheel, rail = _ascending(profiles.wheel), _ascending(profiles.rail)
+    low, high = max(wheel[0, 0], rail[0, 0]), min(wheel[-1, 0], rail[-1, 0])
+    y = np.linspace(low, high, 4001)
+    return y, np.interp(y, rail[:, 0], rail[:, 1]) - np.interp(y, wheel[:, 0], wheel[:, 1])
+
+
+def _ascending(points):
+    return points[np.argsort(points[:, 0], kind="stable")]
+
+
+def draw_profiles(axes, profiles):
+    """Wheel above rail, z down, equal scales."""
+    wheel, rail = profiles.wheel, profiles.rail
+    axes.fill_between(rail[:, 0], rail[:, 1], rail[:, 1].max(), color="#dcdcdc", linewidth=0,
+                      zorder=1)
+    axes.fill_between(wheel[:, 0], wheel[:, 1], wheel[:, 1].min(), color="#dfe8f3", linewidth=0,
+                      zorder=1)
+    axes.plot(wheel[:, 0], wheel[:, 1], color="#0b3c78", linewidth=2.0, zorder=3)
+    axes.plot(rail[:, 0], rail[:, 1], color="#444444", linewidth=2.0, zorder=3)
+    axes.set_aspect("equal")
+    axes.invert_yaxis()
+    axes.set_xlabel("lateral $y$ in the track frame, mm")
+    axes.set_ylabel("$z$ (down), mm")
+    for name, points, side in (("wheel", wheel, np.min), ("rail", rail, np.max)):
+        # the word stands halfway between the surface and the flat end of the body drawn
+        middle = 0.5 * (points[:, 0].min() + points[:, 0].max()) if name == "rail" else points[
+            np.argmax(points[:, 1]), 0]
+        surface = points[np.argmin(np.abs(points[:, 0] - middle)), 1]
+        axes.text(middle, 0.5 * (surface + side(points[:, 1])), name, ha="center", va="center",
+                  fontsize=style.FONT + 1)

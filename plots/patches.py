@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Draw one contact: outlines by strips, Hertz and CONTACT; pressure map and its cuts."""
+
+import sys
+
+from faststrip_plots import command, panels, style
+from faststrip_plots.results import read_field, read_strips, read_sweep
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--shift", type=float, default=0.0, metavar="MM",
+                        help="lateral shift of the wheel, for titles, row of the sweep and files")
+    parser.add_argument("--strips", metavar="CSV",
+                        help="strips of the contact (default: out/strips_shift_MM.csv)")
+    parser.add_argument("--fields", metavar="CSV",
+                        help="fields of the contact (default: out/fields_shift_MM.csv)")
+    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
+                        help="sweep with the Hertz result of the shift")
+    parser.add_argument("--contact", metavar="CSV",
+                        help="CONTACT's field of the same contact; without it none is drawn")
+    parser.add_argument("--outlines", metavar="PNG",
+                        help="picture of the outlines (default: out/patch_shift_MM.png)")
+    parser.add_argument("--pressure", metavar="PNG",
+                        help="picture of the pressures (default: out/pressure_shift_MM.png)")
+    options = parser.parse_args(arguments)
+    strips = read_strips(options.strips or command.shift_file("strips", options.shift))
+    field = read_field(options.fields or command.shift_file("fields", options.shift))
+    sweep = read_sweep(options.sweep)
+    contact = read_field(options.contact) if options.contact else None
+    ellipse = panels.hertz_ellipse(sweep, options.shift)
+    if ellipse is None:
+        print(f"no Hertz result at shift {options.shift:g}: drawn without ({options.sweep})")
+    stamps = [strips.stamp, field.stamp, sweep.stamp]
+
+    outlines = options.outlines or command.shift_file("patch", options.shift)[:-3] + "png"
+    figure = style.new_figure(8.0, 5.4)
+    axes = figure.subplots()
+    panels.draw_outlines(axes, strips, ellipse, contact)
+    style.title(axes, f"Contact patch, lateral shift {style.number(options.shift)} mm")
+    style.fit_height(figure, axes, 1.5)
+    style.legend_above(figure, axes)
+    style.save(figure, outlines, stamps)
+    print(outlines)
+
+    pressure = options.pressure or command.shift_file("pressure", options.shift)[:-3] + "png"
+    draw_pressure(pressure, options.shift, strips, field, ellipse, contact, stamps)
+    print(pressure)
+
+
+def draw_pressure(path, shift, strips, field, ellipse, contact, stamps):
+    """Maps above, cuts below."""
+    top = max(p.max() for source in (field, contact) if source for p in source.pressure)
+    figure = style.new_figure(11.0, 7.4)
+    (left, right), (along_y, along_x) = figure.subplots(2, 2)
+    mappable = panels.draw_strip_pressure(left, strips, field, top)
+    style.title(left, f"Strips, lateral shift {style.number(shift)} mm")
+    if contact is None:
+        panels.draw_outlines(right, strips, ellipse)
+        style.title(right, "Outlines")
+    else:
+        panels.draw_grid_pressure(right, contact, top)
+        style.title(right, "CONTACT")
+    panels.share_limits(left, right)
+    figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015)
+    panels.draw_cut_along_y(along_y, strips, ellipse, contact)
+    style.title(along_y, "Cut along $y$ at $x$ = 0")
+    y = panels.draw_cut_along_x(along_x, strips, field, ellipse, contact)
+    where = style.number(round(y, 2))
+    style.title(along_x, f"Cut along $x$ at $y$ = {where} mm, the strongest strip")
+    style.legend_above(figure, along_y, along_x)
+    style.save(figure, path, stamps)
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Draw the sweep over lateral shifts: normal and tangential figures beside CONTACT's."""
+
+import os
+import sys
+
+from faststrip_plots import command, panels, style
+from faststrip_plots.results import (
+    NORMAL_QUANTITIES,
+    TANGENTIAL_QUANTITIES,
+    read_reference,
+    read_sweep,
+)
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
+                        help="what `faststrip sweep` wrote")
+    parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
+                        help="the same sweep by full CONTACT")
+    parser.add_argument("--no-reference", action="store_true",
+                        help="draw the sweep alone, without ratios and differences")
+    parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
+                        help="coefficient of friction, for differences in percent of mu N")
+    parser.add_argument("--folder", default="out", metavar="DIR",
+                        help="where sweep_normal.png and sweep_tangential.png go")
+    options = parser.parse_args(arguments)
+    sweep = read_sweep(options.sweep)
+    reference = None if options.no_reference else read_reference(options.reference)
+    command.report_failures(sweep)
+
+    kinds = ("value",) if reference is None else ("value", "ratio")
+    draw(os.path.join(options.folder, "sweep_normal.png"), sweep, reference, options.mu,
+         NORMAL_QUANTITIES, kinds)
+    kinds = ("value",) if reference is None else ("value", "ratio", "difference")
+    draw(os.path.join(options.folder, "sweep_tangential.png"), sweep, reference, options.mu,
+         TANGENTIAL_QUANTITIES, kinds)
+
+
+def draw(path, sweep, reference, mu, quantities, kinds):
+    """One row of panels per quantity, one column per kind."""
+    figure = style.new_figure(4.6 * max(len(kinds), 1.6), 9.0)
+    beyond = False
+    grid = figure.subplots(len(quantities), len(kinds), squeeze=False, sharex=True)
+    for row, name in zip(grid, quantities):
+        for axes, kind in zip(row, kinds):
+            if kind == "value":
+                panels.draw_value(axes, sweep, reference, name)
+            elif kind == "ratio":
+                beyond |= panels.draw_ratio(axes, sweep, reference, name, mu)
+            else:
+                panels.draw_difference(axes, sweep, reference, name, mu)
+    for axes in grid[-1]:
+        axes.set_xlabel(panels.SHIFT_LABEL)
+    figure.align_ylabels(grid)
+    style.legend_above(figure, *grid.flat)
+    notes = []
+    if "difference" in kinds:
+        notes.append(f"ratios where CONTACT's value is at least {panels.NEAR_ZERO:.0%} of µN or µNc")
+    if beyond:
+        notes.append("▲▼: beyond the axis")
+    style.save(figure, path, [sweep.stamp], "; ".join(notes))
+    print(path)
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))
