@@ -1,0 +1,288 @@
+!> The undeformed gap as a curve: values between its points, its lowest point, and the intervals
+!> in which it stays below a level.
+!>
+!> The height h(y) is the C2 cubic spline through the points; the longitudinal term A = 1/(2R),
+!> which jumps where a profile's radius jumps, is linear between them. The spline is cut once into
+!> monotone pieces, so that the level sets are found exactly, however small they are beside the
+!> distance of the points.
+module faststrip_profile_gap_curve
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, &
+                                st_workspace_too_small, st_bad_argument
+    use faststrip_profile_gap, only: gap_t, check_gap
+    use faststrip_numerics_spline, only: spline_setup, spline_cubic
+    implicit none
+    private
+
+    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at, gap_curvature, level_intervals
+
+    !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
+    type :: gap_curve_t
+        integer :: n = 0         !! number of points
+        integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
+        real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
+        real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
+        real(wp), allocatable :: y(:), h(:)    !! points, mm
+        real(wp), allocatable :: slope(:)      !! h' at the points
+        real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
+        real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
+        real(wp), allocatable :: work(:)       !! for the spline's linear system
+    end type gap_curve_t
+
+contains
+
+    !> Make room for gaps of up to `max_points` points.
+    subroutine reserve_gap_curve(curve, max_points, status)
+        type(gap_curve_t), intent(inout) :: curve !! emptied and sized
+        integer, intent(in) :: max_points         !! >= 5
+        type(status_t), intent(out) :: status     !! `st_bad_argument`
+
+        call clear_status(status)
+        if (max_points < 5) then
+            call set_status(status, st_bad_argument, 'room for fewer than 5 gap points asked')
+            return
+        end if
+        curve%n = 0
+        curve%n_pieces = 0
+        if (allocated(curve%y)) then
+            if (size(curve%y) >= max_points) return
+            deallocate (curve%y, curve%h, curve%slope, curve%inv2r, curve%y_node, curve%h_node, &
+                        curve%work)
+        end if
+        allocate (curve%y(max_points), curve%h(max_points), curve%slope(max_points), &
+                  curve%inv2r(max_points), curve%y_node(3*max_points), &
+                  curve%h_node(3*max_points), curve%work(4*max_points), source=0.0_wp)
+    end subroutine reserve_gap_curve
+
+    !> Take over a gap: check it, fit the spline, cut it into monotone pieces. Allocates nothing.
+    subroutine set_gap_curve(curve, gap, status)
+        type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
+        type(gap_t), intent(in) :: gap            !! points of the gap, mm
+        type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
+
+        integer :: n
+
+        call check_gap(gap, status)
+        if (is_error(status)) return
+        n = size(gap%y)
+        curve%n = 0
+        if (.not. allocated(curve%y)) then
+            call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
+            return
+        else if (size(curve%y) < n) then
+            call set_status(status, st_workspace_too_small, &
+                            'the gap has more points than the room reserved for it')
+            return
+        end if
+        curve%y(:n) = gap%y
+        curve%h(:n) = gap%h
+        curve%inv2r(:n) = gap%inv2r
+        call spline_setup(curve%y(:n), curve%h(:n), spline_cubic, curve%slope(:n), &
+                          curve%work, status)
+        if (is_error(status)) return
+        curve%n = n
+        call cut_into_monotone_pieces(curve)
+    end subroutine set_gap_curve
+
+    pure subroutine cut_into_monotone_pieces(curve)
+        type(gap_curve_t), intent(inout) :: curve
+
+        real(wp) :: c1, c2, c3, dy, secant, root(2)
+        integer :: i, j, m, n_roots
+
+        m = 1
+        curve%y_node(1) = curve%y(1)
+        curve%h_node(1) = curve%h(1)
+        do i = 1, curve%n - 1
+            dy = curve%y(i + 1) - curve%y(i)
+            secant = curve%h(i + 1) - curve%h(i)
+            c1 = curve%slope(i)*dy
+            c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
+            c2 = secant - c1 - c3
+            call unit_interval_roots(3.0_wp*c3, 2.0_wp*c2, c1, n_roots, root)
+            do j = 1, n_roots
+                m = m + 1
+                curve%y_node(m) = curve%y(i) + root(j)*dy
+                curve%h_node(m) = curve%h(i) + root(j)*(c1 + root(j)*(c2 + root(j)*c3))
+            end do
+            m = m + 1
+            curve%y_node(m) = curve%y(i + 1)
+            curve%h_node(m) = curve%h(i + 1)
+        end do
+        curve%n_pieces = m - 1
+        i = minloc(curve%h_node(:m), dim=1)
+        curve%y_lowest = curve%y_node(i)
+        curve%h_lowest = curve%h_node(i)
+    end subroutine cut_into_monotone_pieces
+
+    !> Roots of a t^2 + b t + c strictly inside (0, 1), ascending.
+    pure subroutine unit_interval_roots(a, b, c, n, root)
+        real(wp), intent(in) :: a, b, c
+        integer, intent(out) :: n
+        real(wp), intent(out) :: root(2)
+
+        real(wp) :: discriminant, q, candidate(2)
+        integer :: i
+
+        n = 0
+        root = 0.0_wp
+        candidate = -1.0_wp
+        discriminant = b*b - 4.0_wp*a*c
+        if (discriminant <= 0.0_wp) return
+        q = -0.5_wp*(b + sign(sqrt(discriminant), b))
+        ! A quotient above one is no root inside; tested before dividing, which could overflow.
+        if (abs(q) < abs(a)) candidate(1) = q/a
+        if (abs(c) < abs(q)) candidate(2) = c/q
+        if (candidate(1) > candidate(2)) candidate = candidate([2, 1])
+        do i = 1, 2
+            if (candidate(i) <= 0.0_wp .or. candidate(i) >= 1.0_wp) cycle
+            n = n + 1
+            root(n) = candidate(i)
+        end do
+    end subroutine unit_interval_roots
+
+    !> Height and longitudinal term of the gap; outside the points those of the nearest one.
+    pure subroutine gap_at(curve, y, h, inv2r)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+        real(wp), intent(out) :: h             !! height, mm
+        real(wp), intent(out) :: inv2r         !! A = 1/(2R), 1/mm
+
+        integer :: i
+        real(wp) :: t
+
+        if (y <= curve%y(1)) then
+            h = curve%h(1)
+            inv2r = curve%inv2r(1)
+        else if (y >= curve%y(curve%n)) then
+            h = curve%h(curve%n)
+            inv2r = curve%inv2r(curve%n)
+        else
+            i = interval_of(curve, y)
+            t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
+            h = height(curve, i, t)
+            inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
+        end if
+    end subroutine gap_at
+
+    !> Half the second derivative of the height, the B of a Hertzian gap `A x^2 + B y^2`, 1/mm.
+    pure real(wp) function gap_curvature(curve, y) result(b)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, taken into the range, mm
+
+        integer :: i
+        real(wp) :: t, dy, secant, c2, c3
+
+        i = interval_of(curve, y)
+        dy = curve%y(i + 1) - curve%y(i)
+        t = min(max((y - curve%y(i))/dy, 0.0_wp), 1.0_wp)
+        secant = curve%h(i + 1) - curve%h(i)
+        c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
+        c2 = secant - curve%slope(i)*dy - c3
+        b = (c2 + 3.0_wp*c3*t)/dy**2
+    end function gap_curvature
+
+    !> The intervals in which the gap is below a level, in the order of y.
+    !>
+    !> The ends are exact roots of the spline; an interval that runs out of the data ends there.
+    pure subroutine level_intervals(curve, level, y_from, y_to, n)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: level          !! height, mm
+        real(wp), intent(out) :: y_from(:)     !! left ends, mm; the first `n` count
+        real(wp), intent(out) :: y_to(:)       !! right ends, mm
+        integer, intent(out) :: n              !! number of intervals; at most size(y_from),
+                                               !! further ones to the right are left out
+        integer :: j
+        logical :: inside
+
+        n = 0
+        inside = curve%h_node(1) < level
+        if (inside) call open_interval(curve%y_node(1))
+        do j = 1, curve%n_pieces
+            if (inside .eqv. (curve%h_node(j + 1) < level)) cycle
+            if (inside) then
+                y_to(n) = crossing(curve, j, level)
+            else
+                if (n == size(y_from)) return
+                call open_interval(crossing(curve, j, level))
+            end if
+            inside = .not. inside
+        end do
+        if (inside) y_to(n) = curve%y_node(curve%n_pieces + 1)
+
+    contains
+
+        pure subroutine open_interval(y)
+            real(wp), intent(in) :: y
+
+            n = n + 1
+            y_from(n) = y
+        end subroutine open_interval
+    end subroutine level_intervals
+
+    !> Where monotone piece j crosses a level that its two ends enclose.
+    pure real(wp) function crossing(curve, j, level) result(y)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: j
+        real(wp), intent(in) :: level
+
+        integer :: i, k
+        real(wp) :: low, high, y0, dy, t, f
+        logical :: rising
+
+        low = curve%y_node(j)
+        high = curve%y_node(j + 1)
+        i = interval_of(curve, 0.5_wp*(low + high))
+        y0 = curve%y(i)
+        dy = curve%y(i + 1) - y0
+        low = (low - y0)/dy
+        high = (high - y0)/dy
+        rising = curve%h_node(j + 1) > curve%h_node(j)
+        t = 0.5_wp*(low + high)
+        do k = 1, 60
+            t = 0.5_wp*(low + high)
+            f = height(curve, i, t) - level
+            if ((f > 0.0_wp) .eqv. rising) then
+                high = t
+            else
+                low = t
+            end if
+            if (high - low <= epsilon(1.0_wp)*max(abs(low), abs(high))) exit
+        end do
+        y = y0 + t*dy
+    end function crossing
+
+    !> Index i of the point interval that holds y, with y_i <= y < y_(i+1) inside the data.
+    pure integer function interval_of(curve, y) result(i)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: y
+
+        integer :: high, middle
+
+        i = 1
+        high = curve%n
+        do while (high - i > 1)
+            middle = (i + high)/2
+            if (y >= curve%y(middle)) then
+                i = middle
+            else
+                high = middle
+            end if
+        end do
+    end function interval_of
+
+    !> Height in interval i at the local coordinate t of 0 to 1.
+    pure real(wp) function height(curve, i, t) result(h)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        real(wp), intent(in) :: t
+
+        real(wp) :: dy, secant, c1, c3
+
+        dy = curve%y(i + 1) - curve%y(i)
+        secant = curve%h(i + 1) - curve%h(i)
+        c1 = curve%slope(i)*dy
+        c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
+        h = curve%h(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
+    end function height
+end module faststrip_profile_gap_curve
