@@ -16,6 +16,10 @@ module faststrip_normal_strip
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at, &
                                            level_intervals
+    use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, &
+                                              share_strips, only_match, nearest_patch, &
+                                              take_in, sort_patches, join_met_patches, &
+                                              cut_leaving_strips
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton, solve_strips, &
                                              newton_converged, newton_strips_leave
@@ -26,12 +30,6 @@ module faststrip_normal_strip
     public :: reserve_strip_workspace, set_strip_gap, strip_solve
     public :: fewest_strips
 
-    !> Fewest strips a patch can be cut into: its ends are carried on from three.
-    integer, parameter :: fewest_strips = 3
-    !> A second patch gets fewer strips than the largest, in proportion to its width, but these.
-    integer, parameter :: fewest_strips_small_patch = 5
-
-    integer, parameter :: max_patches = 16
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
     integer, parameter :: max_passes = 60
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
@@ -39,6 +37,7 @@ module faststrip_normal_strip
     real(wp), parameter :: damping = 0.6_wp
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
+    real(wp), parameter :: forget = 0.05_wp ! how fast "too far" is forgotten, widths a pass
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
     real(wp), parameter :: start_level = 0.55_wp   ! of the penetration: virtual penetration
     real(wp), parameter :: start_factor = 0.6_wp   ! of the plane-strain pressure
@@ -62,15 +61,6 @@ module faststrip_normal_strip
         integer :: passes = 0            !! how often the ends were moved
         integer :: iterations = 0        !! Newton iterations, all passes
     end type normal_result_t
-
-    !> The patches of one pass.
-    type :: patches_t
-        integer :: n = 0
-        real(wp) :: y_from(max_patches) = 0.0_wp
-        real(wp) :: y_to(max_patches) = 0.0_wp
-        integer :: n_strips(max_patches) = 0
-        real(wp) :: seed_depth(max_patches) = 0.0_wp ! overlap that made the patch appear, mm
-    end type patches_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: strip_workspace_t
@@ -174,12 +164,13 @@ contains
                     best_move = move
                     call record(workspace, patches, penetration, n, strips, result)
                 end if
-                if (changed) call share_strips(options, patches)
+                if (changed) call share_strips(options%strips_per_patch, patches)
                 if (move < end_tolerance .and. .not. changed) exit
             case (newton_strips_leave)
-                call cut_leaving_strips(workspace, patches, splits)
+                call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
+                                        workspace%leaves(:n), patches, splits)
                 if (patches%n == 0) exit
-                call share_strips(options, patches)
+                call share_strips(options%strips_per_patch, patches)
             case default
                 exit
             end select
@@ -234,9 +225,11 @@ contains
         type(patches_t), intent(out) :: patches
         real(wp), intent(out) :: penetration
 
-        real(wp) :: low, high
+        real(wp) :: y_from(max_patches), y_to(max_patches), low, high
         integer :: i
 
+        y_from = 0.0_wp
+        y_to = 0.0_wp
         high = 1.0e-2_wp
         do i = 1, 200
             if (start_load(curve, compliance, high) >= load) exit
@@ -257,10 +250,12 @@ contains
             end if
         end do
         penetration = sqrt(low*high)
-        call level_intervals(curve, curve%h_lowest + start_level*penetration, patches%y_from, &
-                             patches%y_to, patches%n)
-        patches%seed_depth = start_level*penetration
-        call share_strips(options, patches)
+        call level_intervals(curve, curve%h_lowest + start_level*penetration, y_from, y_to, &
+                             patches%n)
+        patches%at%y_from = y_from
+        patches%at%y_to = y_to
+        patches%at%seed_depth = start_level*penetration
+        call share_strips(options%strips_per_patch, patches)
     end subroutine start
 
     pure real(wp) function start_load(curve, compliance, penetration) result(load)
@@ -284,22 +279,6 @@ contains
         load = start_factor/compliance*load
     end function start_load
 
-    !> Number of strips of each patch, in proportion to its width.
-    pure subroutine share_strips(options, patches)
-        type(strip_options_t), intent(in) :: options
-        type(patches_t), intent(inout) :: patches
-
-        real(wp) :: widest
-        integer :: p, fewest
-
-        widest = maxval(patches%y_to(:patches%n) - patches%y_from(:patches%n))
-        fewest = min(fewest_strips_small_patch, options%strips_per_patch)
-        do p = 1, patches%n
-            patches%n_strips(p) = max(fewest, nint(options%strips_per_patch &
-                                      *(patches%y_to(p) - patches%y_from(p))/widest))
-        end do
-    end subroutine share_strips
-
     !> Cut the patches into strips and start them from the previous pass.
     !>
     !> The edges are graded towards the ends, where the strip lengths change fastest.
@@ -312,30 +291,30 @@ contains
         real(wp) :: middle, half, y, eta, h, a, ratio
         integer :: p, k, i, q
 
-        n = sum(patches%n_strips(:patches%n))
+        n = sum(patches%at(:patches%n)%n_strips)
         if (n > workspace%max_strips) return
         i = 0
         do p = 1, patches%n
-            middle = 0.5_wp*(patches%y_from(p) + patches%y_to(p))
-            half = 0.5_wp*(patches%y_to(p) - patches%y_from(p))
+            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
             q = only_match(workspace%old, patches, p)
-            do k = 1, patches%n_strips(p)
+            do k = 1, patches%at(p)%n_strips
                 i = i + 1
                 if (k == 1) then
-                    workspace%y_left(i) = patches%y_from(p)
+                    workspace%y_left(i) = patches%at(p)%y_from
                 else
                     workspace%y_left(i) = workspace%y_right(i - 1)
                 end if
                 workspace%y_right(i) = middle &
-                                       + half*graded(2.0_wp*k/patches%n_strips(p) - 1.0_wp)
+                                       + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
                 y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
                 call gap_at(workspace%curve, y, h, a)
                 workspace%height(i) = h - workspace%curve%h_lowest
                 workspace%inv2r(i) = max(a, flattest)
                 eta = (y - middle)/half
-                if (patches%seed_depth(p) > 0.0_wp) then
+                if (patches%at(p)%seed_depth > 0.0_wp) then
                     ratio = sqrt(1.0_wp - eta**2)
-                    workspace%half_length(i) = ratio*sqrt(patches%seed_depth(p) &
+                    workspace%half_length(i) = ratio*sqrt(patches%at(p)%seed_depth &
                                                           /workspace%inv2r(i))
                     workspace%p0(i) = start_factor*2.0_wp/(pi*compliance)*workspace%inv2r(i) &
                                       *workspace%half_length(i)
@@ -343,8 +322,8 @@ contains
                     call start_from_old(workspace, q, eta, eta, i)
                 else
                     q = nearest_patch(workspace%old, y)
-                    ratio = (2.0_wp*y - workspace%old%y_from(q) - workspace%old%y_to(q)) &
-                            /(workspace%old%y_to(q) - workspace%old%y_from(q))
+                    ratio = (2.0_wp*y - workspace%old%at(q)%y_from - workspace%old%at(q)%y_to) &
+                            /(workspace%old%at(q)%y_to - workspace%old%at(q)%y_from)
                     call start_from_old(workspace, q, max(-0.95_wp, min(0.95_wp, ratio)), eta, i)
                     q = 0
                 end if
@@ -359,48 +338,6 @@ contains
         graded = 0.5_wp*(t + sin(0.5_wp*pi*t))
     end function graded
 
-    !> The old patch that overlaps new patch p and no other new patch, if p overlaps no other; or 0.
-    pure integer function only_match(old, patches, p) result(match)
-        type(patches_t), intent(in) :: old, patches
-        integer, intent(in) :: p
-
-        integer :: q
-
-        match = 0
-        do q = 1, old%n
-            if (.not. overlap(old, q, patches, p)) cycle
-            if (match > 0) then
-                match = 0
-                return
-            end if
-            match = q
-        end do
-        if (match == 0) return
-        do q = 1, patches%n
-            if (q /= p .and. overlap(old, match, patches, q)) then
-                match = 0
-                return
-            end if
-        end do
-    end function only_match
-
-    pure logical function overlap(old, q, patches, p)
-        type(patches_t), intent(in) :: old, patches
-        integer, intent(in) :: q, p
-
-        overlap = old%y_from(q) < patches%y_to(p) .and. old%y_to(q) > patches%y_from(p)
-    end function overlap
-
-    pure integer function nearest_patch(patches, y) result(nearest)
-        type(patches_t), intent(in) :: patches
-        real(wp), intent(in) :: y
-
-        integer :: n
-
-        n = patches%n
-        nearest = minloc(max(patches%y_from(:n) - y, y - patches%y_to(:n), 0.0_wp), dim=1)
-    end function nearest_patch
-
     !> Keep a solution as the start of the next pass: pressures and lengths over the ellipse
     !> factor sqrt(1 - eta^2), which makes them smooth up to the ends.
     pure subroutine remember(workspace, patches)
@@ -412,9 +349,9 @@ contains
 
         i = 0
         do p = 1, patches%n
-            middle = 0.5_wp*(patches%y_from(p) + patches%y_to(p))
-            half = 0.5_wp*(patches%y_to(p) - patches%y_from(p))
-            do k = 1, patches%n_strips(p)
+            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+            do k = 1, patches%at(p)%n_strips
                 i = i + 1
                 workspace%old_eta(i) = (0.5_wp*(workspace%y_left(i) + workspace%y_right(i)) &
                                         - middle)/half
@@ -423,7 +360,7 @@ contains
                 workspace%old_half_length(i) = workspace%half_length(i)/ellipse
             end do
         end do
-        patches%seed_depth = 0.0_wp
+        patches%at%seed_depth = 0.0_wp
         workspace%old = patches
     end subroutine remember
 
@@ -436,8 +373,8 @@ contains
         integer :: first, last, k
         real(wp) :: t, ellipse
 
-        first = 1 + sum(workspace%old%n_strips(:q - 1))
-        last = first + workspace%old%n_strips(q) - 1
+        first = 1 + sum(workspace%old%at(:q - 1)%n_strips)
+        last = first + workspace%old%at(q)%n_strips - 1
         do k = first, last - 2
             if (workspace%old_eta(k + 1) >= eta_old) exit
         end do
@@ -467,17 +404,23 @@ contains
         last = 0
         do p = 1, patches%n
             first = last + 1
-            last = last + patches%n_strips(p)
-            width = workspace%y_right(first) - workspace%y_left(first)
-            step = factor*end_step(workspace, first, 1)*width
-            step = min(step, patches%y_from(p) - y_low)
-            patches%y_from(p) = patches%y_from(p) - step
-            move = max(move, abs(step)/width)
-            width = workspace%y_right(last) - workspace%y_left(last)
-            step = factor*end_step(workspace, last, -1)*width
-            step = min(step, y_high - patches%y_to(p))
-            patches%y_to(p) = patches%y_to(p) + step
-            move = max(move, abs(step)/width)
+            last = last + patches%at(p)%n_strips
+            associate (patch => patches%at(p))
+                width = workspace%y_right(first) - workspace%y_left(first)
+                step = min(factor*end_step(workspace, first, 1)*width, patch%y_from - y_low)
+                if (patch%y_from - step <= patch%too_far_from) &
+                    step = 0.5_wp*(patch%y_from - patch%too_far_from)
+                patch%y_from = patch%y_from - step
+                patch%too_far_from = min(patch%too_far_from, patch%y_from) - forget*width
+                move = max(move, abs(step)/width)
+                width = workspace%y_right(last) - workspace%y_left(last)
+                step = min(factor*end_step(workspace, last, -1)*width, y_high - patch%y_to)
+                if (patch%y_to + step >= patch%too_far_to) &
+                    step = 0.5_wp*(patch%too_far_to - patch%y_to)
+                patch%y_to = patch%y_to + step
+                patch%too_far_to = max(patch%too_far_to, patch%y_to) + forget*width
+                move = max(move, abs(step)/width)
+            end associate
         end do
     end subroutine move_ends
 
@@ -506,12 +449,14 @@ contains
         b = slope + bend*d2
         discriminant = b*b - 4.0_wp*bend
         s = 0.5_wp + farthest_out
-        if (discriminant >= 0.0_wp) then
-            if (b < 0.0_wp) then
-                s = 2.0_wp/(sqrt(discriminant) - b)
-            else if (bend < 0.0_wp) then
-                s = -(b + sqrt(discriminant))/(2.0_wp*bend)
-            end if
+        if (discriminant >= 0.0_wp .and. b < 0.0_wp) then
+            s = 2.0_wp/(sqrt(discriminant) - b)
+        else if (bend < 0.0_wp) then
+            s = -(b + sqrt(discriminant))/(2.0_wp*bend)
+        else if (q(2) > 1.0_wp) then
+            ! A long tail, as between two patches about to meet: xd itself runs out evenly. Both
+            ! rules agree where the quadratic has a double root.
+            s = d2/(sqrt(q(2)) - 1.0_wp)
         end if
         step = max(farthest_in, min(farthest_out, s - 0.5_wp))
     end function end_step
@@ -531,18 +476,18 @@ contains
 
         changed = .false.
         solved = patches
-        width = maxval((patches%y_to(:patches%n) - patches%y_from(:patches%n)) &
-                       /patches%n_strips(:patches%n))
+        width = maxval((patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from) &
+                       /patches%at(:patches%n)%n_strips)
         call level_intervals(workspace%curve, workspace%curve%h_lowest + penetration, y_from, &
                              y_to, n)
         do i = 1, n
             low = y_from(i)
             do p = 1, solved%n
-                if (solved%y_to(p) <= low .or. solved%y_from(p) >= y_to(i)) cycle
-                high = solved%y_from(p)
+                if (solved%at(p)%y_to <= low .or. solved%at(p)%y_from >= y_to(i)) cycle
+                high = solved%at(p)%y_from
                 if (high > low) call scan(workspace, compliance, penetration, low, high, width, &
                                           patches, changed)
-                low = max(low, solved%y_to(p))
+                low = max(low, solved%at(p)%y_to)
             end do
             if (y_to(i) > low) call scan(workspace, compliance, penetration, low, y_to(i), &
                                          width, patches, changed)
@@ -593,7 +538,7 @@ contains
 
         call gap_at(workspace%curve, y, h, inv2r)
         displacement = 0.0_wp
-        do s = 1, sum(workspace%old%n_strips(:workspace%old%n))
+        do s = 1, sum(workspace%old%at(:workspace%old%n)%n_strips)
             displacement = displacement + compliance*workspace%p0(s)*workspace%half_length(s) &
                            *strip_influence_edges( &
                            (workspace%y_left(s) - y)/workspace%half_length(s), &
@@ -601,143 +546,6 @@ contains
         end do
         depth = penetration - (h - workspace%curve%h_lowest) - displacement
     end function overlap_depth
-
-    !> Add a stretch of overlap to the patches: to the neighbour it touches, or as a patch.
-    pure subroutine take_in(y_from, y_to, low, high, dy, depth, patches, changed)
-        real(wp), intent(in) :: y_from, y_to ! the stretch that overlaps, mm
-        real(wp), intent(in) :: low, high    ! the stretch that was scanned, mm
-        real(wp), intent(in) :: dy, depth
-        type(patches_t), intent(inout) :: patches
-        logical, intent(inout) :: changed
-
-        integer :: p
-        logical :: touches
-
-        touches = .false.
-        do p = 1, patches%n
-            if (y_from < low + 0.5_wp*dy .and. patches%y_from(p) < low &
-                .and. patches%y_to(p) > low - dy .and. patches%y_to(p) < y_to) then
-                touches = .true.
-                if (y_to - y_from > 1.5_wp*dy) then
-                    patches%y_to(p) = y_to
-                    changed = .true.
-                end if
-            else if (y_to > high - 0.5_wp*dy .and. patches%y_to(p) > high &
-                     .and. patches%y_from(p) < high + dy .and. patches%y_from(p) > y_from) then
-                touches = .true.
-                if (y_to - y_from > 1.5_wp*dy) then
-                    patches%y_from(p) = y_from
-                    changed = .true.
-                end if
-            else if (patches%y_to(p) >= y_from .and. patches%y_from(p) <= y_to) then
-                touches = .true.
-            end if
-        end do
-        if (touches .or. patches%n == max_patches) return
-        changed = .true.
-        patches%n = patches%n + 1
-        patches%y_from(patches%n) = y_from
-        patches%y_to(patches%n) = y_to
-        patches%n_strips(patches%n) = fewest_strips
-        patches%seed_depth(patches%n) = depth
-    end subroutine take_in
-
-    !> Put the patches in the order of y.
-    pure subroutine sort_patches(patches)
-        type(patches_t), intent(inout) :: patches
-
-        integer :: p, q
-
-        do p = 2, patches%n
-            do q = p, 2, -1
-                if (patches%y_from(q - 1) <= patches%y_from(q)) exit
-                call swap(patches%y_from(q - 1:q))
-                call swap(patches%y_to(q - 1:q))
-                call swap(patches%seed_depth(q - 1:q))
-                patches%n_strips(q - 1:q) = patches%n_strips([q, q - 1])
-            end do
-        end do
-
-    contains
-
-        pure subroutine swap(pair)
-            real(wp), intent(inout) :: pair(2)
-
-            pair = pair([2, 1])
-        end subroutine swap
-    end subroutine sort_patches
-
-    !> Merge patches that have met; if that is not allowed any more, let them share the middle.
-    pure subroutine join_met_patches(may_merge, patches, changed)
-        logical, intent(in) :: may_merge
-        type(patches_t), intent(inout) :: patches
-        logical, intent(inout) :: changed
-
-        integer :: p, n
-        real(wp) :: middle, clearance
-
-        n = min(1, patches%n)
-        do p = 2, patches%n
-            clearance = 0.25_wp*min((patches%y_to(n) - patches%y_from(n))/patches%n_strips(n), &
-                                    (patches%y_to(p) - patches%y_from(p))/patches%n_strips(p))
-            if (patches%y_from(p) - patches%y_to(n) < clearance .and. may_merge) then
-                patches%y_to(n) = max(patches%y_to(n), patches%y_to(p))
-                patches%n_strips(n) = patches%n_strips(n) + patches%n_strips(p)
-                changed = .true.
-            else
-                if (patches%y_from(p) < patches%y_to(n)) then
-                    middle = 0.5_wp*(patches%y_from(p) + patches%y_to(n))
-                    patches%y_to(n) = middle
-                    patches%y_from(p) = middle
-                end if
-                n = n + 1
-                patches%y_from(n) = patches%y_from(p)
-                patches%y_to(n) = patches%y_to(p)
-                patches%n_strips(n) = patches%n_strips(p)
-                patches%seed_depth(n) = patches%seed_depth(p)
-            end if
-        end do
-        patches%n = n
-    end subroutine join_met_patches
-
-    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped.
-    pure subroutine cut_leaving_strips(workspace, patches, splits)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(patches_t), intent(inout) :: patches
-        integer, intent(inout) :: splits
-
-        type(patches_t) :: cut
-        integer :: p, first, last, i, from
-
-        cut%n = 0
-        last = 0
-        do p = 1, patches%n
-            first = last + 1
-            last = last + patches%n_strips(p)
-            from = 0
-            do i = first, last + 1
-                if (i <= last) then
-                    if (.not. workspace%leaves(i)) then
-                        if (from == 0) from = i
-                        cycle
-                    end if
-                end if
-                if (from == 0) cycle
-                if (cut%n < max_patches) then
-                    if (cut%n > 0) then
-                        if (cut%y_from(cut%n) >= patches%y_from(p)) splits = splits + 1
-                    end if
-                    cut%n = cut%n + 1
-                    cut%y_from(cut%n) = workspace%y_left(from)
-                    cut%y_to(cut%n) = workspace%y_right(i - 1)
-                    cut%n_strips(cut%n) = i - from
-                    cut%seed_depth(cut%n) = patches%seed_depth(p)
-                end if
-                from = 0
-            end do
-        end do
-        patches = cut
-    end subroutine cut_leaving_strips
 
     !> Write a converged pass into the result.
     pure subroutine record(workspace, patches, penetration, n, strips, result)
@@ -763,7 +571,7 @@ contains
         last = 0
         do p = 1, patches%n
             first = last + 1
-            last = last + patches%n_strips(p)
+            last = last + patches%at(p)%n_strips
             strips%patch(first:last) = p
             result%area = result%area + sum(rectangle(first, last)) &
                           - sum(end_excess*(rectangle(first, first + 1) &
@@ -772,8 +580,8 @@ contains
         result%penetration = penetration + workspace%curve%h_lowest
         result%pmax = maxval(workspace%p0(:n))
         result%x_max = maxval(workspace%half_length(:n))
-        result%y_min = patches%y_from(1)
-        result%y_max = patches%y_to(patches%n)
+        result%y_min = patches%at(1)%y_from
+        result%y_max = patches%at(patches%n)%y_to
         result%n_patches = patches%n
 
     contains

@@ -182,17 +182,12 @@ contains
         logical, intent(out) :: leaves(:)
 
         integer :: k
-        real(wp) :: longest
 
-        do k = 1, size(p0)
-            longest = 0.0_wp
-            if (k > 1) then
-                if (y_right(k - 1) >= y_left(k)) longest = half_length(k - 1)
-            end if
-            if (k < size(p0)) then
-                if (y_right(k) >= y_left(k + 1)) longest = max(longest, half_length(k + 1))
-            end if
-            leaves(k) = p0(k) <= 0.0_wp .or. half_length(k) < leaving_length_ratio*longest
+        leaves = p0 <= 0.0_wp
+        do k = 1, size(p0) - 1
+            if (y_right(k) < y_left(k + 1)) cycle ! two patches
+            if (half_length(k) < leaving_length_ratio*half_length(k + 1)) leaves(k) = .true.
+            if (half_length(k + 1) < leaving_length_ratio*half_length(k)) leaves(k + 1) = .true.
         end do
     end subroutine mark_leaving_strips
 end module faststrip_normal_strip_newton

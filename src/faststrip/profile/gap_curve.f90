@@ -10,7 +10,7 @@ module faststrip_profile_gap_curve
     use faststrip_status, only: status_t, set_status, clear_status, is_error, &
                                 st_workspace_too_small, st_bad_argument
     use faststrip_profile_gap, only: gap_t, check_gap
-    use faststrip_numerics_spline, only: spline_setup, spline_cubic
+    use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot
     implicit none
     private
 
@@ -77,7 +77,7 @@ contains
         curve%y(:n) = gap%y
         curve%h(:n) = gap%h
         curve%inv2r(:n) = gap%inv2r
-        call spline_setup(curve%y(:n), curve%h(:n), spline_cubic, curve%slope(:n), &
+        call spline_setup(curve%y(:n), curve%h(:n), spline_not_a_knot, curve%slope(:n), &
                           curve%work, status)
         if (is_error(status)) return
         curve%n = n
@@ -188,8 +188,8 @@ contains
     pure subroutine level_intervals(curve, level, y_from, y_to, n)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: level          !! height, mm
-        real(wp), intent(out) :: y_from(:)     !! left ends, mm; the first `n` count
-        real(wp), intent(out) :: y_to(:)       !! right ends, mm
+        real(wp), intent(inout) :: y_from(:)   !! left ends, mm; the first `n` count
+        real(wp), intent(inout) :: y_to(:)         !! right ends, mm
         integer, intent(out) :: n              !! number of intervals; at most size(y_from),
                                                !! further ones to the right are left out
         integer :: j
@@ -197,27 +197,22 @@ contains
 
         n = 0
         inside = curve%h_node(1) < level
-        if (inside) call open_interval(curve%y_node(1))
+        if (inside) then
+            n = 1
+            y_from(1) = curve%y_node(1)
+        end if
         do j = 1, curve%n_pieces
             if (inside .eqv. (curve%h_node(j + 1) < level)) cycle
             if (inside) then
                 y_to(n) = crossing(curve, j, level)
             else
                 if (n == size(y_from)) return
-                call open_interval(crossing(curve, j, level))
+                n = n + 1
+                y_from(n) = crossing(curve, j, level)
             end if
             inside = .not. inside
         end do
         if (inside) y_to(n) = curve%y_node(curve%n_pieces + 1)
-
-    contains
-
-        pure subroutine open_interval(y)
-            real(wp), intent(in) :: y
-
-            n = n + 1
-            y_from(n) = y
-        end subroutine open_interval
     end subroutine level_intervals
 
     !> Where monotone piece j crosses a level that its two ends enclose.

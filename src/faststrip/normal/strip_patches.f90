@@ -1,0 +1,217 @@
+!> The patches of a strip solution while their ends are being sought: how many strips each gets,
+!> and how patches appear, meet, are cut and split.
+module faststrip_normal_strip_patches
+    use faststrip_kinds, only: wp
+    implicit none
+    private
+
+    public :: patch_t, patches_t, max_patches, fewest_strips
+    public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
+    public :: cut_leaving_strips
+
+    !> Most patches a contact may have at a time.
+    integer, parameter :: max_patches = 16
+    !> Fewest strips a patch can be cut into: its ends are carried on from three.
+    integer, parameter :: fewest_strips = 3
+    ! A second patch gets fewer strips than the largest, in proportion to its width, but these.
+    integer, parameter :: fewest_strips_small_patch = 5
+
+    !> One patch while its ends are sought.
+    type :: patch_t
+        real(wp) :: y_from = 0.0_wp, y_to = 0.0_wp ! ends, mm
+        integer :: n_strips = 0
+        real(wp) :: seed_depth = 0.0_wp ! overlap that made it appear, mm; 0 once it was solved
+        ! Ends at which strips left: the true ends lie further in.
+        real(wp) :: too_far_from = -huge(1.0_wp), too_far_to = huge(1.0_wp)
+    end type patch_t
+
+    !> The patches of one pass, in the order of y.
+    type :: patches_t
+        integer :: n = 0
+        type(patch_t) :: at(max_patches)
+    end type patches_t
+
+contains
+
+    !> Number of strips of each patch, in proportion to its width.
+    pure subroutine share_strips(strips_per_patch, patches)
+        integer, intent(in) :: strips_per_patch
+        type(patches_t), intent(inout) :: patches
+
+        real(wp) :: widest
+        integer :: p, fewest
+
+        widest = maxval(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)
+        fewest = min(fewest_strips_small_patch, strips_per_patch)
+        do p = 1, patches%n
+            patches%at(p)%n_strips = max(fewest, nint(strips_per_patch &
+                                      *(patches%at(p)%y_to - patches%at(p)%y_from)/widest))
+        end do
+    end subroutine share_strips
+
+    !> The old patch that overlaps new patch p and no other new patch, if p overlaps no other; or 0.
+    pure integer function only_match(old, patches, p) result(match)
+        type(patches_t), intent(in) :: old, patches
+        integer, intent(in) :: p
+
+        integer :: q
+
+        match = 0
+        do q = 1, old%n
+            if (.not. overlap(old, q, patches, p)) cycle
+            if (match > 0) then
+                match = 0
+                return
+            end if
+            match = q
+        end do
+        if (match == 0) return
+        do q = 1, patches%n
+            if (q /= p .and. overlap(old, match, patches, q)) then
+                match = 0
+                return
+            end if
+        end do
+    end function only_match
+
+    pure logical function overlap(old, q, patches, p)
+        type(patches_t), intent(in) :: old, patches
+        integer, intent(in) :: q, p
+
+        overlap = old%at(q)%y_from < patches%at(p)%y_to .and. old%at(q)%y_to > patches%at(p)%y_from
+    end function overlap
+
+    pure integer function nearest_patch(patches, y) result(nearest)
+        type(patches_t), intent(in) :: patches
+        real(wp), intent(in) :: y
+
+        integer :: n
+
+        n = patches%n
+        nearest = minloc(max(patches%at(:n)%y_from - y, y - patches%at(:n)%y_to, 0.0_wp), dim=1)
+    end function nearest_patch
+
+    !> Add a stretch of overlap to the patches: to the neighbour it touches, or as a patch.
+    pure subroutine take_in(y_from, y_to, low, high, dy, depth, patches, changed)
+        real(wp), intent(in) :: y_from, y_to ! the stretch that overlaps, mm
+        real(wp), intent(in) :: low, high    ! the stretch that was scanned, mm
+        real(wp), intent(in) :: dy, depth
+        type(patches_t), intent(inout) :: patches
+        logical, intent(inout) :: changed
+
+        integer :: p
+        logical :: touches
+
+        touches = .false.
+        do p = 1, patches%n
+            if (y_from < low + 0.5_wp*dy .and. patches%at(p)%y_from < low &
+                .and. patches%at(p)%y_to > low - dy .and. patches%at(p)%y_to < y_to) then
+                touches = .true.
+                if (y_to - y_from > 1.5_wp*dy) then
+                    patches%at(p)%y_to = y_to
+                    changed = .true.
+                end if
+            else if (y_to > high - 0.5_wp*dy .and. patches%at(p)%y_to > high &
+                     .and. patches%at(p)%y_from < high + dy .and. patches%at(p)%y_from > y_from) then
+                touches = .true.
+                if (y_to - y_from > 1.5_wp*dy) then
+                    patches%at(p)%y_from = y_from
+                    changed = .true.
+                end if
+            else if (patches%at(p)%y_to >= y_from .and. patches%at(p)%y_from <= y_to) then
+                touches = .true.
+            end if
+        end do
+        if (touches .or. patches%n == max_patches) return
+        changed = .true.
+        patches%n = patches%n + 1
+        patches%at(patches%n) = patch_t(y_from, y_to, fewest_strips, depth)
+    end subroutine take_in
+
+    !> Put the patches in the order of y.
+    pure subroutine sort_patches(patches)
+        type(patches_t), intent(inout) :: patches
+
+        integer :: p, q
+
+        do p = 2, patches%n
+            do q = p, 2, -1
+                if (patches%at(q - 1)%y_from <= patches%at(q)%y_from) exit
+                patches%at(q - 1:q) = patches%at([q, q - 1])
+            end do
+        end do
+    end subroutine sort_patches
+
+    !> Merge patches that have met; if that is not allowed any more, let them share the middle.
+    pure subroutine join_met_patches(may_merge, patches, changed)
+        logical, intent(in) :: may_merge
+        type(patches_t), intent(inout) :: patches
+        logical, intent(inout) :: changed
+
+        integer :: p, n
+        real(wp) :: middle, clearance
+
+        n = min(1, patches%n)
+        do p = 2, patches%n
+            clearance = 0.25_wp*min((patches%at(n)%y_to - patches%at(n)%y_from)/patches%at(n)%n_strips, &
+                                    (patches%at(p)%y_to - patches%at(p)%y_from)/patches%at(p)%n_strips)
+            if (patches%at(p)%y_from - patches%at(n)%y_to < clearance .and. may_merge) then
+                patches%at(n)%y_to = max(patches%at(n)%y_to, patches%at(p)%y_to)
+                patches%at(n)%too_far_to = patches%at(p)%too_far_to
+                patches%at(n)%n_strips = patches%at(n)%n_strips + patches%at(p)%n_strips
+                changed = .true.
+            else
+                if (patches%at(p)%y_from < patches%at(n)%y_to) then
+                    middle = 0.5_wp*(patches%at(p)%y_from + patches%at(n)%y_to)
+                    patches%at(n)%y_to = middle
+                    patches%at(p)%y_from = middle
+                end if
+                n = n + 1
+                patches%at(n) = patches%at(p)
+            end if
+        end do
+        patches%n = n
+    end subroutine join_met_patches
+
+    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped.
+    pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches, splits)
+        real(wp), intent(in) :: y_left(:), y_right(:) !! edges of all strips, mm
+        logical, intent(in) :: leaves(:)              !! strips to be cut off
+        type(patches_t), intent(inout) :: patches     !! cut
+        integer, intent(inout) :: splits              !! increased by the patches split
+
+        type(patches_t) :: cut
+        integer :: p, first, last, i, from
+
+        cut%n = 0
+        last = 0
+        do p = 1, patches%n
+            first = last + 1
+            last = last + patches%at(p)%n_strips
+            from = 0
+            do i = first, last + 1
+                if (i <= last) then
+                    if (.not. leaves(i)) then
+                        if (from == 0) from = i
+                        cycle
+                    end if
+                end if
+                if (from == 0) cycle
+                if (cut%n < max_patches) then
+                    if (cut%n > 0) then
+                        if (cut%at(cut%n)%y_from >= patches%at(p)%y_from) splits = splits + 1
+                    end if
+                    cut%n = cut%n + 1
+                    cut%at(cut%n) = patches%at(p)
+                    cut%at(cut%n)%y_from = y_left(from)
+                    cut%at(cut%n)%y_to = y_right(i - 1)
+                    cut%at(cut%n)%n_strips = i - from
+                    if (from > first) cut%at(cut%n)%too_far_from = patches%at(p)%y_from
+                    if (i <= last) cut%at(cut%n)%too_far_to = patches%at(p)%y_to
+                end if
+                from = 0
+            end do
+        end do
+        patches = cut
+    end subroutine cut_leaving_strips
+end module faststrip_normal_strip_patches
