@@ -170,10 +170,15 @@ class Translation:
         if len(line.rstrip()) > MAX_COLUMNS:
             self.refuse(number, f"@{name} is longer than {MAX_COLUMNS} columns")
         indent = line[: len(line) - len(line.lstrip())]
-        self.lines.append(f"{indent}call {name}({', '.join(arguments + ['&'])}")
-        self.lines.append(f"{indent}    location=SourceLocation( &")
-        self.lines.append(f"{indent}    '{self.shown}', {number}))")
-        self.lines.append(f"{indent}if (anyExceptions()) return")
+        # A mark before each line, so that whichever the compiler names, it is this one's number.
+        for part in (
+            f"call {name}({', '.join(arguments + ['&'])}",
+            "    location=SourceLocation( &",
+            f"    '{self.shown}', {number}))",
+            "if (anyExceptions()) return",
+        ):
+            self.mark(number)
+            self.lines.append(indent + part)
         self.mark(number + 1)
 
     def mark(self, number):
@@ -224,7 +229,8 @@ class Translation:
 
     def text(self):
         head = [f"! Made from {self.shown} by tools/pf2f90.py; not to be edited."]
-        return "\n".join(head + self.lines + [""] + self.suite()) + "\n"
+        mark = [f'# 1 "suite of {self.shown}"']
+        return "\n".join(head + self.lines + mark + self.suite()) + "\n"
 
 
 def runner_text(translations):

@@ -1,0 +1,97 @@
+"""What tools/run_pytests.py counts and returns."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+from harness import ROOT, run
+
+MIXED = """\
+import unittest
+
+
+class Mixed(unittest.TestCase):
+    def test_passes(self):
+        pass
+
+    def test_fails(self):
+        self.fail("on purpose")
+
+    def test_breaks(self):
+        raise ValueError("on purpose")
+
+    @unittest.skip("on purpose")
+    def test_is_skipped(self):
+        self.fail("not reached")
+
+    def test_fails_in_parts(self):
+        for i in range(3):
+            with self.subTest(i):
+                self.assertEqual(i, 1)
+
+    @unittest.expectedFailure
+    def test_surprises(self):
+        pass
+
+
+class Unready(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        raise ValueError("on purpose")
+
+    def test_never_starts(self):
+        pass
+"""
+GOOD = """\
+import unittest
+
+
+class Good(unittest.TestCase):
+    def test_passes(self):
+        pass
+"""
+
+
+class Runs(unittest.TestCase):
+    def check(self, files, code, counts, *arguments):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for path, text in files.items():
+                (folder / path).parent.mkdir(parents=True, exist_ok=True)
+                (folder / path).write_text(text, encoding="utf-8")
+            folders = sorted({str(pathlib.Path(path).parent) for path in files})
+            command = [sys.executable, ROOT / "tools" / "run_pytests.py", *arguments, *folders]
+            result = run(command, folder)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        last = result.stdout.splitlines()[-1]
+        self.assertEqual(last, f"{'all modules together:':43} {counts}", result.stdout)
+        return result.stdout
+
+    def test_passing(self):
+        self.check({"a/test_good.py": GOOD}, 0, "1 passed, 0 failed")
+
+    def test_every_way_to_fail_counts_once(self):
+        said = self.check({"a/test_mixed.py": MIXED}, 1, "1 passed, 5 failed, 1 skipped")
+        self.assertIn("ValueError: on purpose", said)
+
+    def test_same_name_in_two_folders(self):
+        files = {"a/test_same.py": GOOD, "b/test_same.py": GOOD}
+        self.check(files, 0, "2 passed, 0 failed")
+
+    def test_a_file_that_cannot_be_imported_fails(self):
+        said = self.check({"a/test_bad.py": "import no_such_module\n"}, 1, "0 passed, 1 failed")
+        self.assertIn("no_such_module", said)
+
+    def test_nothing_to_run_fails(self):
+        self.check({"a/helper.py": GOOD}, 1, "0 passed, 0 failed")
+        self.check({"a/test_good.py": GOOD}, 1, "0 passed, 0 failed", "--filter", "unknown")
+
+    def test_a_filter(self):
+        files = {"a/test_mixed.py": MIXED, "b/test_good.py": GOOD}
+        self.check(files, 0, "1 passed, 0 failed", "--filter", "b/test_good")
+        self.check(files, 0, "2 passed, 0 failed", "--filter", ".test_passes")
+
+
+if __name__ == "__main__":
+    unittest.main()
