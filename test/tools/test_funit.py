@@ -247,7 +247,7 @@ class Words(unittest.TestCase):
         body = test("relative", "@assertRelativelyEqual(4*one, 5*one, 0.1_real64, 'force')")
         body += test(
             "matrix",
-            "@assertEqual(reshape([1, 2, 3, 4, 5, 6], [2, 3]), reshape([1, 2, 3, 9, 9, 6], [2, 3]))",
+            "@assertEqual(reshape([1, 2, 3, 4], [2, 2]), reshape([1, 9, 9, 4], [2, 2]))",
         )
         body += test("shapes", "@assertEqual([1, 2], [1, 2, 3])")
         body += test("not_a_number", "@assertEqual(one, nan())")
@@ -274,7 +274,7 @@ class Words(unittest.TestCase):
         )
 
     def test_the_place_in_an_array(self):
-        self.assertIn("at element: (2, 2), the first of 2 that differ (of 6)", self.said("matrix"))
+        self.assertIn("at element: (2, 1), the first of 2 that differ (of 4)", self.said("matrix"))
 
     def test_shapes(self):
         self.assertIn("expected shape: (2)", self.said("shapes"))

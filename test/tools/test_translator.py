@@ -82,9 +82,8 @@ class Refusals(unittest.TestCase):
 
     def test_two_of_a_kind(self):
         once = "    @before\n    subroutine {0}()\n    end subroutine {0}\n"
-        self.refused(
-            module("test_x", once.format("a") + once.format("b")), "test_x.pf:10", "a second @before"
-        )
+        twice = once.format("a") + once.format("b")
+        self.refused(module("test_x", twice), "test_x.pf:10", "a second @before")
         self.refused(module("test_x", test("t") + test("T")), "test_x.pf:11", "a second test T")
 
     def test_a_file_without_tests(self):
