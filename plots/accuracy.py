@@ -70,14 +70,17 @@ def report(sweep, reference, options):
         " contact.",
         table(HEADER, [method_row(sweep, m, reference, options.mu) for m in sweep.methods]),
     ]
-    failures = [
-        f"{method_look(*method.key).label}: {number} of {len(method.yw)} shifts without a result"
-        f" ({status})"
+    remarks = [
+        f"- {method_look(*method.key).label}: {number} of {len(method.yw)} shifts {what} ({status})"
         for method in sweep.methods
-        for status, number in method.failures.items()
+        for what, counts in (
+            ("without a result", method.failures),
+            ("with a limited result", method.limitations),
+        )
+        for status, number in counts.items()
     ]
-    if failures:
-        parts.append("\n".join(f"- {line}" for line in failures))
+    if remarks:
+        parts.append("\n".join(remarks))
     if not options.no_fast_modes:
         parts += [
             "## CONTACT's own fast modes on the same gaps",
@@ -109,7 +112,8 @@ def fast_mode_rows(path, reference, mu):
     ok = (rows >= 0) & ~np.isnan(columns).any(axis=0)
     times = [data.numbers(name, missing=True) * 1e6 for name in ("cpu_norm_s", "cpu_tang_s")]
     names = [
-        f"{method}, {step:g} mm" for method, step in zip(data.words("method"), data.numbers("dx_mm"))
+        f"{method}, {step:g} mm"
+        for method, step in zip(data.words("method"), data.numbers("dx_mm"))
     ]
     lines = []
     for name in sorted(set(names)):
@@ -141,10 +145,11 @@ def digits(value):
 def table(header, rows):
     """A Markdown table whose columns line up as plain text too."""
     widths = [max(len(row[k]) for row in [header, *rows]) for k in range(len(header))]
-    form = lambda cells: "| " + " | ".join(
-        cell.ljust(width) if k == 0 else cell.rjust(width)
-        for k, (cell, width) in enumerate(zip(cells, widths))
-    ) + " |"
+
+    def form(cells):
+        rest = [cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])]
+        return "| " + " | ".join([cells[0].ljust(widths[0])] + rest) + " |"
+
     rule = "|" + "|".join(
         "-" * (width + 2) if k == 0 else "-" * (width + 1) + ":" for k, width in enumerate(widths)
     ) + "|"

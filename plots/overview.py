@@ -16,7 +16,7 @@ def main(arguments=None):
     parser.add_argument("--fields", metavar="CSV",
                         help="fields of the contact (default: out/fields_shift_MM.csv)")
     parser.add_argument("--contact", metavar="CSV", help="CONTACT's field of the same contact"
-                        " (default: reference/contact/fields/shift_MM_B.csv)")
+                        " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
     parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
                         help="what `faststrip sweep` wrote")
     parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
@@ -26,9 +26,8 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
-    contact = read_field(
-        options.contact or f"reference/contact/fields/shift_{options.shift:g}_B.csv"
-    )
+    contact = command.contact_file(options.contact, options.shift)
+    contact = read_field(contact) if contact else None
     sweep = read_sweep(options.sweep)
     reference = read_reference(options.reference)
     command.report_failures(sweep)
@@ -42,7 +41,7 @@ def main(arguments=None):
     )
     panels.share_limits(outlines, pressure)
     style.title(pressure, "Pressure by strips")
-    figure.colorbar(mappable, ax=pressure, label="MPa", shrink=0.8, pad=0.02)
+    figure.colorbar(mappable, ax=pressure, label="MPa", shrink=0.8, pad=0.02, panchor=False)
     panels.draw_value(pmax, sweep, reference, "pmax")
     panels.draw_value(force, sweep, reference, "Fx")
     for axes in (pmax, force):

@@ -18,7 +18,9 @@ def main(arguments=None):
     parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
                         help="sweep with the Hertz result of the shift")
     parser.add_argument("--contact", metavar="CSV",
-                        help="CONTACT's field of the same contact; without it none is drawn")
+                        help="CONTACT's field of the same contact"
+                        " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
+    parser.add_argument("--no-contact", action="store_true", help="draw without CONTACT")
     parser.add_argument("--outlines", metavar="PNG",
                         help="picture of the outlines (default: out/patch_shift_MM.png)")
     parser.add_argument("--pressure", metavar="PNG",
@@ -27,28 +29,35 @@ def main(arguments=None):
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
     sweep = read_sweep(options.sweep)
-    contact = read_field(options.contact) if options.contact else None
+    contact = command.contact_file(options.contact, options.shift)
+    contact = read_field(contact) if contact and not options.no_contact else None
     ellipse = panels.hertz_ellipse(sweep, options.shift)
     if ellipse is None:
         print(f"no Hertz result at shift {options.shift:g}: drawn without ({options.sweep})")
-    stamps = [strips.stamp, field.stamp, sweep.stamp]
+    # both are drawn before either is written: bad input leaves no picture behind
+    pictures = {
+        options.outlines or command.shift_file("patch", options.shift)[:-3] + "png":
+            outline_figure(options.shift, strips, ellipse, contact),
+        options.pressure or command.shift_file("pressure", options.shift)[:-3] + "png":
+            pressure_figure(options.shift, strips, field, ellipse, contact),
+    }
+    for path, figure in pictures.items():
+        style.save(figure, path, [strips.stamp, field.stamp, sweep.stamp])
+        print(path)
 
-    outlines = options.outlines or command.shift_file("patch", options.shift)[:-3] + "png"
+
+def outline_figure(shift, strips, ellipse, contact):
+    """The outlines, one panel."""
     figure = style.new_figure(8.0, 5.4)
     axes = figure.subplots()
     panels.draw_outlines(axes, strips, ellipse, contact)
-    style.title(axes, f"Contact patch, lateral shift {style.number(options.shift)} mm")
+    style.title(axes, f"Contact patch, lateral shift {style.number(shift)} mm")
     style.fit_height(figure, axes, 1.5)
     style.legend_above(figure, axes)
-    style.save(figure, outlines, stamps)
-    print(outlines)
-
-    pressure = options.pressure or command.shift_file("pressure", options.shift)[:-3] + "png"
-    draw_pressure(pressure, options.shift, strips, field, ellipse, contact, stamps)
-    print(pressure)
+    return figure
 
 
-def draw_pressure(path, shift, strips, field, ellipse, contact, stamps):
+def pressure_figure(shift, strips, field, ellipse, contact):
     """Maps above, cuts below."""
     top = max(p.max() for source in (field, contact) if source for p in source.pressure)
     figure = style.new_figure(11.0, 7.4)
@@ -62,14 +71,15 @@ def draw_pressure(path, shift, strips, field, ellipse, contact, stamps):
         panels.draw_grid_pressure(right, contact, top)
         style.title(right, "CONTACT")
     panels.share_limits(left, right)
-    figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015)
+    figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015,
+                    panchor=False)
     panels.draw_cut_along_y(along_y, strips, ellipse, contact)
     style.title(along_y, "Cut along $y$ at $x$ = 0")
     y = panels.draw_cut_along_x(along_x, strips, field, ellipse, contact)
     where = style.number(round(y, 2))
     style.title(along_x, f"Cut along $x$ at $y$ = {where} mm, the strongest strip")
     style.legend_above(figure, along_y, along_x)
-    style.save(figure, path, stamps)
+    return figure
 
 
 if __name__ == "__main__":

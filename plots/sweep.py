@@ -30,12 +30,13 @@ def main(arguments=None):
     reference = None if options.no_reference else read_reference(options.reference)
     command.report_failures(sweep)
 
-    kinds = ("value",) if reference is None else ("value", "ratio")
-    draw(os.path.join(options.folder, "sweep_normal.png"), sweep, reference, options.mu,
-         NORMAL_QUANTITIES, kinds)
-    kinds = ("value",) if reference is None else ("value", "ratio", "difference")
-    draw(os.path.join(options.folder, "sweep_tangential.png"), sweep, reference, options.mu,
-         TANGENTIAL_QUANTITIES, kinds)
+    alone = reference is None
+    for name, quantities, kinds in (
+        ("sweep_normal.png", NORMAL_QUANTITIES, ("value", "ratio")),
+        ("sweep_tangential.png", TANGENTIAL_QUANTITIES, ("value", "ratio", "difference")),
+    ):
+        draw(os.path.join(options.folder, name), sweep, reference, options.mu, quantities,
+             kinds[:1] if alone else kinds)
 
 
 def draw(path, sweep, reference, mu, quantities, kinds):
@@ -57,7 +58,8 @@ def draw(path, sweep, reference, mu, quantities, kinds):
     style.legend_above(figure, *grid.flat)
     notes = []
     if "difference" in kinds:
-        notes.append(f"ratios where CONTACT's value is at least {panels.NEAR_ZERO:.0%} of µN or µNc")
+        least = f"{panels.NEAR_ZERO:.0%}"
+        notes.append(f"ratios where CONTACT's value is at least {least} of µN or µNc")
     if beyond:
         notes.append("▲▼: beyond the axis")
     style.save(figure, path, [sweep.stamp], "; ".join(notes))

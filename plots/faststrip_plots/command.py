@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from typing import Optional
 
 from .tables import InputError
 
@@ -33,6 +34,12 @@ def run(main, arguments=None) -> int:
 def shift_file(kind: str, shift: float) -> str:
     """Where the program leaves a file of one shift unless told otherwise."""
     return f"out/{kind}_shift_{shift:g}.csv"
+
+
+def contact_file(given: Optional[str], shift: float) -> Optional[str]:
+    """CONTACT's field: the file given, or the reference's for that shift if there is one."""
+    default = f"reference/contact/fields/shift_{shift:g}_B.csv"
+    return given or (default if os.path.exists(default) else None)
 
 
 def friction(text: str) -> float:

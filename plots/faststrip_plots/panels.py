@@ -16,10 +16,13 @@ from .results import (
     grid_step,
     percent_errors,
 )
+from .tables import InputError
 
 SHIFT_LABEL = "lateral shift of the wheel, mm"
 NEAR_ZERO = 0.05  # of mu N (or mu N c): below it a ratio to the reference says nothing
-RATIO_RANGE = (0.0, 2.0)
+NORMAL_RATIOS = (0.4, 1.6)
+FORCE_RATIOS = (0.0, 2.0)
+PALE = "#dfe8f3"  # the body of strips and wheel
 
 
 # ---------------------------------------------------------------- sweep over lateral shifts
@@ -54,7 +57,7 @@ def draw_ratio(axes, sweep, reference, name, mu):
     """
     quantity = QUANTITIES[name]
     base = reference.base(name, mu)
-    low, high = RATIO_RANGE
+    low, high = NORMAL_RATIOS if name in NORMAL_QUANTITIES else FORCE_RATIOS
     outside = False
     for method, look in sweep_lines(sweep, name):
         pairs = compare(sweep, method, reference)
@@ -111,7 +114,7 @@ def draw_outlines(axes, strips=None, ellipse=None, contact=None):
                 for left, right, half in zip(patch.y_left, patch.y_right, patch.half_length)
             ]
             axes.add_collection(
-                PolyCollection(bars, facecolor="#dfe8f3", edgecolor="white", linewidth=1.0, zorder=1)
+                PolyCollection(bars, facecolor=PALE, edgecolor="white", linewidth=1.0, zorder=1)
             )
             y, half = patch.smooth(patch.half_length)
             axes.plot(
@@ -124,7 +127,8 @@ def draw_outlines(axes, strips=None, ellipse=None, contact=None):
         angle = np.linspace(0.0, 2.0 * math.pi, 241)
         axes.plot(
             ellipse.middle + ellipse.b * np.cos(angle), ellipse.a * np.sin(angle),
-            color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label, zorder=2,
+            color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label,
+            zorder=2,
         )
     if contact is not None:
         y, x = border(contact)
@@ -177,7 +181,7 @@ def draw_strip_pressure(axes, strips, field, top):
         for left, right, y, half in zip(patch.y_left, patch.y_right, patch.y, patch.half_length):
             row = field.nearest_row(y)
             if not left < field.y[row] < right:
-                continue
+                raise InputError(f"no field points in the strip at y_mm = {y:g}: {field.path}")
             x = field.x[row]
             edges = np.concatenate([[-half], 0.5 * (x[1:] + x[:-1]), [half]])
             for low, high, p in zip(edges, edges[1:], field.pressure[row]):
@@ -312,7 +316,7 @@ def draw_profiles(axes, profiles):
     wheel, rail = profiles.wheel, profiles.rail
     axes.fill_between(rail[:, 0], rail[:, 1], rail[:, 1].max(), color="#dcdcdc", linewidth=0,
                       zorder=1)
-    axes.fill_between(wheel[:, 0], wheel[:, 1], wheel[:, 1].min(), color="#dfe8f3", linewidth=0,
+    axes.fill_between(wheel[:, 0], wheel[:, 1], wheel[:, 1].min(), color=PALE, linewidth=0,
                       zorder=1)
     axes.plot(wheel[:, 0], wheel[:, 1], color="#0b3c78", linewidth=2.0, zorder=3)
     axes.plot(rail[:, 0], rail[:, 1], color="#444444", linewidth=2.0, zorder=3)

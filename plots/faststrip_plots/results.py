@@ -12,6 +12,8 @@ import numpy as np
 from .tables import InputError, Table, read_table
 
 SHIFT_TOLERANCE = 1e-6  # mm; two shifts closer than this are the same case
+# status words of rows with a result: all well, or a limitation that has a name
+RESULTS = ("ok", "fallback_used", "edge_of_data", "fewer_strips")
 LOAD_TOLERANCE = 0.01  # relative; a larger difference means the cases are not the same
 
 
@@ -59,13 +61,14 @@ def revision(table: Table) -> Optional[str]:
 class MethodSweep:
     """The sweep by one combination of methods, by ascending shift; failed rows hold NaN."""
 
-    def __init__(self, normal, tangential, yw, load, values, failures):
+    def __init__(self, normal, tangential, yw, load, values, failures, limitations):
         self.normal = normal
         self.tangential = tangential
         self.yw = yw
         self.load = load
         self.values = values
-        self.failures = failures  # how often each status other than ok
+        self.failures = failures  # how often each status without a result
+        self.limitations = limitations  # how often each named limitation of a result
         self.ok = ~np.isnan(values[_FIGURES[0]])
 
     @property
@@ -115,7 +118,7 @@ def read_sweep(path: str) -> Sweep:
     load = table.numbers("N_N", missing=True)
     columns = {n: table.numbers(n, missing=True) for n in _FIGURES + _TIME_COLUMNS}
     complete = ~np.isnan([load] + [columns[name] for name in _FIGURES]).any(axis=0)
-    ok = complete & np.array([word.lower() == "ok" for word in status])
+    ok = complete & np.array([word in RESULTS for word in status])
     keys = list(zip(table.words("normal"), table.words("tangential")))
     methods = []
     for key in dict.fromkeys(keys):
@@ -128,10 +131,13 @@ def read_sweep(path: str) -> Sweep:
                     f" ({path}:{table.lines[max(first, second)]})"
                 )
         failures = Counter(
-            "incomplete" if status[k].lower() == "ok" else status[k] for k in rows if not ok[k]
+            "incomplete" if status[k] in RESULTS else status[k] for k in rows if not ok[k]
         )
-        values = {name: np.where(ok[rows], column[rows], np.nan) for name, column in columns.items()}
-        methods.append(MethodSweep(key[0], key[1], yw[rows], load[rows], values, failures))
+        limitations = Counter(status[k] for k in rows if ok[k] and status[k] != "ok")
+        values = {name: np.where(ok[rows], c[rows], np.nan) for name, c in columns.items()}
+        methods.append(
+            MethodSweep(key[0], key[1], yw[rows], load[rows], values, failures, limitations)
+        )
     return Sweep(path, methods, revision(table))
 
 

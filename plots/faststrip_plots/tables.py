@@ -104,7 +104,7 @@ def _lines(path):
 
 
 def _cells(text):
-    return [cell.strip() for cell in next(csv.reader([text]))]
+    return [cell.strip() for cell in next(csv.reader([text], skipinitialspace=True))]
 
 
 def _check_header(header, path, number):

@@ -1,0 +1,216 @@
+"""The pictures: written, not empty, marked with the revision; bad input refused in one line."""
+
+import subprocess
+import sys
+import unittest
+
+from plot_samples import (
+    PLOTS, Folder, failed_row, fields_text, gap_text, grid_text, hertz_row, profiles_text,
+    reference_text, strips_text, sweep_row, sweep_text,
+)
+
+FILES = {
+    "out/sweep.csv": sweep_text(
+        *[sweep_row(yw) for yw in (-1, 0, 1)],
+        hertz_row(-1, Fx_N=5000.0), hertz_row(0), failed_row(1),
+        *[sweep_row(yw, tangential="fastsim", Fx_N=900.0) for yw in (-1, 0, 1)],
+    ),
+    "out/profiles_shift_0.csv": profiles_text(),
+    "out/strips_shift_0.csv": strips_text(),
+    "out/fields_shift_0.csv": fields_text(),
+    "reference/contact/s1002_uic60_B.csv": reference_text(-1, 0, 1),
+    "reference/contact/fields/shift_0_B.csv": grid_text(),
+    "gap.csv": gap_text(),
+}
+PICTURES = {
+    "profiles": ("out/profiles_shift_0.png",),
+    "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
+    "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
+    "overview": ("out/overview.png",),
+}
+COLUMNS = {
+    "profiles": ("out/profiles_shift_0.csv", "z_mm"),
+    "patches": ("out/strips_shift_0.csv", "half_length_mm"),
+    "sweep": ("out/sweep.csv", "Mz_Nmm"),
+    "overview": ("out/fields_shift_0.csv", "pn_MPa"),
+}
+
+
+class Pictures(unittest.TestCase):
+    def assert_picture(self, path):
+        import matplotlib.image
+
+        self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        pixels = matplotlib.image.imread(path)
+        self.assertGreater(min(pixels.shape[:2]), 400)
+        self.assertGreater(pixels.std(), 0.05, "nothing is drawn")
+
+    def drawn(self, command, *arguments, files=FILES, pictures=None):
+        with Folder(files) as folder:
+            status, out, err = folder.run(command, *arguments)
+            self.assertEqual((status, err), (0, ""))
+            for name in pictures or PICTURES[command]:
+                self.assert_picture(folder.path / name)
+                self.assertIn(name, out)
+            return out
+
+    def test_every_command_draws_from_its_default_files(self):
+        for command in PICTURES:
+            with self.subTest(command):
+                self.drawn(command)
+
+    def test_profiles_with_the_gap_and_another_name(self):
+        self.drawn("profiles", "--gap", "gap.csv", "-o", "new/p.png", pictures=["new/p.png"])
+
+    def test_patches_without_contact_and_without_hertz(self):
+        files = dict(FILES)
+        del files["reference/contact/fields/shift_0_B.csv"]
+        files["out/sweep.csv"] = sweep_text(sweep_row(0), failed_row(0))
+        self.assertIn("no Hertz result at shift 0", self.drawn("patches", files=files))
+
+    def test_two_patches(self):
+        files = {**FILES, "out/strips_shift_0.csv": strips_text(2),
+                 "out/fields_shift_0.csv": fields_text(2)}
+        self.drawn("patches", "--no-contact", files=files)
+
+    def test_negative_shift_finds_its_files(self):
+        files = {name.replace("shift_0", "shift_-1.5"): text for name, text in FILES.items()}
+        self.drawn("patches", "--shift", "-1.5", files=files,
+                   pictures=["out/patch_shift_-1.5.png", "out/pressure_shift_-1.5.png"])
+
+    def test_sweep_alone(self):
+        files = {"s.csv": FILES["out/sweep.csv"]}
+        self.drawn("sweep", "--sweep", "s.csv", "--no-reference", "--folder", "p", files=files,
+                   pictures=["p/sweep_normal.png", "p/sweep_tangential.png"])
+
+    def test_sweep_counts_skipped_rows(self):
+        out = self.drawn("sweep")
+        self.assertIn("hertz with fastsim: 1 of 3 rows without a result skipped"
+                      " (1 no_hertz_ellipse)", out)
+
+    def test_sweep_with_methods_not_known_here(self):
+        rows = [sweep_row(yw, normal="variational", tangential="variational") for yw in (0, 1)]
+        self.drawn("sweep", files={**FILES, "out/sweep.csv": sweep_text(*rows)})
+
+    def test_sweep_with_a_single_strip(self):
+        text = "\n".join(strips_text().splitlines()[:4]) + "\n"
+        self.drawn("patches", files={**FILES, "out/strips_shift_0.csv": text})
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, command, files, words, *arguments):
+        with Folder(files) as folder:
+            status, out, err = folder.run(command, *arguments)
+            self.assertEqual(status, 1, err)
+            self.assertEqual(err.count("\n"), 1, err)
+            self.assertIn(words, err)
+            for name in PICTURES[command]:
+                self.assertFalse((folder.path / name).exists())
+
+    def test_missing_file_column_and_data_or_not_a_number(self):
+        for command, (name, column) in COLUMNS.items():
+            text = FILES[name]
+            header = text.splitlines()[2]
+            place = header.split(",").index(column)
+            lines = text.splitlines()
+            cells = lines[4].split(",")
+            cells[place] = "x1"
+            wrong = "\n".join(lines[:4] + [",".join(cells)] + lines[5:]) + "\n"
+            for kind, files, words in (
+                ("file", {k: v for k, v in FILES.items() if k != name}, f"no such file: {name}"),
+                ("column", {**FILES, name: text.replace(column, "other")},
+                 f"missing column: {column} ({name}:3)"),
+                ("number", {**FILES, name: wrong},
+                 f"not a finite number in column {column}: x1 ({name}:5)"),
+                ("rows", {**FILES, name: header + "\n"},
+                 f"no row of data below the header: {name}"),
+                ("text", {**FILES, name: ""}, f"the file is empty: {name}"),
+            ):
+                with self.subTest(command=command, kind=kind):
+                    self.refused(command, files, words)
+
+    def test_body_not_known(self):
+        name = "out/profiles_shift_0.csv"
+        text = FILES[name].replace("rail", "track")
+        self.refused("profiles", {**FILES, name: text},
+                     "neither wheel nor rail in column body: track")
+
+    def test_one_body_only(self):
+        name = "out/profiles_shift_0.csv"
+        text = FILES[name].replace("rail", "wheel")
+        self.refused("profiles", {**FILES, name: text}, "fewer than 2 points of the rail")
+
+    def test_profiles_apart(self):
+        name = "out/profiles_shift_0.csv"
+        text = FILES[name].replace("rail,7", "rail,9")
+        self.refused("profiles", {**FILES, name: text}, "wheel and rail do not overlap")
+
+    def test_gap_that_does_not_ascend(self):
+        lines = FILES["gap.csv"].splitlines()
+        text = "\n".join(lines[:3] + [lines[4], lines[3]]) + "\n"
+        self.refused("profiles", {**FILES, "gap.csv": text},
+                     "y_mm does not ascend: -10 (gap.csv:5)", "--gap", "gap.csv")
+
+    def test_strip_outside_its_edges(self):
+        name = "out/strips_shift_0.csv"
+        self.refused("patches", {**FILES, name: FILES[name].replace(",-2.5,", ",2.5,")},
+                     f"y_mm is not between the edges of its strip: 2.5 ({name}:4)")
+
+    def test_no_pressure(self):
+        name = "reference/contact/fields/shift_0_B.csv"
+        text = "x_mm,y_mm,pn_MPa\n0,0,0\n"
+        self.refused("patches", {**FILES, name: text},
+                     f"no pressure above zero in column pn_MPa: {name}")
+
+    def test_single_grid_point(self):
+        name = "reference/contact/fields/shift_0_B.csv"
+        self.refused("patches", {**FILES, name: "x_mm,y_mm,pn_MPa\n0,0,1\n"},
+                     f"a single point is not a grid: {name}")
+
+    def test_fields_of_another_contact(self):
+        name = "out/fields_shift_0.csv"
+        text = FILES[name].replace(",-2.5,", ",-62.5,")
+        self.refused("patches", {**FILES, name: text},
+                     "no field points in the strip at y_mm = -2.5")
+
+    def test_picture_that_cannot_be_written(self):
+        with Folder({**FILES, "taken": ""}) as folder:
+            status, _, err = folder.run("profiles", "-o", "taken/p.png")
+        self.assertEqual(status, 1)
+        self.assertIn("cannot write: taken/p.png", err)
+
+    def test_binary_file(self):
+        with Folder(FILES) as folder:
+            (folder.path / "out/sweep.csv").write_bytes(b"\xff\xfe\x00\x81")
+            status, _, err = folder.run("sweep")
+        self.assertEqual(status, 1)
+        self.assertIn("not a text file: out/sweep.csv", err)
+
+
+class CommandLine(unittest.TestCase):
+    """The commands as programs of their own."""
+
+    def run_program(self, command, *arguments):
+        return subprocess.run([sys.executable, str(PLOTS / f"{command}.py"), *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              timeout=120, check=False)
+
+    def test_error_is_one_line_and_exit_1(self):
+        result = self.run_program("sweep", "--sweep", "not/there.csv")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr, "sweep.py: no such file: not/there.csv\n")
+        self.assertEqual(result.stdout, "")
+
+    def test_help_and_usage(self):
+        for command in (*PICTURES, "accuracy"):
+            with self.subTest(command), Folder({}) as folder:
+                status, out, _ = folder.run(command, "--help")
+                self.assertEqual(status, 0)
+                self.assertIn("usage:", out)
+                status, _, err = folder.run(command, "--nonsense")
+                self.assertEqual(status, 2)
+                self.assertIn("--nonsense", err)
+
+
+if __name__ == "__main__":
+    unittest.main()
