@@ -1,32 +1,62 @@
-!> The influence of a strip at a point off its centre line, by quadrature that knows the kernel.
+!> The influence of a strip at a point off its centre line, with derivatives.
 !>
 !> With `u` along the strip that carries the pressure, `X = x/xd` and edges `c = e/xd`,
 !>
 !>     G(X, cr) - G(X, cl) = int_{-1}^{1} sqrt(1 - u^2) ker(u - X) du,
-!>     ker(delta) = asinh(cr/|delta|) - asinh(cl/|delta|) = log(1 + d),
+!>     ker(delta) = asinh(cr/|delta|) - asinh(cl/|delta|) = ln(1 + d),
 !>     d = (cr - cl) [1 + (cr + cl)/(s_r + s_l)] / (cl + s_l),   s = sqrt(delta^2 + c^2),
 !>
-!> the inner integral of eq. (18)-(20) with source and field exchanged. The kernel is singular at
-!> `delta = +-i cl`, so in `u = cos(theta)` the trapezium rule with N nodes errs by
-!> `exp(-2 N acosh(sigma))`, `sigma = (hypot(X - 1, cl) + hypot(X + 1, cl))/2`. Close to the strip
-!> a folded double-exponential rule takes over.
+!> the inner integral of eq. (18)-(20) with source and field exchanged, even in X. Derivatives need
+!> two more integrals of the same kernel (edges and half-length in mm, I = xd [G(cr) - G(cl)]):
+!>
+!>     dI/dx = - int u/sqrt(1 - u^2) ker du,    dI/dxd = int u^2/sqrt(1 - u^2) ker du.
+!>
+!> For 0 <= cl < cr the kernel is singular at `delta = +-i cl`, `+-i cr` (a logarithm at 0 for
+!> cl = 0), and the rule is chosen by how near that is:
+!>
+!> 1. far: `u = cos(theta)`, trapezium rule of N nodes, error `exp(-2 (N - 1) acosh(sigma))`,
+!>    `sigma = (hypot(X - 1, cl) + hypot(X + 1, cl))/2`;
+!> 2. thin strips well inside the ends: the series in powers of c;
+!> 3. near: `u = X + c sinh(t)`, which moves the singularity to `Im t >= pi/2`, then
+!>    `t = mid + half cos(phi)`, trapezium rule in phi;
+!> 4. field point on the strip's edge (cl = 0, |X| <= 1): `ker = ln(cr + s_r) - ln|delta|`, the
+!>    second part known exactly and the first by 1. or 3.; where that cancels (small cr), a folded
+!>    double-exponential rule on both sides of the field point.
+!>
+!> Edges on both sides of the field point make two such problems. Arguments that are not finite
+!> give quiet NaNs; a strip of no length or no width has no influence. Nothing here raises a
+!> floating-point exception.
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp, pi
+    use faststrip_influence_closed, only: strip_influence_edges, influence_primitive_slope
     implicit none
     private
 
-    public :: strip_influence_gradient
+    public :: strip_influence_at, strip_influence_gradient
 
-    integer :: i_
+    integer :: i_, k_
 
-    ! Nodes u = cos(theta) of the trapezium (midpoint) rule in theta.
-    real(wp), parameter :: u4(4) = cos([(pi*(i_ - 0.5_wp)/4, i_=1, 4)])
-    real(wp), parameter :: u8(8) = cos([(pi*(i_ - 0.5_wp)/8, i_=1, 8)])
-    real(wp), parameter :: u12(12) = cos([(pi*(i_ - 0.5_wp)/12, i_=1, 12)])
-    real(wp), parameter :: u16(16) = cos([(pi*(i_ - 0.5_wp)/16, i_=1, 16)])
-    real(wp), parameter :: u24(24) = cos([(pi*(i_ - 0.5_wp)/24, i_=1, 24)])
-    real(wp), parameter :: u32(32) = cos([(pi*(i_ - 0.5_wp)/32, i_=1, 32)])
+    ! Trapezium (midpoint) rules in the angle; the cosines and sines of their nodes.
+    integer, parameter :: n_rules = 11
+    integer, parameter :: rule_size(n_rules) = [4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192]
+    integer, parameter :: rule_start(n_rules) = [(sum(rule_size(:i_)) - rule_size(i_) + 1, &
+                                                  i_=1, n_rules)]
+    integer, parameter :: n_nodes = sum(rule_size)
+    real(wp), parameter :: angle(n_nodes) = &
+        [((pi*(i_ - 0.5_wp)/rule_size(k_), i_=1, rule_size(k_)), k_=1, n_rules)]
+    real(wp), parameter :: cosine(n_nodes) = cos(angle)
+    real(wp), parameter :: sine(n_nodes) = sin(angle)
+
+    ! An accuracy exp(-digits) is reached by rule k for sigma >= far_limit(k), and for half the
+    ! length of the interval in t up to near_limit(k).
+    real(wp), parameter :: value_digits = 36.5_wp
+    real(wp), parameter :: gradient_digits = 25.0_wp
+    real(wp), parameter :: value_far(n_rules) = cosh(0.5_wp*value_digits/(rule_size - 1))
+    real(wp), parameter :: gradient_far(n_rules) = cosh(0.5_wp*gradient_digits/(rule_size - 1))
+    real(wp), parameter :: value_near(n_rules) = 0.5_wp*pi/sinh(0.5_wp*value_digits/rule_size)
+    real(wp), parameter :: gradient_near(n_rules) = &
+        0.5_wp*pi/sinh(0.5_wp*gradient_digits/rule_size)
 
     ! The folded double-exponential rule on [0,1]: abscissae y and weights.
     integer, parameter :: n_fold = 128
@@ -37,21 +67,68 @@ module faststrip_influence_offcentre
     real(wp), parameter :: w_fold(n_fold) = &
         w_end*h_fold*(cosh(t_fold) + 1.0_wp)*0.5_wp*y_fold*(2.0_wp - y_fold)
 
+    real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
+
+    !> What one accuracy asks of the rules.
+    type :: demand_t
+        real(wp) :: far(n_rules)  ! least sigma of each far rule
+        real(wp) :: near(n_rules) ! largest half interval of each near rule
+        integer :: last_far       ! largest far rule worth its price
+        real(wp) :: thin          ! largest cr/(1 - |X|) of the series
+        integer :: terms          ! of the series
+        real(wp) :: loss          ! largest cr/(cr - cl) when primitives are subtracted
+        real(wp) :: split         ! least cr for taking the logarithm apart
+    end type demand_t
+
+    integer, parameter :: max_terms = 12
+    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 7, 0.1_wp, 10, &
+                                                      20.0_wp, 0.5_wp)
+    type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 5, 0.2_wp, &
+                                                         10, 1.0e3_wp, 1.0e-3_wp)
+
+    ! Lengths this many times the half-length see the strip as a point.
+    real(wp), parameter :: point_ratio = 1.0e60_wp
+    ! Below this, an edge is on the field point.
+    real(wp), parameter :: on_the_edge = 1.0e-20_wp
+
 contains
 
+    !> G(X, c_right) - G(X, c_left): influence of a strip over its half-length at any point.
+    !> Even in x, antisymmetric in the edges.
+    pure real(wp) function strip_influence_at(x, c_left, c_right) result(value)
+        real(wp), intent(in) :: x       !! X, field point along the strip over the half-length
+        real(wp), intent(in) :: c_left  !! left edge less the field point's y over the half-length
+        real(wp), intent(in) :: c_right !! right edge less the field point's y over the half-length
+
+        real(wp) :: m(3)
+
+        if (.not. (ieee_is_finite(x) .and. ieee_is_finite(c_left) &
+                   .and. ieee_is_finite(c_right))) then
+            value = ieee_value(value, ieee_quiet_nan)
+        else if (.not. abs(x) > 0.0_wp) then
+            value = strip_influence_edges(c_left, c_right)
+        else
+            call any_edges(abs(x), 1.0_wp, min(c_left, c_right), max(c_left, c_right), &
+                           for_value, m)
+            value = m(1)
+            if (c_left > c_right) value = -value
+        end if
+    end function strip_influence_at
+
     !> Influence of a strip and its derivatives with respect to the place of the field point along
-    !> the strip and to the half-length, at fixed edges; relative error 1e-10.
+    !> the strip and to the half-length, both at fixed edges. Relative error 1e-10 (the value too;
+    !> `strip_influence_at` has more digits). d_x is odd in x, 0 at x = 0.
     pure subroutine strip_influence_gradient(x, half_length, e_left, e_right, value, d_x, &
                                              d_half_length)
         real(wp), intent(in) :: x              !! field point along the strip, mm
         real(wp), intent(in) :: half_length    !! xd of the strip that carries the pressure, mm
         real(wp), intent(in) :: e_left         !! its left edge less the field point's y, mm
         real(wp), intent(in) :: e_right        !! its right edge less the field point's y, mm
-        real(wp), intent(out) :: value         !! influence I, mm
+        real(wp), intent(out) :: value         !! influence I, mm; 0 for half_length <= 0
         real(wp), intent(out) :: d_x           !! dI/dx
         real(wp), intent(out) :: d_half_length !! dI/dxd
 
-        real(wp) :: place, cl, cr, part(3), other(3)
+        real(wp) :: m(3)
 
         if (.not. (ieee_is_finite(x) .and. ieee_is_finite(half_length) &
                    .and. ieee_is_finite(e_left) .and. ieee_is_finite(e_right))) then
@@ -60,166 +137,431 @@ contains
             d_half_length = value
             return
         end if
-        if (half_length <= 0.0_wp) then
-            value = 0.0_wp
-            d_x = 0.0_wp
-            d_half_length = 0.0_wp
-            return
-        end if
-        place = abs(x)/half_length
-        cl = e_left/half_length
-        cr = e_right/half_length
-        if (cl >= 0.0_wp) then
-            call moments(place, cl, cr, part)
-        else if (cr <= 0.0_wp) then
-            call moments(place, -cr, -cl, part)
+        if (half_length > 0.0_wp) then
+            call any_edges(abs(x), half_length, min(e_left, e_right), max(e_left, e_right), &
+                           for_gradient, m)
         else
-            call moments(place, 0.0_wp, cr, part)
-            if (cl == -cr) then
-                other = part
-            else
-                call moments(place, 0.0_wp, -cl, other)
-            end if
-            part = part + other
+            m = 0.0_wp
         end if
-        value = half_length*part(1)
-        d_half_length = part(3)
-        if (x < 0.0_wp) then
-            d_x = -part(2)
-        else
-            d_x = part(2)
-        end if
+        if (e_left > e_right) m = -m
+        value = half_length*m(1)
+        d_x = m(2)
+        if (x < 0.0_wp) d_x = -d_x
+        d_half_length = m(3)
     end subroutine strip_influence_gradient
 
-    !> Value, derivative in X and `int u^2/sqrt(1-u^2) ker du`, for `0 <= cl < cr`.
-    pure subroutine moments(x, cl, cr, m)
-        real(wp), intent(in) :: x, cl, cr
+    !> The three integrals `int sqrt(1-u^2) ker`, its derivative in X, `int u^2/sqrt(1-u^2) ker` for
+    !> any edges el <= er, x >= 0.
+    pure subroutine any_edges(x, xd, el, er, demand, m)
+        real(wp), intent(in) :: x, xd, el, er
+        type(demand_t), intent(in) :: demand
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: sigma
+        real(wp) :: other(3)
 
-        sigma = 0.5_wp*(hypot(x - 1.0_wp, cl) + hypot(x + 1.0_wp, cl))
-        if (sigma > 20.0_wp) then
-            call far_moments(u4, x, cl, cr, m)
-        else if (sigma > 3.0_wp) then
-            call far_moments(u8, x, cl, cr, m)
-        else if (sigma > 1.59_wp) then
-            call far_moments(u12, x, cl, cr, m)
-        else if (sigma > 1.32_wp) then
-            call far_moments(u16, x, cl, cr, m)
-        else if (sigma > 1.139_wp) then
-            call far_moments(u24, x, cl, cr, m)
-        else if (sigma > 1.078_wp) then
-            call far_moments(u32, x, cl, cr, m)
-        else if (x < 1.0_wp) then
-            call near_moments(x, cl, cr, m)
+        if (el >= 0.0_wp) then
+            call one_side(x, xd, el, er, demand, m)
+        else if (er <= 0.0_wp) then
+            call one_side(x, xd, -er, -el, demand, m)
         else
-            call tip_moments(x, cl, cr, m)
+            call one_side(x, xd, 0.0_wp, er, demand, m)
+            if (-el < er .or. -el > er) then
+                call one_side(x, xd, 0.0_wp, -el, demand, other)
+                m = m + other
+            else
+                m = 2.0_wp*m
+            end if
         end if
-    end subroutine moments
+        if (.not. x > 0.0_wp) m(2) = 0.0_wp
+    end subroutine any_edges
+
+    !> The same for 0 <= el <= er: scaling, and the limit of a point source.
+    pure subroutine one_side(x, xd, el, er, demand, m)
+        real(wp), intent(in) :: x, xd, el, er
+        type(demand_t), intent(in) :: demand
+        real(wp), intent(out) :: m(3)
+
+        real(wp), parameter :: largest_scaled = 1.0e240_wp
+        real(wp) :: reach, cr
+
+        reach = point_ratio*min(xd, largest_scaled)
+        if (x > reach .or. el > reach) then
+            call point_moments(x, xd, el, er, m)
+        else if (er > reach) then
+            cr = reach/xd
+            call unit_moments(x/xd, el/xd, cr, demand, m)
+            m(1) = m(1) + 0.5_wp*pi*(log(er) - log(reach))
+            m(3) = m(3) + 0.5_wp*pi*(log(er) - log(reach))
+        else
+            call unit_moments(x/xd, el/xd, er/xd, demand, m)
+        end if
+    end subroutine one_side
+
+    !> A strip so short that it is a point: `(pi/2) ker(x)`.
+    pure subroutine point_moments(x, xd, el, er, m)
+        real(wp), intent(in) :: x, xd, el, er
+        real(wp), intent(out) :: m(3)
+
+        real(wp), parameter :: scale = 2.0_wp**(-700)
+        real(wp) :: xs, cl, cr, sl, sr
+
+        xs = x*scale
+        cl = el*scale
+        cr = er*scale
+        sl = hypot(xs, cl)
+        sr = hypot(xs, cr)
+        m = 0.0_wp
+        if (.not. (sl > 0.0_wp .and. cr > cl)) return
+        m(1) = 0.5_wp*pi*log_1p((cr - cl)/(cl + sl)*(1.0_wp + (cr + cl)/(sr + sl)))
+        m(2) = -0.5_wp*pi*xd*scale*(xs/sl)*((cr - cl)/sr)/sl*((cr + cl)/(cr + cl*(sr/sl)))
+        m(3) = m(1)
+    end subroutine point_moments
+
+    !> The same for X >= 0, 0 <= cl <= cr in half-lengths: choose the rule.
+    pure subroutine unit_moments(x, cl, cr, demand, m)
+        real(wp), intent(in) :: x, cl, cr
+        type(demand_t), intent(in) :: demand
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: sigma, other(3)
+        integer :: rule
+
+        m = 0.0_wp
+        if (.not. cr > cl) return
+        sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cl*cl) + sqrt((x + 1.0_wp)**2 + cl*cl))
+        rule = least_far_rule(sigma, demand)
+        if (rule <= demand%last_far) then
+            call far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
+        else if (cr <= demand%thin*(1.0_wp - x) .and. cr <= demand%loss*(cr - cl)) then
+            call series_moments(x, cl, cr, demand%terms, m)
+        else if (x > 1.0_wp .or. cl > on_the_edge) then
+            call near_moments(x, cl, cr, max(cl, x - 1.0_wp), demand, m)
+        else if (cr >= demand%split) then
+            sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cr*cr) + sqrt((x + 1.0_wp)**2 + cr*cr))
+            rule = least_far_rule(sigma, demand)
+            if (rule <= demand%last_far) then
+                call smooth_far_moments(rule_size(rule), cosine(rule_start(rule)), x, cr, m)
+            else
+                call smooth_near_moments(x, cr, demand, m)
+            end if
+            call logarithm_moments(x, other)
+            m = m - other
+        else
+            call folded_moments(x, cl, cr, m)
+        end if
+    end subroutine unit_moments
+
+    !> The smallest trapezium rule in theta that is accurate enough; n_rules + 1 if none is.
+    pure integer function least_far_rule(sigma, demand) result(rule)
+        real(wp), intent(in) :: sigma
+        type(demand_t), intent(in) :: demand
+
+        do rule = 1, n_rules
+            if (sigma >= demand%far(rule)) exit
+        end do
+    end function least_far_rule
+
+    !> The smallest trapezium rule in phi that is accurate enough; the largest if none is.
+    pure integer function least_near_rule(half, demand) result(rule)
+        real(wp), intent(in) :: half
+        type(demand_t), intent(in) :: demand
+
+        do rule = 1, n_rules - 1
+            if (half <= demand%near(rule)) exit
+        end do
+    end function least_near_rule
+
+    !> ln(1 + d), d >= 0, with all its digits.
+    pure real(wp) function log_1p(d)
+        real(wp), intent(in) :: d
+
+        real(wp) :: one_d
+
+        one_d = 1.0_wp + d
+        log_1p = log(one_d) + (d - (one_d - 1.0_wp))/one_d
+    end function log_1p
 
     !> Trapezium rule in theta. The derivative in X comes from that of the kernel: no logarithm
     !> and no cancellation in the far field.
-    pure subroutine far_moments(u, x, cl, cr, m)
-        real(wp), intent(in) :: u(:)
+    pure subroutine far_moments(n, u, x, cl, cr, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: u(n)
         real(wp), intent(in) :: x, cl, cr
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: delta, sl, sr, d, one_d, ker, m0, m1, m2
+        real(wp) :: delta, sl, sr, d, one_d, ker, uu, m0, m1, m2
         integer :: j
 
         m0 = 0.0_wp
         m1 = 0.0_wp
         m2 = 0.0_wp
-        !$omp simd private(delta, sl, sr, d, one_d, ker) reduction(+:m0, m1, m2)
-        do j = 1, size(u)
+        !$omp simd private(delta, sl, sr, d, one_d, ker, uu) reduction(+:m0, m1, m2)
+        do j = 1, n
             delta = u(j) - x
             sl = sqrt(delta*delta + cl*cl)
             sr = sqrt(delta*delta + cr*cr)
-            d = (cr - cl)*(1.0_wp + (cr + cl)/(sr + sl))/(cl + sl)
+            d = (cr - cl)*(sr + sl + cr + cl)/((sr + sl)*(cl + sl))
             one_d = 1.0_wp + d
             ker = log(one_d) + (d - (one_d - 1.0_wp))/one_d
-            m0 = m0 + (1.0_wp - u(j)*u(j))*ker
-            m2 = m2 + u(j)*u(j)*ker
-            m1 = m1 + (1.0_wp - u(j)*u(j))*delta/(sr*sl*(cr*sl + cl*sr))
+            uu = u(j)*u(j)
+            m0 = m0 + (1.0_wp - uu)*ker
+            m2 = m2 + uu*ker
+            m1 = m1 + (1.0_wp - uu)*delta/(sr*sl*(cr*sl + cl*sr))
         end do
-        m(1) = pi/size(u)*m0
-        m(2) = pi/size(u)*(cr - cl)*(cr + cl)*m1
-        m(3) = pi/size(u)*m2
+        m(1) = pi/n*m0
+        m(2) = pi/n*(cr - cl)*(cr + cl)*m1
+        m(3) = pi/n*m2
     end subroutine far_moments
 
-    !> Double-exponential rule on both sides of the field point, `0 <= X < 1`.
-    pure subroutine near_moments(x, cl, cr, m)
-        real(wp), intent(in) :: x, cl, cr
+    !> Trapezium rule in phi, `u = X + c sinh(mid + half cos(phi))`.
+    pure subroutine near_moments(x, cl, cr, c, demand, m)
+        real(wp), intent(in) :: x, cl, cr, c
+        type(demand_t), intent(in) :: demand
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: side, y, q, u, delta, sl, sr, d, one_d, ker, f, m0, m1, m2
-        integer :: j, k
+        real(wp) :: t_left, t_right, mid, half
+        integer :: rule
 
-        m = 0.0_wp
-        side = x
-        do k = 1, 2
-            m0 = 0.0_wp
-            m1 = 0.0_wp
-            m2 = 0.0_wp
-            !$omp simd private(y, q, u, delta, sl, sr, d, one_d, ker, f) reduction(+:m0, m1, m2)
-            do j = 1, n_fold
-                y = y_fold(j)
-                q = y*(2.0_wp - y)
-                delta = (1.0_wp - side)*q
-                sl = sqrt(delta*delta + cl*cl)
-                sr = sqrt(delta*delta + cr*cr)
-                d = (cr - cl)*(1.0_wp + (cr + cl)/(sr + sl))/(cl + sl)
-                one_d = 1.0_wp + d
-                ker = log(one_d) + (d - (one_d - 1.0_wp))/one_d
-                f = 1.0_wp + side + delta
-                u = side + delta
-                ker = ker*w_fold(j)/sqrt(f)
-                m0 = m0 + f*(1.0_wp - y)**2*ker
-                m1 = m1 + u*ker
-                m2 = m2 + u*u*ker
-            end do
-            f = 2.0_wp*sqrt(1.0_wp - side)
-            m(1) = m(1) + f*(1.0_wp - side)*m0
-            if (k == 1) then
-                m(2) = m(2) - f*m1
-            else
-                m(2) = m(2) + f*m1
-            end if
-            m(3) = m(3) + f*m2
-            side = -side
-        end do
+        t_left = asinh(-(1.0_wp + x)/c)
+        t_right = asinh((1.0_wp - x)/c)
+        mid = 0.5_wp*(t_right + t_left)
+        half = 0.5_wp*(t_right - t_left)
+        rule = least_near_rule(half, demand)
+        call near_sums(rule_size(rule), cosine(rule_start(rule)), sine(rule_start(rule)), &
+                       x, cl, cr, c, mid, half, m)
     end subroutine near_moments
 
-    !> Double-exponential rule from the near end, `X >= 1`.
-    pure subroutine tip_moments(x, cl, cr, m)
-        real(wp), intent(in) :: x, cl, cr
+    pure subroutine near_sums(n, cos_phi, sin_phi, x, cl, cr, c, mid, half, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: cos_phi(n), sin_phi(n)
+        real(wp), intent(in) :: x, cl, cr, c, mid, half
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: y, q, u, delta, sl, sr, d, one_d, ker, m0, m1, m2
+        real(wp) :: e, delta, u, root, sl, sr, d, one_d, ker, m0, m1, m2
         integer :: j
 
         m0 = 0.0_wp
         m1 = 0.0_wp
         m2 = 0.0_wp
-        !$omp simd private(y, q, u, delta, sl, sr, d, one_d, ker) reduction(+:m0, m1, m2)
-        do j = 1, n_fold
-            y = y_fold(j)
-            q = y*(2.0_wp - y)
-            u = 1.0_wp - 2.0_wp*q*q
-            delta = x - 1.0_wp + 2.0_wp*q*q
+        !$omp simd private(e, delta, u, root, sl, sr, d, one_d, ker) reduction(+:m0, m1, m2)
+        do j = 1, n
+            e = exp(mid + half*cos_phi(j))
+            delta = 0.5_wp*c*(e - 1.0_wp/e)
+            u = x + delta
+            root = (1.0_wp - x - delta)*(1.0_wp + x + delta)
             sl = sqrt(delta*delta + cl*cl)
             sr = sqrt(delta*delta + cr*cr)
-            d = (cr - cl)*(1.0_wp + (cr + cl)/(sr + sl))/(cl + sl)
+            d = (cr - cl)*(sr + sl + cr + cl)/((sr + sl)*(cl + sl))
             one_d = 1.0_wp + d
             ker = log(one_d) + (d - (one_d - 1.0_wp))/one_d
-            ker = ker*w_fold(j)/sqrt(1.0_wp + q)
-            m0 = m0 + 4.0_wp*(q*(1.0_wp - y))**2*(1.0_wp + q)*ker
+            ker = ker*0.5_wp*c*(e + 1.0_wp/e)*sin_phi(j)/sqrt(root)
+            m0 = m0 + root*ker
             m1 = m1 + u*ker
             m2 = m2 + u*u*ker
         end do
-        m(1) = 4.0_wp*m0
-        m(2) = -4.0_wp*m1
-        m(3) = 4.0_wp*m2
-    end subroutine tip_moments
+        m(1) = pi/n*half*m0
+        m(2) = -pi/n*half*m1
+        m(3) = pi/n*half*m2
+    end subroutine near_sums
+
+    !> The part ln(c + s) of the kernel of an edge on the field point, trapezium rule in theta.
+    pure subroutine smooth_far_moments(n, u, x, c, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: u(n)
+        real(wp), intent(in) :: x, c
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: delta, s, ker, uu, m0, m1, m2
+        integer :: j
+
+        m0 = 0.0_wp
+        m1 = 0.0_wp
+        m2 = 0.0_wp
+        !$omp simd private(delta, s, ker, uu) reduction(+:m0, m1, m2)
+        do j = 1, n
+            delta = u(j) - x
+            s = sqrt(delta*delta + c*c)
+            ker = log(c + s)
+            uu = u(j)*u(j)
+            m0 = m0 + (1.0_wp - uu)*ker
+            m2 = m2 + uu*ker
+            m1 = m1 - (1.0_wp - uu)*delta/(s*(c + s))
+        end do
+        m(1) = pi/n*m0
+        m(2) = pi/n*m1
+        m(3) = pi/n*m2
+    end subroutine smooth_far_moments
+
+    !> The same, trapezium rule in phi.
+    pure subroutine smooth_near_moments(x, c, demand, m)
+        real(wp), intent(in) :: x, c
+        type(demand_t), intent(in) :: demand
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: t_left, t_right, mid, half
+        integer :: rule
+
+        t_left = asinh(-(1.0_wp + x)/c)
+        t_right = asinh((1.0_wp - x)/c)
+        mid = 0.5_wp*(t_right + t_left)
+        half = 0.5_wp*(t_right - t_left)
+        ! The nearest singularities are twice as far as those of a kernel with two edges.
+        rule = least_near_rule(0.5_wp*half, demand)
+        call smooth_near_sums(rule_size(rule), cosine(rule_start(rule)), sine(rule_start(rule)), &
+                              x, c, mid, half, m)
+    end subroutine smooth_near_moments
+
+    pure subroutine smooth_near_sums(n, cos_phi, sin_phi, x, c, mid, half, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: cos_phi(n), sin_phi(n)
+        real(wp), intent(in) :: x, c, mid, half
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: e, delta, u, root, s, ker, m0, m1, m2
+        integer :: j
+
+        m0 = 0.0_wp
+        m1 = 0.0_wp
+        m2 = 0.0_wp
+        !$omp simd private(e, delta, u, root, s, ker) reduction(+:m0, m1, m2)
+        do j = 1, n
+            e = exp(mid + half*cos_phi(j))
+            delta = 0.5_wp*c*(e - 1.0_wp/e)
+            s = 0.5_wp*c*(e + 1.0_wp/e)
+            u = x + delta
+            root = (1.0_wp - x - delta)*(1.0_wp + x + delta)
+            ker = log(c + s)*s*sin_phi(j)/sqrt(root)
+            m0 = m0 + root*ker
+            m1 = m1 + u*ker
+            m2 = m2 + u*u*ker
+        end do
+        m(1) = pi/n*half*m0
+        m(2) = -pi/n*half*m1
+        m(3) = pi/n*half*m2
+    end subroutine smooth_near_sums
+
+    !> The integrals of ln|u - X|, 0 <= X <= 1, exactly.
+    pure subroutine logarithm_moments(x, m)
+        real(wp), intent(in) :: x
+        real(wp), intent(out) :: m(3)
+
+        m(1) = 0.5_wp*pi*(x*x - 0.5_wp - log_2)
+        m(2) = pi*x
+        m(3) = 0.5_wp*pi*(0.5_wp - x*x - log_2)
+    end subroutine logarithm_moments
+
+    !> Series in powers of c, cr < 1 - X. The derivatives of f = sqrt(1 - X^2), of hh = 1/f and of
+    !> F = f (4 ln 2 - 2 + 2 ln w) + 2 X asin X, each times w^m, w = 1 - X^2, come by recurrence;
+    !>
+    !>     G = sum_k (-1)^k c^(2k+1)/(4^k k!^2 (2k+1)) [F^(2k) + 2 f^(2k) (H_k + 1/(2k+1) - ln c)]
+    pure subroutine series_moments(x, cl, cr, terms, m)
+        real(wp), intent(in) :: x, cl, cr
+        integer, intent(in) :: terms
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: w, hh(0:2*max_terms + 1), f(0:2*max_terms + 1), ff(0:2*max_terms + 1)
+        real(wp) :: log_w, right(3), left(3)
+        integer :: k
+
+        w = (1.0_wp - x)*(1.0_wp + x)
+        log_w = 4.0_wp*log_2 + 2.0_wp*log(w)
+        f(0) = sqrt(w)
+        hh(0) = 1.0_wp/f(0)
+        hh(1) = x*hh(0)
+        f(1) = -x*hh(0)*w
+        ff(0) = f(0)*(log_w - 2.0_wp) + 2.0_wp*x*asin(x)
+        ff(1) = w*(2.0_wp*asin(x) - x*hh(0)*log_w)
+        do k = 1, 2*terms - 2
+            hh(k + 1) = (2*k + 1)*x*hh(k) + k**2*w*hh(k - 1)
+            f(k + 1) = -w*(x*hh(k) + k*w*hh(k - 1))
+            ff(k + 1) = (2*k - 1)*x*ff(k) + ((k - 1)**2 - 1)*w*ff(k - 1) &
+                        + 4.0_wp*w*(hh(k - 1) - f(k - 1))
+        end do
+        call series_primitive(cr, w, terms, f, ff, right)
+        if (cl > 0.0_wp) then
+            call series_primitive(cl, w, terms, f, ff, left)
+            right = right - left
+        end if
+        m(1) = right(1)
+        m(2) = right(2)
+        m(3) = right(1) - x*right(2) - right(3)
+    end subroutine series_moments
+
+    !> G, G_X and c G_c from the scaled derivatives.
+    pure subroutine series_primitive(c, w, terms, f, ff, g)
+        real(wp), intent(in) :: c, w
+        integer, intent(in) :: terms
+        real(wp), intent(in) :: f(0:), ff(0:)
+        real(wp), intent(out) :: g(3)
+
+        real(wp) :: ratio, factor, harmonic, odd, log_c
+        integer :: k
+
+        g = 0.0_wp
+        log_c = log(c)
+        ratio = (c/w)**2
+        factor = c
+        harmonic = 0.0_wp
+        do k = 0, terms - 1
+            odd = 1.0_wp/(2*k + 1)
+            g(1) = g(1) + factor*odd*(ff(2*k) + 2.0_wp*f(2*k)*(harmonic + odd - log_c))
+            g(2) = g(2) + factor*odd*(ff(2*k + 1) + 2.0_wp*f(2*k + 1)*(harmonic + odd - log_c))
+            g(3) = g(3) + factor*(ff(2*k) + 2.0_wp*f(2*k)*(harmonic - log_c))
+            factor = -factor*ratio*0.25_wp/(k + 1)**2
+            harmonic = harmonic + 1.0_wp/(k + 1)
+        end do
+        g(2) = g(2)/w
+    end subroutine series_primitive
+
+    !> Double-exponential rule on both sides of the field point, 0 <= X <= 1.
+    pure subroutine folded_moments(x, cl, cr, m)
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: one_side(3)
+
+        call fold(-x, cl, cr, one_side)
+        m = one_side
+        if (x < 1.0_wp) then
+            call fold(x, cl, cr, one_side)
+            m(1) = m(1) + one_side(1)
+            m(2) = m(2) - one_side(2)
+            m(3) = m(3) + one_side(3)
+        end if
+    end subroutine folded_moments
+
+    !> The side of the field point where u runs from `place` to 1, -1 <= place < 1; at place = -1
+    !> in a variable without the end's square root.
+    pure subroutine fold(place, cl, cr, m)
+        real(wp), intent(in) :: place, cl, cr
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: y, q, u, delta, sl, sr, d, one_d, ker, f, m0, m1, m2
+        integer :: j
+
+        m0 = 0.0_wp
+        m1 = 0.0_wp
+        m2 = 0.0_wp
+        !$omp simd private(y, q, u, delta, sl, sr, d, one_d, ker, f) reduction(+:m0, m1, m2)
+        do j = 1, n_fold
+            y = y_fold(j)
+            q = y*(2.0_wp - y)
+            delta = (1.0_wp - place)*q
+            f = 1.0_wp + place + delta
+            u = place + delta
+            sl = sqrt(delta*delta + cl*cl)
+            sr = sqrt(delta*delta + cr*cr)
+            d = (cr - cl)*(sr + sl + cr + cl)/((sr + sl)*(cl + sl))
+            one_d = 1.0_wp + d
+            ker = log(one_d) + (d - (one_d - 1.0_wp))/one_d
+            ker = ker*w_fold(j)/sqrt(f)
+            m0 = m0 + f*(1.0_wp - y)**2*ker
+            m1 = m1 + u*ker
+            m2 = m2 + u*u*ker
+        end do
+        f = 2.0_wp*sqrt(1.0_wp - place)
+        m(1) = f*(1.0_wp - place)*m0
+        m(2) = f*m1
+        m(3) = f*m2
+    end subroutine fold
 end module faststrip_influence_offcentre
