@@ -1,7 +1,42 @@
 !> The command line of faststrip.
 program faststrip_main
-    use faststrip_app_revision, only: revision
+    use faststrip_app_console, only: say, usage_error, version_text
+    use faststrip_app_options, only: command_argument
+    use faststrip_app_integral, only: run_integral
+    use faststrip_app_contact, only: run_contact
+    use faststrip_app_batch, only: run_batch
+    use faststrip_app_sweep, only: run_sweep
     implicit none
 
-    print '(a)', 'faststrip 0.1.0 rev ' // revision
+    if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
+    select case (command_argument(1))
+    case ('integral'); call run_integral()
+    case ('contact'); call run_contact()
+    case ('batch'); call run_batch()
+    case ('sweep'); call run_sweep()
+    case ('--help', '-h', 'help'); call print_help()
+    case ('--version', '-V'); call say(version_text())
+    case default
+        if (index(command_argument(1), '-') == 1) &
+            call usage_error('unknown option: ' // command_argument(1), '')
+        call usage_error('unknown subcommand: ' // command_argument(1), '')
+    end select
+
+contains
+
+    subroutine print_help()
+        call say('usage: faststrip SUBCOMMAND [arguments] [options]')
+        call say('')
+        call say('Wheel/rail contact by the modified strip method of Lack and Gerlici (2014).')
+        call say('')
+        call say('  integral               influence integrals of strips')
+        call say('  contact CASE.nml       one contact, from two profiles or a gap file')
+        call say('  batch CASES.csv        one contact per row of a CSV file')
+        call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
+        call say('')
+        call say('  SUBCOMMAND --help      what a subcommand takes')
+        call say('  --version              name, version and revision')
+        call say('')
+        call say('Units are mm, N, MPa, rad. Exit codes: 1 bad input, 2 usage, 3 no convergence.')
+    end subroutine print_help
 end program faststrip_main

@@ -1,0 +1,137 @@
+!> `faststrip batch`: one contact a row of a CSV file.
+module faststrip_app_batch
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error
+    use faststrip_text, only: integer_text
+    use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
+                             cell_number, open_csv, put_cell, end_row, close_csv, csv_text_t
+    use faststrip_material, only: material_t
+    use faststrip_creepage, only: creepage_t
+    use faststrip_profile_gap, only: gap_t
+    use faststrip_profile_gap_file, only: read_gap_file
+    use faststrip_app_console, only: fail, fail_on_error, note, progress, usage_error, put_origin, &
+                                     exit_bad_input
+    use faststrip_app_options, only: command_t, option_t, parse_command, option_text
+    use faststrip_app_methods, only: methods_t
+    use faststrip_app_method_options, only: method_options, take_method_options
+    use faststrip_app_case_file, only: beside
+    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_app_result_csv, only: result_columns, put_result
+    implicit none
+    private
+
+    public :: run_batch
+
+    character(len=*), parameter :: case_columns(9) = [character(len=15) :: &
+        'case', 'gap_file', 'E_MPa', 'nu', 'mu', 'N_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_batch()
+        type(command_t) :: command
+        type(csv_table_t) :: table
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        type(methods_t) :: methods
+        type(solver_t) :: solver
+        type(outcome_t) :: outcome
+        integer :: row, i, n_failed, column(size(case_columns))
+
+        command%name = 'batch'
+        command%usage = 'CASES.csv'
+        command%about = &
+            'Solve one contact per row of a CSV file with the columns' // new_line('a') &
+            // 'case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm (wheel and rail alike;' &
+            // new_line('a') // 'gap_file relative to the CSV file). Further columns are carried' &
+            // ' through. A row' // new_line('a') // 'that fails gets its status word and empty' &
+            // ' figures; the others go on, and the' // new_line('a') // 'exit code is 1.' &
+            // new_line('a')
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+                           method_options]
+        call parse_command(command, 1)
+        call take_method_options(command, methods)
+        call read_csv(command%arguments(1)%text, table, status)
+        call fail_on_error(status)
+        do i = 1, size(case_columns)
+            call require_column(table, trim(case_columns(i)), column(i), status)
+            call fail_on_error(status)
+        end do
+        call refuse_result_columns(table)
+        call make_solver(methods, .false., solver, status)
+        call fail_on_error(status)
+        call open_csv(writer, option_text(command, '-o', '-'), status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_names(writer, table%names)
+        n_failed = 0
+        do row = 1, table%n_rows
+            call solve_row(table, row, column, solver, outcome, status)
+            do i = 1, table%n_columns
+                call put_cell(writer, cell_text(table, row, i))
+            end do
+            call put_result(writer, outcome, status)
+            call end_row(writer)
+            if (is_error(status)) then
+                n_failed = n_failed + 1
+                call note('row ' // integer_text(row) // ' (' // table%file // ':' &
+                          // integer_text(table%line(row)) // '): ' // trim(status%message))
+            end if
+            if (mod(row, 1000) == 0) call progress('contacts', row, table%n_rows)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+        if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
+                                    // integer_text(table%n_rows) // ' contacts failed')
+    end subroutine run_batch
+
+    subroutine put_names(writer, names)
+        type(csv_writer_t), intent(inout) :: writer
+        type(csv_text_t), intent(in) :: names(:)
+
+        integer :: i
+
+        do i = 1, size(names)
+            call put_cell(writer, names(i)%text)
+        end do
+        do i = 1, size(result_columns)
+            call put_cell(writer, trim(result_columns(i)))
+        end do
+        call end_row(writer)
+    end subroutine put_names
+
+    !> A table that has a column the result would add cannot be carried through.
+    subroutine refuse_result_columns(table)
+        type(csv_table_t), intent(in) :: table
+
+        integer :: i
+
+        do i = 1, table%n_columns
+            if (any(result_columns == table%names(i)%text)) &
+                call fail(exit_bad_input, 'column name is that of a result: ' &
+                          // table%names(i)%text // ' (' // table%file // ')')
+        end do
+    end subroutine refuse_result_columns
+
+    subroutine solve_row(table, row, column, solver, outcome, status)
+        type(csv_table_t), intent(in) :: table
+        integer, intent(in) :: row, column(:)
+        type(solver_t), intent(inout) :: solver
+        type(outcome_t), intent(out) :: outcome
+        type(status_t), intent(out) :: status
+
+        type(gap_t) :: gap
+        real(wp) :: number(3:9)
+        integer :: i
+
+        do i = 3, 9
+            call cell_number(table, row, column(i), number(i), status)
+            if (is_error(status)) return
+        end do
+        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), gap, status)
+        if (is_error(status)) return
+        call solve(solver, gap, material_t(number(3), number(3), number(4), number(4)), &
+                   number(5), number(6), creepage_t(number(7), number(8), number(9)), outcome, &
+                   status)
+    end subroutine solve_row
+end module faststrip_app_batch

@@ -1,0 +1,425 @@
+!> One case: what is rolling on what, how it is loaded, how it is to be solved.
+module faststrip_app_case_file
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error, number_text, message_length
+    use faststrip_text, only: integer_text
+    use faststrip_material, only: material_t
+    use faststrip_creepage, only: creepage_t
+    use faststrip_profile, only: profile_t, make_wheel_profile, make_rail_profile, standard_cant
+    use faststrip_profile_file, only: read_profile
+    use faststrip_profile_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
+    use faststrip_profile_contact_gap, only: standard_gap_step, standard_gap_height
+    use faststrip_app_console, only: fail_on_error
+    use faststrip_app_methods, only: methods_t, check_methods, word_length
+    use faststrip_app_namelist, only: namelist_file_t, group_t, read_namelist_file, find_group, &
+                                      group_text, line_length, refuse, refuse_line
+    implicit none
+    private
+
+    public :: case_t, read_case, beside
+
+    integer, parameter :: path_length = 512
+    integer, parameter :: max_shifts = 1000
+
+    !> A case as its file tells it.
+    type :: case_t
+        character(len=:), allocatable :: name       !! for the CSV
+        character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
+        character(len=:), allocatable :: wheel_name !! `s1002` or the file's name
+        character(len=:), allocatable :: rail_name  !! `uic60`, `60e1` or the file's name
+        real(wp) :: load = 0.0_wp                   !! N
+        logical :: load_is_vertical = .false.       !! else along the contact normal
+        real(wp) :: mu = 0.0_wp                     !! coefficient of friction
+        real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
+        real(wp), allocatable :: shifts(:)          !! of the sweep, mm
+        type(material_t) :: material                !! moduli, MPa
+        type(profile_t) :: wheel, rail              !! unless there is a gap file
+        type(wheelset_t) :: wheelset                !! mm
+        type(track_t) :: track                      !! mm
+        logical :: creepage_by_formula = .false.    !! from the shift, else as given
+        integer :: creepage_signs = creepage_set_b  !! for the formula
+        type(creepage_t) :: creepage                !! as given
+        type(methods_t) :: methods                  !! how to solve it
+        real(wp) :: gap_step = 0.0_wp               !! sampling of the gap, mm
+        real(wp) :: gap_height = 0.0_wp             !! largest gap sampled, mm
+    end type case_t
+
+contains
+
+    !> Read a case file; ends the program with one line at the first thing that is wrong.
+    subroutine read_case(path, case)
+        character(len=*), intent(in) :: path !! name of the `.nml` file
+        type(case_t), intent(out) :: case    !! checked
+
+        type(namelist_file_t) :: content
+        logical :: from_profiles
+
+        call read_namelist_file(path, [character(len=8) :: 'contact', 'material', 'wheel', &
+                                       'rail', 'motion', 'numerics', 'sweep'], content)
+        call read_contact_group(content, case)
+        from_profiles = len(case%gap_file) == 0
+        call read_material_group(content, case)
+        call read_wheel_group(content, from_profiles, case)
+        call read_rail_group(content, from_profiles, case)
+        call read_motion_group(content, from_profiles, case)
+        call read_numerics_group(content, case)
+        call read_sweep_group(content, case)
+    end subroutine read_case
+
+    subroutine read_contact_group(content, case)
+        type(namelist_file_t), intent(in) :: content
+        type(case_t), intent(inout) :: case
+
+        character(len=path_length) :: name, gap_file
+        character(len=word_length) :: load_direction
+        real(wp) :: load_n, shift_mm
+        namelist /contact/ name, gap_file, load_n, load_direction, shift_mm
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+
+        name = 'case'
+        gap_file = ''
+        load_direction = 'normal'
+        load_n = unset()
+        shift_mm = 0.0_wp
+        call find_group(content, 'contact', .true., group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=contact, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        case%name = trim(name)
+        case%gap_file = ''
+        if (len_trim(gap_file) > 0) case%gap_file = beside(content%file, trim(gap_file))
+        call need_positive(content, group, 'load_N', load_n)
+        call need_finite(content, group, 'shift_mm', shift_mm)
+        case%load = load_n
+        case%shift = shift_mm
+        case%load_is_vertical = load_direction == 'vertical'
+        if (load_direction /= 'vertical' .and. load_direction /= 'normal') &
+            call refuse(content, group, 'load_direction', 'is neither normal nor vertical', &
+                        load_direction)
+        if (case%load_is_vertical .and. len(case%gap_file) > 0) &
+            call refuse(content, group, 'load_direction', &
+                        'needs profiles; a gap file has no contact angle', load_direction)
+    end subroutine read_contact_group
+
+    subroutine read_material_group(content, case)
+        type(namelist_file_t), intent(in) :: content
+        type(case_t), intent(inout) :: case
+
+        real(wp) :: e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
+        namelist /material/ e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+
+        e_wheel_mpa = case%material%e_wheel
+        e_rail_mpa = case%material%e_rail
+        nu_wheel = case%material%nu_wheel
+        nu_rail = case%material%nu_rail
+        mu = unset()
+        call find_group(content, 'material', .true., group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=material, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        call need_positive(content, group, 'E_wheel_MPa', e_wheel_mpa)
+        call need_positive(content, group, 'E_rail_MPa', e_rail_mpa)
+        call need_poisson(content, group, 'nu_wheel', nu_wheel)
+        call need_poisson(content, group, 'nu_rail', nu_rail)
+        call need_finite(content, group, 'mu', mu)
+        if (mu < 0.0_wp) call refuse(content, group, 'mu', 'is negative', number_text(mu))
+        case%material = material_t(e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail)
+        case%mu = mu
+    end subroutine read_material_group
+
+    subroutine read_wheel_group(content, from_profiles, case)
+        type(namelist_file_t), intent(in) :: content
+        logical, intent(in) :: from_profiles
+        type(case_t), intent(inout) :: case
+
+        character(len=path_length) :: profile
+        character(len=word_length) :: y_positive_to, z_positive_to
+        real(wp) :: radius_mm, back_spacing_mm, tread_line_mm
+        namelist /wheel/ profile, radius_mm, back_spacing_mm, tread_line_mm, &
+            y_positive_to, z_positive_to
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+        type(status_t) :: status
+
+        profile = ''
+        radius_mm = case%wheelset%radius
+        back_spacing_mm = case%wheelset%back_spacing
+        tread_line_mm = case%wheelset%tread_line
+        y_positive_to = 'field'
+        z_positive_to = 'down'
+        call find_group(content, 'wheel', from_profiles, group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=wheel, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        if (.not. from_profiles) return
+        call need_positive(content, group, 'radius_mm', radius_mm)
+        call need_positive(content, group, 'back_spacing_mm', back_spacing_mm)
+        call need_positive(content, group, 'tread_line_mm', tread_line_mm)
+        case%wheelset = wheelset_t(back_spacing_mm, tread_line_mm, radius_mm)
+        case%wheel_name = trim(profile)
+        select case (profile)
+        case (''); call refuse(content, group, 'profile', 'is missing', '')
+        case ('s1002')
+            call make_wheel_profile('s1002', case%wheel, status)
+            call fail_on_error(status)
+        case default
+            call read_points(content, group, profile, y_positive_to, z_positive_to, case%wheel)
+        end select
+    end subroutine read_wheel_group
+
+    subroutine read_rail_group(content, from_profiles, case)
+        type(namelist_file_t), intent(in) :: content
+        logical, intent(in) :: from_profiles
+        type(case_t), intent(inout) :: case
+
+        character(len=path_length) :: profile
+        character(len=word_length) :: y_positive_to, z_positive_to
+        real(wp) :: cant, gauge_mm, gauge_depth_mm
+        namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+        type(status_t) :: status
+
+        profile = ''
+        cant = standard_cant
+        gauge_mm = case%track%gauge
+        gauge_depth_mm = case%track%gauge_depth
+        y_positive_to = 'field'
+        z_positive_to = 'down'
+        call find_group(content, 'rail', from_profiles, group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=rail, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        if (.not. from_profiles) return
+        call need_finite(content, group, 'cant', cant)
+        call need_positive(content, group, 'gauge_mm', gauge_mm)
+        call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
+        case%track = track_t(gauge_mm, gauge_depth_mm)
+        case%rail_name = trim(profile)
+        select case (profile)
+        case (''); call refuse(content, group, 'profile', 'is missing', '')
+        case ('uic60', '60e1')
+            call make_rail_profile(trim(profile), cant, case%rail, status)
+            if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
+        case default
+            call read_points(content, group, profile, y_positive_to, z_positive_to, case%rail)
+        end select
+    end subroutine read_rail_group
+
+    subroutine read_motion_group(content, from_profiles, case)
+        type(namelist_file_t), intent(in) :: content
+        logical, intent(in) :: from_profiles
+        type(case_t), intent(inout) :: case
+
+        character(len=word_length) :: creepage
+        character(len=1) :: sign_set
+        real(wp) :: cksi, ceta, cphi_rad_per_mm
+        namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+
+        creepage = 'given'
+        sign_set = 'B'
+        cksi = 0.0_wp
+        ceta = 0.0_wp
+        cphi_rad_per_mm = 0.0_wp
+        call find_group(content, 'motion', .true., group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=motion, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        call need_finite(content, group, 'cksi', cksi)
+        call need_finite(content, group, 'ceta', ceta)
+        call need_finite(content, group, 'cphi_rad_per_mm', cphi_rad_per_mm)
+        case%creepage = creepage_t(cksi, ceta, cphi_rad_per_mm)
+        case%creepage_by_formula = creepage == 'formula'
+        if (creepage /= 'formula' .and. creepage /= 'given') &
+            call refuse(content, group, 'creepage', 'is neither formula nor given', creepage)
+        if (case%creepage_by_formula .and. .not. from_profiles) &
+            call refuse(content, group, 'creepage', 'by formula needs profiles', creepage)
+        if (case%creepage_by_formula .and. any([cksi, ceta, cphi_rad_per_mm] /= 0.0_wp)) &
+            call refuse(content, group, 'creepage', &
+                        'is by formula, and creepages are given as well', creepage)
+        select case (sign_set)
+        case ('A', 'a'); case%creepage_signs = creepage_set_a
+        case ('B', 'b'); case%creepage_signs = creepage_set_b
+        case default; call refuse(content, group, 'sign_set', 'is neither A nor B', sign_set)
+        end select
+    end subroutine read_motion_group
+
+    subroutine read_numerics_group(content, case)
+        type(namelist_file_t), intent(in) :: content
+        type(case_t), intent(inout) :: case
+
+        character(len=word_length) :: normal, tangential
+        integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
+        real(wp) :: gap_step_mm, gap_height_mm
+        namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
+            fastsim_ny, gap_step_mm, gap_height_mm
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+        character(len=:), allocatable :: what, value
+
+        normal = case%methods%normal
+        tangential = case%methods%tangential
+        strips_per_patch = case%methods%strips_per_patch
+        points_per_strip = case%methods%points_per_strip
+        fastsim_nx = case%methods%fastsim_nx
+        fastsim_ny = case%methods%fastsim_ny
+        gap_step_mm = standard_gap_step
+        gap_height_mm = standard_gap_height
+        call find_group(content, 'numerics', .false., group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=numerics, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        case%methods = methods_t(normal, tangential, strips_per_patch, points_per_strip, &
+                                 fastsim_nx, fastsim_ny)
+        call check_methods(case%methods, what, value)
+        if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)
+        call need_positive(content, group, 'gap_step_mm', gap_step_mm)
+        call need_positive(content, group, 'gap_height_mm', gap_height_mm)
+        case%gap_step = gap_step_mm
+        case%gap_height = gap_height_mm
+    end subroutine read_numerics_group
+
+    subroutine read_sweep_group(content, case)
+        type(namelist_file_t), intent(in) :: content
+        type(case_t), intent(inout) :: case
+
+        real(wp) :: shifts_mm(max_shifts)
+        namelist /sweep/ shifts_mm
+        type(group_t) :: group
+        character(len=line_length), allocatable :: text(:)
+        character(len=message_length) :: words
+        integer :: n, code
+
+        shifts_mm = unset()
+        call find_group(content, 'sweep', .false., group)
+        do n = 1, lines_of(group)
+            text = group_text(content, group, n)
+            read (text, nml=sweep, iostat=code, iomsg=words)
+            if (code /= 0) call refuse_text(content, group, n, words)
+        end do
+        n = count(ieee_is_finite(shifts_mm))
+        if (.not. all(ieee_is_finite(shifts_mm(:n)))) &
+            call refuse(content, group, 'shifts_mm', 'is not a finite number at place ' &
+                        // integer_text(findloc(ieee_is_finite(shifts_mm), .false., dim=1)), '')
+        case%shifts = shifts_mm(:n)
+    end subroutine read_sweep_group
+
+    !> Number of lines of a group; 0 if it is not there.
+    pure integer function lines_of(group)
+        type(group_t), intent(in) :: group
+
+        lines_of = 0
+        if (group%first > 0) lines_of = group%last - group%first + 1
+    end function lines_of
+
+    !> End the program because the runtime could not read the first n lines of a group.
+    subroutine refuse_text(content, group, n, words)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        integer, intent(in) :: n
+        character(len=*), intent(in) :: words
+
+        character(len=*), parameter :: unknown = 'Cannot match namelist object name '
+        character(len=:), allocatable :: what
+
+        what = trim(words)
+        if (index(what, unknown) == 1) what = 'unknown name: ' // what(len(unknown) + 1:)
+        call refuse_line(content, group%first + n - 1, '&' // group%name // ' ' // what, &
+                         adjustl(content%line(group%first + n - 1)))
+    end subroutine refuse_text
+
+    subroutine read_points(content, group, path, y_positive_to, z_positive_to, profile)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: path, y_positive_to, z_positive_to
+        type(profile_t), intent(out) :: profile
+
+        type(status_t) :: status
+
+        if (y_positive_to /= 'field' .and. y_positive_to /= 'gauge') &
+            call refuse(content, group, 'y_positive_to', 'is neither field nor gauge', &
+                        y_positive_to)
+        if (z_positive_to /= 'down' .and. z_positive_to /= 'up') &
+            call refuse(content, group, 'z_positive_to', 'is neither down nor up', z_positive_to)
+        call read_profile(beside(content%file, trim(path)), y_positive_to == 'field', &
+                          z_positive_to == 'down', profile, status)
+        call fail_on_error(status)
+    end subroutine read_points
+
+    !> A path that is relative to the folder of another file.
+    pure function beside(file, path) result(resolved)
+        character(len=*), intent(in) :: file, path
+        character(len=:), allocatable :: resolved
+
+        resolved = path
+        if (index(path, '/') /= 1) resolved = file(:index(file, '/', back=.true.)) // path
+    end function beside
+
+    !> What a number is before the file sets it.
+    pure real(wp) function unset()
+        unset = ieee_value(unset, ieee_quiet_nan)
+    end function unset
+
+    subroutine need_finite(content, group, name, value)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: value
+
+        if (.not. ieee_is_finite(value)) &
+            call refuse(content, group, name, 'is missing or not a finite number', &
+                        number_text(value))
+    end subroutine need_finite
+
+    subroutine need_positive(content, group, name, value)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: value
+
+        call need_finite(content, group, name, value)
+        if (value <= 0.0_wp) &
+            call refuse(content, group, name, 'is not positive', number_text(value))
+    end subroutine need_positive
+
+    subroutine need_poisson(content, group, name, value)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: value
+
+        call need_finite(content, group, name, value)
+        if (value <= -1.0_wp .or. value > 0.5_wp) &
+            call refuse(content, group, name, 'is outside (-1, 0.5]', number_text(value))
+    end subroutine need_poisson
+end module faststrip_app_case_file

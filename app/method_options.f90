@@ -1,0 +1,41 @@
+!> The options by which several subcommands choose methods and resolutions.
+module faststrip_app_method_options
+    use faststrip_app_console, only: usage_error
+    use faststrip_app_options, only: command_t, option_t, option_text, option_integer
+    use faststrip_app_methods, only: methods_t, check_methods
+    implicit none
+    private
+
+    public :: method_options, take_method_options
+
+    !> For the table of a subcommand.
+    type(option_t), parameter :: method_options(6) = [ &
+        option_t('--normal', 'NAME', 'strip (default) or hertz'), &
+        option_t('--tangential', 'NAME', 'faststrip (default) or fastsim'), &
+        option_t('--strips-per-patch', 'N', 'strips across the largest patch (default 15)'), &
+        option_t('--points-per-strip', 'N', 'points along a strip, faststrip (default 15)'), &
+        option_t('--fastsim-nx', 'N', 'points along a row, fastsim (default 50)'), &
+        option_t('--fastsim-ny', 'N', 'rows, fastsim (default 50)')]
+
+contains
+
+    !> Let the options that were given replace what was chosen before; a usage error if one is
+    !> out of range.
+    subroutine take_method_options(command, methods)
+        type(command_t), intent(in) :: command   !! parsed, with `method_options` in its table
+        type(methods_t), intent(inout) :: methods !! defaults or those of a case file
+
+        character(len=:), allocatable :: what, value
+
+        methods%normal = option_text(command, '--normal', trim(methods%normal))
+        methods%tangential = option_text(command, '--tangential', trim(methods%tangential))
+        methods%strips_per_patch = option_integer(command, '--strips-per-patch', &
+                                                  methods%strips_per_patch)
+        methods%points_per_strip = option_integer(command, '--points-per-strip', &
+                                                  methods%points_per_strip)
+        methods%fastsim_nx = option_integer(command, '--fastsim-nx', methods%fastsim_nx)
+        methods%fastsim_ny = option_integer(command, '--fastsim-ny', methods%fastsim_ny)
+        call check_methods(methods, what, value)
+        if (len(what) > 0) call usage_error(what // ' is out of range: ' // value, command%name)
+    end subroutine take_method_options
+end module faststrip_app_method_options

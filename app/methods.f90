@@ -1,0 +1,61 @@
+!> Which methods a contact is solved by, and how finely.
+module faststrip_app_methods
+    use faststrip_text, only: integer_text
+    use faststrip_normal_strip, only: fewest_strips
+    implicit none
+    private
+
+    public :: methods_t, check_methods, most_strips, word_length
+
+    !> Length of a method's name, characters.
+    integer, parameter :: word_length = 16
+    !> Most strips per patch the program accepts.
+    integer, parameter :: most_strips = 1000
+    integer, parameter :: most_points = 10000
+
+    !> Methods and resolutions.
+    type :: methods_t
+        character(len=word_length) :: normal = 'strip'         !! strip or hertz
+        character(len=word_length) :: tangential = 'faststrip' !! faststrip or fastsim
+        integer :: strips_per_patch = 15 !! strips across the largest patch
+        integer :: points_per_strip = 15 !! points along a strip, faststrip
+        integer :: fastsim_nx = 50       !! points along a row, fastsim
+        integer :: fastsim_ny = 50       !! rows, fastsim
+    end type methods_t
+
+contains
+
+    !> Find the first name that is out of range; `what` is empty if there is none.
+    subroutine check_methods(methods, what, value)
+        type(methods_t), intent(in) :: methods             !! as the user gave them
+        character(len=:), allocatable, intent(out) :: what  !! name of the culprit
+        character(len=:), allocatable, intent(out) :: value !! its value
+
+        what = ''
+        value = ''
+        if (methods%normal /= 'strip' .and. methods%normal /= 'hertz') then
+            what = 'normal'
+            value = trim(methods%normal)
+        else if (methods%tangential /= 'faststrip' .and. methods%tangential /= 'fastsim') then
+            what = 'tangential'
+            value = trim(methods%tangential)
+        else
+            call check('strips_per_patch', methods%strips_per_patch, fewest_strips, most_strips)
+            call check('points_per_strip', methods%points_per_strip, 1, most_points)
+            call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
+            call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
+        end if
+
+    contains
+
+        subroutine check(name, number, least, most)
+            character(len=*), intent(in) :: name
+            integer, intent(in) :: number, least, most
+
+            if (number >= least .and. number <= most) return
+            if (len(what) > 0) return
+            what = name
+            value = integer_text(number)
+        end subroutine check
+    end subroutine check_methods
+end module faststrip_app_methods

@@ -1,0 +1,233 @@
+!> Case files: text with line numbers, cut into namelist groups.
+!>
+!> The Fortran runtime reads the groups; what it does not tell, which line is wrong, is found by
+!> reading a group line by line.
+module faststrip_app_namelist
+    use faststrip_status, only: status_t, set_status, clear_status, st_file_format, st_file_missing
+    use faststrip_text, only: read_line, trim_blanks, lower_case, integer_text
+    use faststrip_app_console, only: fail, exit_bad_input
+    implicit none
+    private
+
+    public :: namelist_file_t, group_t, read_namelist_file, find_group, group_text, line_length
+    public :: refuse, refuse_line
+
+    !> Longest line of a case file, characters.
+    integer, parameter :: line_length = 1024
+
+    !> A case file as it was read.
+    type :: namelist_file_t
+        character(len=:), allocatable :: file            !! its name
+        character(len=line_length), allocatable :: line(:) !! its lines, comments blanked
+    end type namelist_file_t
+
+    !> Where a group stands in its file.
+    type :: group_t
+        character(len=:), allocatable :: name !! without the ampersand
+        integer :: first = 0                  !! line with the ampersand; 0: not there
+        integer :: last = 0                   !! line with the closing slash
+    end type group_t
+
+contains
+
+    !> Read a case file; ends the program if it is missing, has an unknown group, a group twice or
+    !> one that is not closed.
+    subroutine read_namelist_file(path, known, content)
+        character(len=*), intent(in) :: path              !! name of the file
+        character(len=*), intent(in) :: known(:)          !! names of all groups, lower case
+        type(namelist_file_t), intent(out) :: content     !! the lines
+
+        character(len=:), allocatable :: text
+        character(len=line_length), allocatable :: more(:)
+        integer :: unit, code, n
+        logical :: exists, found, failed
+
+        content%file = path
+        inquire (file=path, exist=exists)
+        if (.not. exists) call fail(exit_bad_input, 'no such file: ' // path)
+        open (newunit=unit, file=path, status='old', action='read', iostat=code)
+        if (code /= 0) call fail(exit_bad_input, 'cannot read the file: ' // path)
+        allocate (content%line(64))
+        n = 0
+        do
+            call read_line(unit, text, found, failed)
+            if (failed) call fail(exit_bad_input, 'cannot read the file: ' // path)
+            if (.not. found) exit
+            if (n == size(content%line)) then
+                allocate (more(2*n))
+                more(:n) = content%line
+                call move_alloc(more, content%line)
+            end if
+            n = n + 1
+            if (len(text) > line_length) call refuse_line(content, n, 'line is too long', '')
+            content%line(n) = without_comment(text)
+        end do
+        close (unit)
+        content%line = content%line(:n)
+        call check_groups(content, known)
+    end subroutine read_namelist_file
+
+    subroutine check_groups(content, known)
+        type(namelist_file_t), intent(in) :: content
+        character(len=*), intent(in) :: known(:)
+
+        character(len=:), allocatable :: text, name
+        integer :: i, j, open_at, seen(size(known))
+
+        open_at = 0
+        seen = 0
+        do i = 1, size(content%line)
+            text = trim_blanks(content%line(i))
+            if (len(text) == 0) cycle
+            if (text(1:1) == '&') then
+                if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
+                                                  trim_blanks(content%line(open_at)))
+                name = lower_case(first_word(text(2:)))
+                j = findloc(known, name, dim=1)
+                if (j == 0) call refuse_line(content, i, 'unknown group', '&' // name)
+                if (seen(j) > 0) call refuse_line(content, i, 'group stands twice', '&' // name)
+                seen(j) = i
+                open_at = i
+            else if (open_at == 0) then
+                call refuse_line(content, i, 'text outside any group', text)
+            end if
+            if (ends_group(text)) open_at = 0
+        end do
+        if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
+                                          trim_blanks(content%line(open_at)))
+    end subroutine check_groups
+
+    !> Find a group; ends the program if it is required and missing.
+    subroutine find_group(content, name, required, group)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        character(len=*), intent(in) :: name         !! lower case, without ampersand
+        logical, intent(in) :: required              !! is its absence an error?
+        type(group_t), intent(out) :: group          !! first = 0 if it is not there
+
+        character(len=:), allocatable :: text
+        integer :: i
+
+        group%name = name
+        do i = 1, size(content%line)
+            text = trim_blanks(content%line(i))
+            if (len(text) == 0) cycle
+            if (group%first == 0 .and. text(1:1) == '&') then
+                if (lower_case(first_word(text(2:))) == name) group%first = i
+            end if
+            if (group%first == 0) cycle
+            if (ends_group(text)) then
+                group%last = i
+                return
+            end if
+        end do
+        if (required) call fail(exit_bad_input, 'missing group: &' // name // ' (' &
+                                // content%file // ')')
+    end subroutine find_group
+
+    !> The first `n` lines of a group, closed, for an internal namelist read.
+    function group_text(content, group, n) result(text)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(group_t), intent(in) :: group           !! a group that is there
+        integer, intent(in) :: n                     !! 1 to last - first + 1
+        character(len=line_length) :: text(n + 1)
+
+        text(:n) = content%line(group%first:group%first + n - 1)
+        text(n + 1) = '/'
+    end function group_text
+
+    !> End the program with an error about a name of a group; the line is the one that sets it.
+    subroutine refuse(content, group, name, what, value)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(group_t), intent(in) :: group           !! a group of it
+        character(len=*), intent(in) :: name         !! name in the group
+        character(len=*), intent(in) :: what         !! what is wrong
+        character(len=*), intent(in) :: value        !! the offending value
+
+        integer :: i, at
+        character(len=line_length) :: line
+
+        at = max(1, group%first)
+        do i = group%first, group%last
+            if (i == 0) exit
+            line = lower_case(content%line(i))
+            if (sets_name(line, lower_case(name))) at = i
+        end do
+        call refuse_line(content, at, '&' // group%name // ' ' // name // ' ' // what, value)
+    end subroutine refuse
+
+    !> End the program with an error about a line.
+    subroutine refuse_line(content, number, what, value)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        integer, intent(in) :: number                !! line number
+        character(len=*), intent(in) :: what         !! what is wrong
+        character(len=*), intent(in) :: value        !! the offending value; may be empty
+
+        character(len=:), allocatable :: text
+
+        text = what
+        if (len_trim(value) > 0) text = text // ': ' // trim(value)
+        call fail(exit_bad_input, text // ' (' // content%file // ':' &
+                  // integer_text(number) // ')')
+    end subroutine refuse_line
+
+    !> Does a line hold `name =`?
+    pure logical function sets_name(line, name)
+        character(len=*), intent(in) :: line, name
+
+        character(len=*), parameter :: word = 'abcdefghijklmnopqrstuvwxyz0123456789_'
+        integer :: from, at
+
+        sets_name = .false.
+        from = 1
+        do
+            at = index(line(from:), name)
+            if (at == 0) return
+            at = from + at - 1
+            from = at + len(name)
+            if (at > 1) then
+                if (index(word, line(at - 1:at - 1)) > 0) cycle
+            end if
+            sets_name = index(adjustl(line(from:)), '=') == 1
+            if (sets_name) return
+        end do
+    end function sets_name
+
+    !> The line up to an exclamation mark outside quotes.
+    pure function without_comment(text) result(kept)
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: kept
+
+        integer :: i
+        character :: quote
+
+        quote = ' '
+        do i = 1, len(text)
+            if (quote /= ' ') then
+                if (text(i:i) == quote) quote = ' '
+            else if (text(i:i) == '''' .or. text(i:i) == '"') then
+                quote = text(i:i)
+            else if (text(i:i) == '!') then
+                exit
+            end if
+        end do
+        kept = text(:i - 1)
+    end function without_comment
+
+    !> Does a line close its group, with a slash outside quotes at its end?
+    pure logical function ends_group(text)
+        character(len=*), intent(in) :: text
+
+        ends_group = .false.
+        if (len(text) > 0) ends_group = text(len(text):) == '/'
+    end function ends_group
+
+    pure function first_word(text) result(word)
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: word
+
+        integer :: n
+
+        n = scan(text // ' ', ' /' // achar(9)) - 1
+        word = text(:n)
+    end function first_word
+end module faststrip_app_namelist

@@ -1,0 +1,119 @@
+!> The columns every solved contact fills, in the same words for each subcommand.
+module faststrip_app_result_csv
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error, status_word
+    use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_tangential_types, only: tangential_field_t
+    use faststrip_app_console, only: fail_on_error, put_origin
+    use faststrip_app_solver, only: outcome_t
+    implicit none
+    private
+
+    public :: result_columns, put_result, write_strips, write_field
+
+    !> Names of the columns, in the order of `put_result`.
+    character(len=*), parameter :: result_columns(15) = [character(len=16) :: &
+        'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
+        'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
+        'normal_us', 'tangential_us']
+
+contains
+
+    !> The cells of one contact; all but the status word are empty if there is no result.
+    subroutine put_result(writer, outcome, status)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, in the middle of a row
+        type(outcome_t), intent(in) :: outcome      !! figures
+        type(status_t), intent(in) :: status        !! how it ended
+
+        integer :: i
+
+        call put_cell(writer, trim(status_word(status%code)))
+        if (is_error(status)) then
+            do i = 2, size(result_columns)
+                call put_cell(writer, '')
+            end do
+            return
+        end if
+        call put_cell(writer, outcome%normal%penetration)
+        call put_cell(writer, outcome%normal%area)
+        call put_cell(writer, outcome%normal%pmax)
+        call put_cell(writer, outcome%normal%y_min)
+        call put_cell(writer, outcome%normal%y_max)
+        call put_cell(writer, outcome%normal%x_max)
+        call put_cell(writer, outcome%normal%n_patches)
+        call put_cell(writer, outcome%tangential%fx)
+        call put_cell(writer, outcome%tangential%fy)
+        call put_cell(writer, outcome%tangential%mz)
+        call put_cell(writer, outcome%tangential%friction_power)
+        call put_cell(writer, outcome%tangential%stick_fraction)
+        call put_cell(writer, outcome%normal_us)
+        call put_cell(writer, outcome%tangential_us)
+    end subroutine put_result
+
+    !> Write the strips of a contact, one row a strip; ends the program if that fails.
+    subroutine write_strips(path, case_name, strips)
+        character(len=*), intent(in) :: path        !! name of the file
+        character(len=*), intent(in) :: case_name   !! for the column `case`
+        type(contact_strips_t), intent(in) :: strips !! mm, MPa
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: k
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=14) :: 'case', 'patch', 'strip', 'y_left_mm', &
+                                 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N'])
+        do k = 1, strips%n
+            associate (left => strips%y_left(k), right => strips%y_right(k), &
+                       length => strips%half_length(k), p0 => strips%p0(k))
+                call put_cell(writer, case_name)
+                call put_cell(writer, strips%patch(k))
+                call put_cell(writer, k)
+                call put_cell(writer, left)
+                call put_cell(writer, right)
+                call put_cell(writer, 0.5_wp*(left + right))
+                call put_cell(writer, length)
+                call put_cell(writer, p0)
+                call put_cell(writer, strip_load(p0, length, right - left))
+                call end_row(writer)
+            end associate
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_strips
+
+    !> Write the elements of a contact, one row an element; ends the program if that fails.
+    subroutine write_field(path, case_name, field)
+        character(len=*), intent(in) :: path       !! name of the file
+        character(len=*), intent(in) :: case_name  !! for the column `case`
+        type(tangential_field_t), intent(in) :: field !! mm, MPa
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=8) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
+                                 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy'])
+        do i = 1, field%n
+            call put_cell(writer, case_name)
+            call put_cell(writer, field%x(i))
+            call put_cell(writer, field%y(i))
+            call put_cell(writer, field%area(i))
+            call put_cell(writer, field%state(i))
+            call put_cell(writer, field%pn(i))
+            call put_cell(writer, field%px(i))
+            call put_cell(writer, field%py(i))
+            call put_cell(writer, field%sx(i))
+            call put_cell(writer, field%sy(i))
+            call end_row(writer)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_field
+end module faststrip_app_result_csv

@@ -1,0 +1,122 @@
+!> From a case to the gap, load and creepages of one contact.
+module faststrip_app_scene
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, clear_status, is_error
+    use faststrip_creepage, only: creepage_t
+    use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_profile, only: profile_t, profile_at
+    use faststrip_profile_gap, only: gap_t
+    use faststrip_profile_gap_file, only: read_gap_file
+    use faststrip_profile_contact, only: rigid_contact_t, find_wheelset_contacts, contact_force, &
+                                         shift_creepage
+    use faststrip_profile_contact_gap, only: make_gap
+    use faststrip_app_console, only: fail_on_error, put_origin
+    use faststrip_app_case_file, only: case_t
+    implicit none
+    private
+
+    public :: scene_t, make_scene, write_gap, write_profiles
+
+    !> One contact, ready to be solved.
+    type :: scene_t
+        type(gap_t) :: gap              !! undeformed gap, mm
+        type(rigid_contact_t) :: contact !! rigid contact point, if there are profiles
+        real(wp) :: shift = 0.0_wp      !! lateral shift of the wheelset, mm
+        real(wp) :: load = 0.0_wp       !! normal force, N
+        type(creepage_t) :: creepage    !! about the rigid contact point
+    end type scene_t
+
+contains
+
+    !> Place the wheelset and make the gap, or read it.
+    subroutine make_scene(case, shift, scene, status)
+        type(case_t), intent(in) :: case       !! a case that was read
+        real(wp), intent(in) :: shift          !! lateral shift, without meaning for a gap file, mm
+        type(scene_t), intent(out) :: scene    !! ready to be solved
+        type(status_t), intent(out) :: status  !! from the library
+
+        type(rigid_contact_t) :: left
+
+        call clear_status(status)
+        scene%shift = shift
+        scene%load = case%load
+        scene%creepage = case%creepage
+        if (len(case%gap_file) > 0) then
+            call read_gap_file(case%gap_file, scene%gap, status)
+            return
+        end if
+        call find_wheelset_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
+                                    scene%contact, left, status)
+        if (is_error(status)) return
+        if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
+        if (case%creepage_by_formula) scene%creepage = &
+            shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
+        call make_gap(case%wheel, case%rail, case%wheelset, scene%contact, case%gap_step, &
+                      case%gap_height, scene%gap, status)
+    end subroutine make_scene
+
+    !> Write the gap; ends the program if that fails.
+    subroutine write_gap(path, gap)
+        character(len=*), intent(in) :: path !! name of the file
+        type(gap_t), intent(in) :: gap       !! mm, mm, 1/mm
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
+        do i = 1, size(gap%y)
+            call put_cell(writer, gap%y(i))
+            call put_cell(writer, gap%h(i))
+            call put_cell(writer, gap%inv2r(i))
+            call end_row(writer)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_gap
+
+    !> Write both profiles in contact, in the frame of the rail; ends the program if that fails.
+    subroutine write_profiles(path, case, scene)
+        character(len=*), intent(in) :: path !! name of the file
+        type(case_t), intent(in) :: case     !! with profiles
+        type(scene_t), intent(in) :: scene   !! where they touch
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
+        call put_profile(writer, 'wheel', case%wheel, scene%contact%y_rail - scene%contact%y_wheel, &
+                         scene%contact%z_rail - scene%contact%z_wheel)
+        call put_profile(writer, 'rail', case%rail, 0.0_wp, 0.0_wp)
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_profiles
+
+    subroutine put_profile(writer, name, profile, y_offset, z_offset)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: name
+        type(profile_t), intent(in) :: profile
+        real(wp), intent(in) :: y_offset, z_offset
+
+        integer, parameter :: n_points = 801
+        type(status_t) :: status
+        real(wp) :: y, z, dz, d2z
+        integer :: i
+
+        do i = 0, n_points - 1
+            y = profile%y_first + (profile%y_last - profile%y_first)*i/(n_points - 1)
+            call profile_at(profile, y, z, dz, d2z, status)
+            if (is_error(status)) cycle
+            call put_cell(writer, name)
+            call put_cell(writer, y + y_offset)
+            call put_cell(writer, z + z_offset)
+            call end_row(writer)
+        end do
+    end subroutine put_profile
+end module faststrip_app_scene
