@@ -29,6 +29,9 @@ module faststrip_profile
     !> Rail cant 1:40.
     real(wp), parameter :: standard_cant = 0.025_wp
 
+    ! Points beyond this are not in mm.
+    real(wp), parameter :: largest_coordinate = 1.0e4_wp
+
     !> One profile, ready to be evaluated between y_first and y_last.
     type :: profile_t
         integer :: kind = profile_none     !! which profile: one of the `profile_` kinds
@@ -109,6 +112,12 @@ contains
         ! The points themselves are checked before they are turned.
         call make_sampled_profile(y, z, profile%sampled, status)
         if (is_error(status)) return
+        if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
+            call set_status(status, st_bad_argument, &
+                            'a point of the profile is more than 10 m away: ' // &
+                            trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
+            return
+        end if
         if (abs(cant) > 0.0_wp) then
             call make_sampled_profile((y + cant*z)/hypot(1.0_wp, cant), &
                                       (z - cant*y)/hypot(1.0_wp, cant), profile%sampled, status)

@@ -1,7 +1,7 @@
 !> The undeformed gap about a rigid contact.
 module faststrip_profile_contact_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
+    use faststrip_kinds, only: wp, pi
     use faststrip_profile, only: profile_t, profile_at
     use faststrip_profile_contact, only: rigid_contact_t, wheelset_t
     use faststrip_profile_gap, only: gap_t, check_gap
@@ -61,6 +61,8 @@ contains
 
         call check_sampling(step, height, status)
         if (is_error(status)) return
+        call check_contact(wheelset, contact, status)
+        if (is_error(status)) return
         call profile_at(wheel, 0.0_wp, z_line, dz, d2z, status)
         if (is_error(status)) return
         room = min(max_samples, &
@@ -70,8 +72,8 @@ contains
         call sample_side(-1, n_left)
         call sample_side(1, n_right)
         if (min(n_left, n_right) < 0) then
-            call set_status(status, st_bad_argument, 'the gap does not start at a contact of ' // &
-                            'the two profiles')
+            call set_status(status, st_bad_argument, &
+                            'the gap does not start at a contact of the profiles')
             return
         end if
         gap%y = [(real(i, wp)*step, i=-n_left, n_right)]
@@ -133,6 +135,22 @@ contains
                             trim(number_text(height)) // ' mm')
         end if
     end subroutine check_sampling
+
+    pure subroutine check_contact(wheelset, contact, status)
+        type(wheelset_t), intent(in) :: wheelset
+        type(rigid_contact_t), intent(in) :: contact
+        type(status_t), intent(out) :: status
+        logical :: valid
+
+        call clear_status(status)
+        valid = all(ieee_is_finite([contact%y_wheel, contact%z_wheel, contact%y_rail, &
+                                    contact%z_rail, contact%gamma, wheelset%radius]))
+        if (valid) valid = maxval(abs([contact%y_wheel, contact%z_wheel, contact%y_rail, &
+                                       contact%z_rail, wheelset%radius])) <= 1.0e6_wp &
+                           .and. abs(contact%gamma) < 0.5_wp*pi .and. wheelset%radius > 0.0_wp
+        if (.not. valid) call set_status(status, st_bad_argument, &
+                                         'the gap does not start at a contact of the profiles')
+    end subroutine check_contact
 
     ! From a point of a profile on to the one with a given y' (in the frame turned by gamma about
     ! the contact). Newton within a bracket, so that a jump of the profile ends on the jump.
