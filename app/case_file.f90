@@ -3,17 +3,19 @@ module faststrip_app_case_file
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, number_text, message_length
-    use faststrip_text, only: integer_text
+    use faststrip_text, only: integer_text, lower_case
     use faststrip_material, only: material_t
     use faststrip_creepage, only: creepage_t
-    use faststrip_profile, only: profile_t, make_wheel_profile, make_rail_profile, standard_cant
-    use faststrip_profile_file, only: read_profile
+    use faststrip_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                 make_points_profile, standard_cant
+    use faststrip_profile_file, only: read_points_file, read_simpack_file, simpack_wheel, &
+                                      simpack_rail
     use faststrip_profile_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_profile_contact_gap, only: standard_gap_step, standard_gap_height
     use faststrip_app_console, only: fail_on_error
     use faststrip_app_methods, only: methods_t, check_methods, word_length
     use faststrip_app_namelist, only: namelist_file_t, group_t, read_namelist_file, find_group, &
-                                      group_text, line_length, refuse, refuse_line
+                                      group_text, line_length, sets, refuse, refuse_line
     implicit none
     private
 
@@ -179,7 +181,8 @@ contains
             call make_wheel_profile('s1002', case%wheel, status)
             call fail_on_error(status)
         case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, case%wheel)
+            call read_points(content, group, profile, y_positive_to, z_positive_to, &
+                             simpack_wheel, 0.0_wp, case%wheel)
         end select
     end subroutine read_wheel_group
 
@@ -199,7 +202,7 @@ contains
         type(status_t) :: status
 
         profile = ''
-        cant = standard_cant
+        cant = unset()
         gauge_mm = case%track%gauge
         gauge_depth_mm = case%track%gauge_depth
         y_positive_to = 'field'
@@ -211,6 +214,9 @@ contains
             if (code /= 0) call refuse_text(content, group, n, words)
         end do
         if (.not. from_profiles) return
+        ! A drawn profile stands upright; a measured one is taken as it stands.
+        if (.not. sets(content, group, 'cant')) &
+            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ']))
         call need_finite(content, group, 'cant', cant)
         call need_positive(content, group, 'gauge_mm', gauge_mm)
         call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
@@ -222,7 +228,8 @@ contains
             call make_rail_profile(trim(profile), cant, case%rail, status)
             if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
         case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, case%rail)
+            call read_points(content, group, profile, y_positive_to, z_positive_to, &
+                             simpack_rail, cant, case%rail)
         end select
     end subroutine read_rail_group
 
@@ -358,23 +365,44 @@ contains
                          adjustl(content%line(group%first + n - 1)))
     end subroutine refuse_text
 
-    subroutine read_points(content, group, path, y_positive_to, z_positive_to, profile)
+    subroutine read_points(content, group, path, y_positive_to, z_positive_to, simpack_kind, &
+                           cant, profile)
         type(namelist_file_t), intent(in) :: content
         type(group_t), intent(in) :: group
         character(len=*), intent(in) :: path, y_positive_to, z_positive_to
+        integer, intent(in) :: simpack_kind
+        real(wp), intent(in) :: cant
         type(profile_t), intent(out) :: profile
 
         type(status_t) :: status
+        character(len=:), allocatable :: file
+        real(wp), allocatable :: y(:), z(:)
 
         if (y_positive_to /= 'field' .and. y_positive_to /= 'gauge') &
             call refuse(content, group, 'y_positive_to', 'is neither field nor gauge', &
                         y_positive_to)
         if (z_positive_to /= 'down' .and. z_positive_to /= 'up') &
             call refuse(content, group, 'z_positive_to', 'is neither down nor up', z_positive_to)
-        call read_profile(beside(content%file, trim(path)), y_positive_to == 'field', &
-                          z_positive_to == 'down', profile, status)
+        file = beside(content%file, trim(path))
+        if (ends_with(file, '.prw') .or. ends_with(file, '.prr')) then
+            call read_simpack_file(file, simpack_kind, y, z, status)
+        else
+            call read_points_file(file, merge(1, -1, y_positive_to == 'field'), &
+                                  merge(1, -1, z_positive_to == 'down'), y, z, status)
+        end if
         call fail_on_error(status)
+        call make_points_profile(y, z, cant, profile, status)
+        call fail_on_error(status, file)
     end subroutine read_points
+
+    !> Does a file name end so, in upper or lower case?
+    pure logical function ends_with(file, ending)
+        character(len=*), intent(in) :: file, ending
+
+        ends_with = .false.
+        if (len(file) < len(ending)) return
+        ends_with = lower_case(file(len(file) - len(ending) + 1:)) == ending
+    end function ends_with
 
     !> A path that is relative to the folder of another file.
     pure function beside(file, path) result(resolved)

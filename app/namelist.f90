@@ -10,7 +10,7 @@ module faststrip_app_namelist
     private
 
     public :: namelist_file_t, group_t, read_namelist_file, find_group, group_text, line_length
-    public :: refuse, refuse_line
+    public :: sets, refuse, refuse_line
 
     !> Longest line of a case file, characters.
     integer, parameter :: line_length = 1024
@@ -135,6 +135,32 @@ contains
         text(n + 1) = '/'
     end function group_text
 
+    !> Does a group set a name?
+    logical function sets(content, group, name)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(group_t), intent(in) :: group           !! a group of it
+        character(len=*), intent(in) :: name         !! name in the group
+
+        sets = line_setting(content, group, name) > 0
+    end function sets
+
+    !> The last line of a group that sets a name; 0 if there is none.
+    integer function line_setting(content, group, name) result(at)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+
+        integer :: i
+        character(len=line_length) :: line
+
+        at = 0
+        if (group%first == 0) return
+        do i = group%first, group%last
+            line = lower_case(content%line(i))
+            if (sets_name(line, lower_case(name))) at = i
+        end do
+    end function line_setting
+
     !> End the program with an error about a name of a group; the line is the one that sets it.
     subroutine refuse(content, group, name, what, value)
         type(namelist_file_t), intent(in) :: content !! a case file
@@ -143,16 +169,8 @@ contains
         character(len=*), intent(in) :: what         !! what is wrong
         character(len=*), intent(in) :: value        !! the offending value
 
-        integer :: i, at
-        character(len=line_length) :: line
-
-        at = max(1, group%first)
-        do i = group%first, group%last
-            if (i == 0) exit
-            line = lower_case(content%line(i))
-            if (sets_name(line, lower_case(name))) at = i
-        end do
-        call refuse_line(content, at, '&' // group%name // ' ' // name // ' ' // what, value)
+        call refuse_line(content, max(line_setting(content, group, name), group%first, 1), &
+                         '&' // group%name // ' ' // name // ' ' // what, value)
     end subroutine refuse
 
     !> End the program with an error about a line.

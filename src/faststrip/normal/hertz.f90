@@ -15,16 +15,18 @@ module faststrip_normal_hertz
                                 st_bad_argument, st_bad_load, st_bad_material, &
                                 st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
                                 st_out_of_range, st_workspace_too_small
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: hertz_t, hertz_solve, hertz_strips
+    public :: hertz_t, hertz_solve, hertz_solve_gap, hertz_strips
 
     !> A Hertz contact.
     type :: hertz_t
         real(wp) :: a = 0.0_wp           !! semi-axis along the rolling direction x, mm
         real(wp) :: b = 0.0_wp           !! semi-axis along y, mm
+        real(wp) :: y = 0.0_wp           !! middle, from the contact reference point, mm
         real(wp) :: penetration = 0.0_wp !! approach of the bodies, mm
         real(wp) :: pmax = 0.0_wp        !! pressure in the middle, MPa
         real(wp) :: area = 0.0_wp        !! pi a b, mm^2
@@ -168,6 +170,27 @@ contains
         slope = 1.0_wp + 2.0_wp*s_over_m*(g*g/(0.5_wp - s) + 1.0_wp/(0.5_wp + s))
     end subroutine ellipse_integrals
 
+    !> The Hertz contact of a gap: the ellipse of the curvatures where the gap is lowest, what
+    !> vehicle codes take at the rigid contact point. The penetration counts from there.
+    pure subroutine hertz_solve_gap(curve, compliance, load, hertz, status)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set, mm
+        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: load           !! Q, N
+        type(hertz_t), intent(out) :: hertz    !! the contact; zero when there is an error
+        type(status_t), intent(out) :: status  !! as `hertz_solve`; `st_workspace_too_small`
+
+        real(wp) :: h, inv2r
+
+        if (curve%n == 0) then
+            call set_status(status, st_workspace_too_small, 'no gap was set')
+            return
+        end if
+        call gap_at(curve, curve%y_lowest, h, inv2r)
+        call hertz_solve(compliance, inv2r, gap_curvature(curve, curve%y_lowest), load, hertz, &
+                         status)
+        hertz%y = curve%y_lowest
+    end subroutine hertz_solve_gap
+
     !> The Hertz ellipse cut into strips of equal width, with the load of each strip exact: half
     !> length and pressure of a strip are `a q` and `pmax q`, `q^2` the mean of `1 - (y/b)^2`
     !> over its width.
@@ -202,8 +225,8 @@ contains
             left = real(2*(i - 1) - n, wp)/n
             right = real(2*i - n, wp)/n
             q = sqrt(1.0_wp - (left*left + left*right + right*right)/3.0_wp)
-            strips%y_left(i) = hertz%b*left
-            strips%y_right(i) = hertz%b*right
+            strips%y_left(i) = hertz%y + hertz%b*left
+            strips%y_right(i) = hertz%y + hertz%b*right
             strips%half_length(i) = hertz%a*q
             strips%p0(i) = hertz%pmax*q
             strips%patch(i) = 1
