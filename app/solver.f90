@@ -12,8 +12,7 @@ module faststrip_app_solver
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
-    use faststrip_tangential_fastsim, only: fastsim_solve
-    use faststrip_tangential_fastsim_strips, only: fastsim_strips_solve
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
     use faststrip_tangential_faststrip, only: faststrip_solve
     use faststrip_app_methods, only: methods_t
     implicit none

@@ -24,27 +24,24 @@ module faststrip_tangential_fastsim
     use faststrip_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_motion, only: check_motion
+    use faststrip_tangential_patch, only: patch_ellipse_t, patch_ellipse, check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, &
                                           state_adhesion, state_slip
     implicit none
     private
 
-    public :: fastsim_solve
+    public :: fastsim_solve, fastsim_strips_solve
 
 contains
 
-    !> Forces by FASTSIM with `nx` elements in each of `ny` strips of equal width; tractions stand
-    !> at the middles of the elements, half a step behind the leading edge first.
-    !>
-    !> Without spin and slip the forces are those of the linear theory times `1 + w^2/8`, w = 2/ny.
-    !> Slip is `L dp/dt` left over by scaling back, the measure of slip the theory itself uses:
-    !> with three flexibilities it is not parallel to the traction, but never does it feed energy.
+    !> Forces by FASTSIM on a Hertz ellipse with `nx` elements in each of `ny` strips of equal width.
     pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field)
-        type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at the reference point
+        type(hertz_t), intent(in) :: hertz           !! the ellipse
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
-        type(creepage_t), intent(in) :: creepage     !! rail relative to wheel
+        type(creepage_t), intent(in) :: creepage     !! about the reference point
         integer, intent(in) :: nx                    !! elements along x in each strip, >= 1
         integer, intent(in) :: ny                    !! strips across, >= 1
         type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
@@ -54,10 +51,72 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs room for nx*ny elements
 
-        type(kalker_coefficients_t) :: c
-        real(wp) :: g, l1, l2, l3, top, width, y, row, h, x, t, bound, size_squared, scale
-        real(wp) :: slope_x, slope_y, px, py, last_x, last_y, sx, sy, cell, stuck, covered
-        integer :: i, j, state
+        call check(material, mu, creepage, nx, ny, 1, status, field)
+        if (is_error(status)) return
+        if (.not. (hertz%a > 0.0_wp .and. hertz%b > 0.0_wp)) then
+            call set_status(status, st_bad_argument, 'no Hertz ellipse')
+            return
+        end if
+        call march(hertz, material, mu, creepage, nx, ny, result, status, field)
+        if (is_error(status)) return
+        result%stick_fraction = result%stick_fraction/hertz%area
+    end subroutine fastsim_solve
+
+    !> Forces by FASTSIM on the patches of a strip solution, each replaced by the ellipse of its
+    !> area and second moments under its load, in place.
+    pure subroutine fastsim_strips_solve(strips, material, mu, creepage, nx, ny, result, status, &
+                                         field)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        type(material_t), intent(in) :: material     !! moduli in MPa
+        real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
+        type(creepage_t), intent(in) :: creepage     !! about the reference point
+        integer, intent(in) :: nx                    !! elements along x in each strip, >= 1
+        integer, intent(in) :: ny                    !! strips across each ellipse, >= 1
+        type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
+        type(status_t), intent(out) :: status
+            !! as `fastsim_solve`, and `st_bad_argument` for strips no normal solution can have
+        type(tangential_field_t), intent(inout), optional :: field
+            !! filled when present; needs room for nx*ny elements a patch
+
+        type(patch_ellipse_t) :: ellipse
+        type(hertz_t) :: stand_in
+        real(wp) :: area
+        integer :: first, last
+
+        call check_strips(strips, status)
+        if (is_error(status)) return
+        call check(material, mu, creepage, nx, ny, strips%n_patches, status, field)
+        if (is_error(status)) return
+        area = 0.0_wp
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = first + count(strips%patch(first:strips%n) == strips%patch(first)) - 1
+            ellipse = patch_ellipse(strips, first, last)
+            if (ellipse%load <= 0.0_wp) cycle
+            stand_in%a = ellipse%a
+            stand_in%b = ellipse%b
+            stand_in%y = ellipse%y
+            stand_in%load = ellipse%load
+            stand_in%area = pi*ellipse%a*ellipse%b
+            stand_in%pmax = 1.5_wp*stand_in%load/stand_in%area
+            area = area + stand_in%area
+            call march(stand_in, material, mu, creepage, nx, ny, result, status, field)
+            if (is_error(status)) then
+                result = tangential_result_t()
+                return
+            end if
+        end do
+        if (area > 0.0_wp) result%stick_fraction = result%stick_fraction/area
+    end subroutine fastsim_strips_solve
+
+    pure subroutine check(material, mu, creepage, nx, ny, n_ellipses, status, field)
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        integer, intent(in) :: nx, ny, n_ellipses
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
 
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
@@ -67,39 +126,52 @@ contains
             call set_status(status, st_bad_argument, 'a grid with no elements')
             return
         end if
-        if (.not. (hertz%a > 0.0_wp .and. hertz%b > 0.0_wp)) then
-            call set_status(status, st_bad_argument, 'no Hertz ellipse')
-            return
+        if (.not. present(field)) return
+        field%n = 0
+        if (.not. allocated(field%x)) then
+            call set_status(status, st_workspace_too_small, 'no room reserved for the field')
+        else if (size(field%x) < nx*ny*n_ellipses) then
+            call set_status(status, st_workspace_too_small, 'too little room for the field')
         end if
-        if (present(field)) then
-            field%n = 0
-            if (.not. allocated(field%x)) then
-                call set_status(status, st_workspace_too_small, 'no room reserved for the field')
-                return
-            end if
-            if (size(field%x) < nx*ny) then
-                call set_status(status, st_workspace_too_small, 'too little room for the field')
-                return
-            end if
-        end if
+    end subroutine check
+
+    !> March over one ellipse and add to the sums; the stick fraction counts the area in adhesion.
+    !>
+    !> Tractions stand at the middles of the elements, half a step behind the leading edge first.
+    !> Without spin and slip the forces are those of the linear theory times `1 + w^2/8`, w = 2/ny.
+    !> Slip is `L dp/dt` left over by scaling back, the measure of slip the theory itself uses:
+    !> with three flexibilities it is not parallel to the traction, but never does it feed energy.
+    pure subroutine march(hertz, material, mu, creepage, nx, ny, result, status, field)
+        type(hertz_t), intent(in) :: hertz
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        integer, intent(in) :: nx, ny
+        type(tangential_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        type(kalker_coefficients_t) :: c
+        real(wp) :: g, l1, l2, l3, top, width, y, row, h, x, t, bound, size_squared, scale
+        real(wp) :: slope_x, slope_y, px, py, sx, sy, cell
+        integer :: i, j, state
+
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
-
         g = combined_shear_modulus(material)
         l1 = 8.0_wp*hertz%a/(3.0_wp*c%c11*g)
         l2 = 8.0_wp*hertz%a/(3.0_wp*c%c22*g)
         l3 = pi*hertz%a*sqrt(hertz%a/hertz%b)/(4.0_wp*c%c23*g)
         width = 2.0_wp*hertz%b/ny
         top = mu*hertz%load/(hertz%a*width*grid_sum(nx, ny))
-        stuck = 0.0_wp
-        covered = 0.0_wp
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
-            y = hertz%b*t
+            y = hertz%y + hertz%b*t
             row = hertz%a*sqrt(1.0_wp - t*t)
             h = 2.0_wp*row/nx
             cell = h*width
-            slope_x = creepage%cksi/l1 - y*creepage%cphi/l3
+            slope_x = (creepage%cksi - hertz%y*creepage%cphi)/l1 &
+                      - hertz%b*t*creepage%cphi/l3
             px = 0.0_wp
             py = 0.0_wp
             do j = 1, nx
@@ -107,8 +179,6 @@ contains
                 ! Half a step from the edge to the middle of the first element.
                 scale = merge(0.5_wp*h, h, j == 1)
                 slope_y = creepage%ceta/l2 + (x + 0.5_wp*scale)*creepage%cphi/l3
-                last_x = px
-                last_y = py
                 px = px - scale*slope_x
                 py = py - scale*slope_y
                 bound = top*max((1.0_wp - t*t) - (x/hertz%a)**2, 0.0_wp)
@@ -117,7 +187,7 @@ contains
                 sy = 0.0_wp
                 if (size_squared <= bound*bound) then
                     state = state_adhesion
-                    stuck = stuck + cell
+                    result%stick_fraction = result%stick_fraction + cell
                 else
                     state = state_slip
                     sx = -px
@@ -127,7 +197,6 @@ contains
                     sx = l1*(sx + px)/scale
                     sy = l2*(sy + py)/scale
                 end if
-                covered = covered + cell
                 result%fx = result%fx + cell*px
                 result%fy = result%fy + cell*py
                 result%mz = result%mz + cell*(x*py - y*px)
@@ -147,8 +216,7 @@ contains
                 end if
             end do
         end do
-        result%stick_fraction = stuck/covered
-    end subroutine fastsim_solve
+    end subroutine march
 
     !> Sum of `1 - (x/a)^2 - (y/b)^2` over the elements, a row's length counted in units of a and
     !> its width as one: the sums of the midpoint rule, along x in closed form.
