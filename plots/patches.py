@@ -52,7 +52,7 @@ def outline_figure(shift, strips, ellipse, contact):
     axes = figure.subplots()
     panels.draw_outlines(axes, strips, ellipse, contact)
     style.title(axes, f"Contact patch, lateral shift {style.number(shift)} mm")
-    style.fit_height(figure, axes, 1.5)
+    style.fit_panel(figure, axes, 7.4, 5.4)
     style.legend_above(figure, axes)
     return figure
 

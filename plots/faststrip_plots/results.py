@@ -229,27 +229,30 @@ class Patch:
     p0: np.ndarray
 
     def smooth(self, values: np.ndarray, points: int = 241):
-        """A fine curve through values of the strips that fall to zero like a root at the ends."""
-        middle = 0.5 * (self.y_left[0] + self.y_right[-1])
-        half = 0.5 * (self.y_right[-1] - self.y_left[0])
-        own = (self.y - middle) / half
-        eta = np.sin(np.linspace(-0.5, 0.5, points) * math.pi)
-        full = _hermite(own, values / np.sqrt(1.0 - own**2), np.clip(eta, own[0], own[-1]))
-        return middle + half * eta, full * np.sqrt(np.maximum(0.0, 1.0 - eta**2))
+        """A fine curve through values of the strips that fall to zero like a root at the ends.
+
+        The squares are joined by cubics; values of an ellipse give the ellipse.
+        """
+        low, high = self.y_left[0], self.y_right[-1]
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        y = middle + half * np.sin(np.linspace(-0.5, 0.5, points) * math.pi)
+        nodes = np.concatenate([[low], self.y, [high]])
+        squares = np.concatenate([[0.0], values**2, [0.0]])
+        return y, np.sqrt(np.maximum(0.0, _hermite(nodes, squares, y)))
 
 
 def _hermite(x, y, at):
-    """Piecewise cubic through points, slopes by differences."""
-    if len(x) < 2:
-        return np.full_like(at, y[0])
-    slope = np.gradient(y, x)
+    """Piecewise cubic through points y >= 0, slopes by differences, nowhere below zero."""
+    width = np.diff(x)
+    slope = np.gradient(y, x, edge_order=2)
+    slope[:-1] = np.maximum(slope[:-1], -2.0 * y[:-1] / width)
+    slope[1:] = np.minimum(slope[1:], 2.0 * y[1:] / width)
     k = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
-    width = x[k + 1] - x[k]
-    t = (at - x[k]) / width
+    t = (at - x[k]) / width[k]
     return (
         (1.0 + 2.0 * t) * (1.0 - t) ** 2 * y[k]
         + t**2 * (3.0 - 2.0 * t) * y[k + 1]
-        + t * (1.0 - t) * ((1.0 - t) * slope[k] - t * slope[k + 1]) * width
+        + t * (1.0 - t) * ((1.0 - t) * slope[k] - t * slope[k + 1]) * width[k]
     )
 
 

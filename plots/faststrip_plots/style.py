@@ -110,11 +110,13 @@ def title(axes, text: str) -> None:
     axes.set_title(text, loc="left", fontweight="bold")
 
 
-def fit_height(figure, axes, height: float) -> None:
-    """Make a figure as high as its one panel of equal scales needs, plus `height` inches."""
-    width = figure.get_size_inches()[0]
+def fit_panel(figure, axes, width: float, height: float) -> None:
+    """Make a figure fit its one panel of equal scales, at most `width` by `height` inches."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    figure.set_size_inches(width, height + (width - 0.8) * abs(high - low) / abs(right - left))
+    scale = min(width / abs(right - left), height / abs(high - low))
+    figure.set_size_inches(
+        max(5.5, scale * abs(right - left) + 0.8), scale * abs(high - low) + 1.5
+    )
 
 
 def legend_above(figure, *axes) -> None:
@@ -136,8 +138,8 @@ def save(figure, path: str, stamps, note: str = "") -> None:
     """
     known = list(dict.fromkeys(stamp for stamp in stamps if stamp))
     text = "; ".join(known) if known else "faststrip, revision not given"
-    figure.supxlabel(text, x=0.995, ha="right", fontsize=SMALL, color=GREY)
-    figure.text(0.005, 0.01, note, ha="left", va="bottom", fontsize=SMALL, color=GREY)
+    figure.supxlabel(text, x=0.99, ha="right", fontsize=SMALL, color=GREY)
+    figure.text(0.01, 0.01, note, ha="left", va="bottom", fontsize=SMALL, color=GREY)
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         figure.savefig(path, dpi=DPI, format="png")

@@ -92,14 +92,15 @@ class Figures(unittest.TestCase):
         self.assertEqual(status, 0)
         self.assertEqual(cells(out, "Hertz + FASTSIM"), ["0 / 1"] + ["–"] * 8)
 
-    def test_missing_times_are_left_out(self):
+    def test_times_are_medians_and_missing_ones_left_out(self):
+        times = ("", 70, 80, 900)
         files = {
-            "out/sweep.csv": sweep_text(sweep_row(0, normal_us=""), sweep_row(1, normal_us=70)),
-            "r.csv": reference_text(0, 1),
+            "out/sweep.csv": sweep_text(*[sweep_row(k, normal_us=t) for k, t in enumerate(times)]),
+            "r.csv": reference_text(0),
         }
         with Folder(files) as folder:
             _, out, _ = folder.run("accuracy", "--reference", "r.csv", "--no-fast-modes")
-        self.assertEqual(cells(out, "strips + FASTSTRIP")[7:], ["70.0", "10.0"])
+        self.assertEqual(cells(out, "strips + FASTSTRIP")[7:], ["80.0", "10.0"])
 
     def test_fast_modes(self):
         # moment: -300 and 600 of mu N c = 6000 N mm; shift 7 is not in the reference

@@ -170,7 +170,12 @@ class Patches(unittest.TestCase):
         patch = self.read(results.read_strips, strips_text()).patches[0]
         values = np.array([1.0, 3.0, 2.0, 4.0, 1.5])
         y, curve = patch.smooth(values, points=20001)
-        self.assertLess(np.abs(np.interp(patch.y, y, curve) - values).max(), 5e-4)
+        self.assertLess(np.abs(np.interp(patch.y, y, curve) - values).max(), 1e-5)
+
+    def test_the_curve_does_not_pinch_a_patch_between_its_strips(self):
+        patch = self.read(results.read_strips, strips_text()).patches[0]
+        y, curve = patch.smooth(np.array([9.0, 0.3, 0.3, 9.0, 0.2]))
+        self.assertGreater(curve[(y > patch.y[0]) & (y < patch.y[-1])].min(), 0.1)
 
     def test_patches_are_kept_apart(self):
         strips = self.read(results.read_strips, strips_text(2))
