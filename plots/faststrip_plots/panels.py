@@ -322,7 +322,7 @@ def draw_profiles(axes, profiles):
     axes.plot(rail[:, 0], rail[:, 1], color="#444444", linewidth=2.0, zorder=3)
     axes.set_aspect("equal")
     axes.invert_yaxis()
-    axes.set_xlabel("lateral $y$ in the track frame, mm")
+    axes.set_xlabel("lateral $y$, mm")
     axes.set_ylabel("$z$ (down), mm")
     for name, points, side in (("wheel", wheel, np.min), ("rail", rail, np.max)):
         # the word stands halfway between the surface and the flat end of the body drawn
