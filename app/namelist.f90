@@ -83,8 +83,10 @@ contains
                 if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
                                                   trim_blanks(content%line(open_at)))
                 name = lower_case(first_word(text(2:)))
-                j = findloc(known, name, dim=1)
-                if (j == 0) call refuse_line(content, i, 'unknown group', '&' // name)
+                do j = 1, size(known)
+                    if (known(j) == name) exit
+                end do
+                if (j > size(known)) call refuse_line(content, i, 'unknown group', '&' // name)
                 if (seen(j) > 0) call refuse_line(content, i, 'group stands twice', '&' // name)
                 seen(j) = i
                 open_at = i
