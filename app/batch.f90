@@ -9,7 +9,7 @@ module faststrip_app_batch
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_file, only: read_gap_file
-    use faststrip_app_console, only: fail, fail_on_error, note, progress, usage_error, put_origin, &
+    use faststrip_app_console, only: fail, fail_on_error, note, progress, put_origin, &
                                      exit_bad_input
     use faststrip_app_options, only: command_t, option_t, parse_command, option_text
     use faststrip_app_methods, only: methods_t
@@ -77,7 +77,7 @@ contains
                 call note('row ' // integer_text(row) // ' (' // table%file // ':' &
                           // integer_text(table%line(row)) // '): ' // trim(status%message))
             end if
-            if (mod(row, 1000) == 0) call progress('contacts', row, table%n_rows)
+            call progress('contacts', row, table%n_rows)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)

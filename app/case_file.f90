@@ -35,6 +35,10 @@ module faststrip_app_case_file
         real(wp) :: mu = 0.0_wp                     !! coefficient of friction
         real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
         real(wp), allocatable :: shifts(:)          !! of the sweep, mm
+        real(wp), allocatable :: shift_loads(:)     !! normal force of each shift, N; or empty
+        real(wp), allocatable :: shift_cksi(:)      !! creepages of each shift; or empty
+        real(wp), allocatable :: shift_ceta(:)      !! the same
+        real(wp), allocatable :: shift_cphi(:)      !! the same, rad/mm
         type(material_t) :: material                !! moduli, MPa
         type(profile_t) :: wheel, rail              !! unless there is a gap file
         type(wheelset_t) :: wheelset                !! mm
@@ -320,26 +324,74 @@ contains
         type(namelist_file_t), intent(in) :: content
         type(case_t), intent(inout) :: case
 
-        real(wp) :: shifts_mm(max_shifts)
-        namelist /sweep/ shifts_mm
+        real(wp) :: shifts_mm(max_shifts), load_n(max_shifts)
+        real(wp) :: cksi(max_shifts), ceta(max_shifts), cphi_rad_per_mm(max_shifts)
+        namelist /sweep/ shifts_mm, load_n, cksi, ceta, cphi_rad_per_mm
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
         integer :: n, code
 
         shifts_mm = unset()
+        load_n = unset()
+        cksi = unset()
+        ceta = unset()
+        cphi_rad_per_mm = unset()
         call find_group(content, 'sweep', .false., group)
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=sweep, iostat=code, iomsg=words)
             if (code /= 0) call refuse_text(content, group, n, words)
         end do
-        n = count(ieee_is_finite(shifts_mm))
-        if (.not. all(ieee_is_finite(shifts_mm(:n)))) &
-            call refuse(content, group, 'shifts_mm', 'is not a finite number at place ' &
-                        // integer_text(findloc(ieee_is_finite(shifts_mm), .false., dim=1)), '')
-        case%shifts = shifts_mm(:n)
+        call take_list(content, group, 'shifts_mm', shifts_mm, case%shifts)
+        call take_list(content, group, 'load_N', load_n, case%shift_loads)
+        call take_list(content, group, 'cksi', cksi, case%shift_cksi)
+        call take_list(content, group, 'ceta', ceta, case%shift_ceta)
+        call take_list(content, group, 'cphi_rad_per_mm', cphi_rad_per_mm, case%shift_cphi)
+        n = size(case%shifts)
+        if (n == 0) return
+        if (size(case%shift_loads) > 0) then
+            call need_as_many(content, group, 'load_N', size(case%shift_loads), n)
+            if (case%load_is_vertical) call refuse(content, group, 'load_N', &
+                'is a list of normal forces, and load_direction is vertical', '')
+            if (any(case%shift_loads <= 0.0_wp)) call refuse(content, group, 'load_N', &
+                'is not positive', number_text(minval(case%shift_loads)))
+        end if
+        if (max(size(case%shift_cksi), size(case%shift_ceta), size(case%shift_cphi)) == 0) return
+        if (case%creepage_by_formula) call refuse(content, group, 'cksi', &
+            'and its like are given, and &motion creepage is formula', '')
+        call need_as_many(content, group, 'cksi', size(case%shift_cksi), n)
+        call need_as_many(content, group, 'ceta', size(case%shift_ceta), n)
+        call need_as_many(content, group, 'cphi_rad_per_mm', size(case%shift_cphi), n)
     end subroutine read_sweep_group
+
+    !> The numbers a list was given, which must be its first ones without a hole.
+    subroutine take_list(content, group, name, list, values)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: list(:)
+        real(wp), allocatable, intent(out) :: values(:)
+
+        integer :: n
+
+        n = count(ieee_is_finite(list))
+        if (.not. all(ieee_is_finite(list(:n)))) &
+            call refuse(content, group, name, 'is not a finite number at place', &
+                        integer_text(findloc(ieee_is_finite(list), .false., dim=1)))
+        values = list(:n)
+    end subroutine take_list
+
+    subroutine need_as_many(content, group, name, given, wanted)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: given, wanted
+
+        if (given /= wanted) &
+            call refuse(content, group, name, 'needs as many numbers as there are shifts, ' &
+                        // integer_text(wanted), integer_text(given))
+    end subroutine need_as_many
 
     !> Number of lines of a group; 0 if it is not there.
     pure integer function lines_of(group)

@@ -1,7 +1,7 @@
 !> What the program says to people: errors and notes on stderr, help and version on stdout.
 module faststrip_app_console
-    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, compiler_version, &
-                                             compiler_options
+    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, int64, &
+                                             compiler_version, compiler_options
     use faststrip_status, only: status_t, is_error, st_no_convergence
     use faststrip_csv, only: csv_writer_t, put_comment
     use faststrip_app_revision, only: revision
@@ -72,18 +72,20 @@ contains
         write (output_unit, '(a)') text
     end subroutine say
 
-    !> A running count on stderr, overwritten in place; the last one ends the line.
+    !> A running count on stderr for long work: at most one line a second, none in the first.
     subroutine progress(what, done, total)
         character(len=*), intent(in) :: what !! what is being counted
         integer, intent(in) :: done          !! how many are done
         integer, intent(in) :: total         !! how many there are
 
-        character(len=7) :: advance
+        integer(int64), save :: last = -1
+        integer(int64) :: now, rate
 
-        advance = 'no'
-        if (done >= total) advance = 'yes'
-        write (error_unit, '(4a,i0,a,i0)', advance=trim(advance)) &
-            achar(13), 'faststrip: ', what, ' ', done, '/', total
+        call system_clock(now, rate)
+        if (last < 0) last = now
+        if (now - last < rate) return
+        last = now
+        write (error_unit, '(3a,i0,a,i0)') 'faststrip: ', what, ' ', done, ' of ', total
     end subroutine progress
 
     !> Name, version and revision of the program.
