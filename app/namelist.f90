@@ -74,6 +74,7 @@ contains
         character(len=:), allocatable :: text, name
         integer :: i, j, open_at, seen(size(known))
 
+        name = ''
         open_at = 0
         seen = 0
         do i = 1, size(content%line)
