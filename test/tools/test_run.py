@@ -1,0 +1,158 @@
+"""What ./run says and returns, in a small project of its own."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from harness import ROOT, module, test
+
+MAIN = """\
+program main
+    use faststrip_app_revision, only: revision
+    implicit none
+    print '(a)', 'revision ' // revision
+end program main
+"""
+LIBRARY = """\
+module faststrip_kinds
+    implicit none
+    private
+    public :: wp
+    integer, parameter :: wp = kind(1.0d0)
+end module faststrip_kinds
+"""
+PASSING = test("passes", "@assertTrue(.true.)")
+FAILING = test("fails", "@assertTrue(.false.)")
+STOPPING = test("stops", "error stop 'on purpose'")
+PYTHON = """\
+import unittest
+
+
+class Good(unittest.TestCase):
+    def test_good(self):
+        pass
+"""
+# What ./run needs of a machine before it can install anything.
+BASIC_TOOLS = "sh dirname cat cmp printf mkdir rm cp sed tr tail tee env".split()
+
+
+class Project(unittest.TestCase):
+    """A folder with ./run, a library of one file and a program."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        for name in ("run", "fpm.toml", "test/funit.f90", "test/funit_runner.f90"):
+            self.copy(name)
+        for name in ("requirements.txt", "pf2f90.py", "run_pytests.py"):
+            self.copy(f"tools/{name}")
+        self.write("app/main.f90", MAIN)
+        self.write("src/faststrip/kinds.f90", LIBRARY)
+
+    def copy(self, name):
+        (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, self.folder / name)
+
+    def write(self, name, text):
+        (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.folder / name).write_text(text, encoding="utf-8")
+
+    def run_it(self, *arguments, **environment):
+        return subprocess.run(
+            [self.folder / "run", *arguments],
+            cwd="/",
+            env={**os.environ, **environment},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+
+
+class Usage(Project):
+    def test_help(self):
+        result = self.run_it("help")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("usage: ./run", result.stdout)
+
+    def test_an_unknown_command(self):
+        result = self.run_it("frobnicate")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("usage: ./run", result.stderr)
+        self.assertEqual(result.stdout, "")
+
+
+class Installing(Project):
+    def test_without_packages_and_rights_the_command_is_named(self):
+        tools = self.folder / "bare"
+        tools.mkdir()
+        for name in BASIC_TOOLS:
+            (tools / name).symlink_to(shutil.which(name))
+        for name, body in (("id", "echo 1000"), ("apt-get", "exit 9")):
+            self.write(f"bare/{name}", f"#!/bin/sh\n{body}\n")
+            (tools / name).chmod(0o755)
+        for command in ("build", "test", "demo"):
+            with self.subTest(command):
+                result = self.run_it(command, PATH=str(tools))
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(
+                    result.stderr,
+                    r"\n +sudo apt-get install -y gfortran pkg-config libopenblas-dev libgsl-dev"
+                    r"( python3-venv)?\n",
+                )
+                self.assertFalse((self.folder / ".venv").exists())
+
+
+class Testing(Project):
+    """Needs the .venv of the checkout, as ./run test makes it."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / ".venv").symlink_to(ROOT / ".venv")
+        self.write("test/tools/test_good.py", PYTHON)
+
+    def check(self, body, code, counts, *arguments):
+        self.write("test/pf/test_x.pf", module("test_x", body))
+        result = self.run_it("test", *arguments)
+        last = result.stdout.splitlines()[-1]
+        self.assertEqual(last, counts, result.stdout + result.stderr)
+        self.assertEqual(result.returncode, code)
+        return result
+
+    def test_all_stages_are_counted(self):
+        disabled = PASSING.replace("@test", "@test\n@disable").replace("passes", "waits")
+        self.check(PASSING + disabled, 0, "2 passed, 0 failed, 1 skipped")
+        program = subprocess.run([self.folder / "bin/faststrip"], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(program.stdout, "revision unknown\n")
+
+    def test_a_failing_test_fails_the_run(self):
+        self.check(PASSING + FAILING, 1, "2 passed, 1 failed")
+
+    def test_a_crash_counts_as_one_failure(self):
+        self.check(PASSING + STOPPING, 1, "1 passed, 1 failed")
+
+    def test_what_does_not_compile_counts_as_one_failure(self):
+        result = self.check(PASSING + test("wrong", "call ("), 1, "1 passed, 1 failed")
+        self.assertIn("test/pf/test_x.pf:13", result.stdout)
+
+    def test_a_warning_counts_as_one_failure(self):
+        self.check(PASSING + test("untidy", "integer :: unused"), 1, "1 passed, 1 failed")
+
+    def test_a_release_that_does_not_build_counts_as_one_failure(self):
+        self.write("app/main.f90", MAIN.replace("print", "prnt"))
+        self.check(PASSING, 1, "1 passed, 2 failed")
+
+    def test_a_filter(self):
+        self.check(PASSING + FAILING, 0, "1 passed, 0 failed", "::passes")
+        self.check(PASSING, 0, "1 passed, 0 failed", "tools/test_good")
+        self.check(PASSING, 1, "0 passed, 1 failed", "unknown")
+
+
+if __name__ == "__main__":
+    unittest.main()
