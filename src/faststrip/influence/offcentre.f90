@@ -29,7 +29,7 @@
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp, pi
-    use faststrip_influence_closed, only: strip_influence_edges, influence_primitive_slope
+    use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     implicit none
     private
 
@@ -86,8 +86,13 @@ module faststrip_influence_offcentre
     type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 5, 0.2_wp, &
                                                          10, 1.0e3_wp, 1.0e-3_wp)
 
-    ! Lengths this many times the half-length see the strip as a point.
-    real(wp), parameter :: point_ratio = 1.0e60_wp
+    ! From this many half-lengths away a strip is a point; an edge this many times farther still
+    ! sees it, and all within the former, as one.
+    real(wp), parameter :: point_ratio = 1.0e30_wp
+    ! On the centre line the closed form serves while edges are at most this many widths away.
+    real(wp), parameter :: center_ratio = 1.0e3_wp
+    ! A strip within this distance of the field point, in half-lengths, has no influence.
+    real(wp), parameter :: no_width = 1.0e-250_wp
     ! Below this, an edge is on the field point.
     real(wp), parameter :: on_the_edge = 1.0e-20_wp
 
@@ -124,11 +129,12 @@ contains
         real(wp), intent(in) :: half_length    !! xd of the strip that carries the pressure, mm
         real(wp), intent(in) :: e_left         !! its left edge less the field point's y, mm
         real(wp), intent(in) :: e_right        !! its right edge less the field point's y, mm
-        real(wp), intent(out) :: value         !! influence I, mm; 0 for half_length <= 0
+        real(wp), intent(out) :: value         !! influence I, mm; 0 for half_length <= 0; at most
+                                               !! the largest double
         real(wp), intent(out) :: d_x           !! dI/dx
         real(wp), intent(out) :: d_half_length !! dI/dxd
 
-        real(wp) :: m(3)
+        real(wp) :: m(3), largest
 
         if (.not. (ieee_is_finite(x) .and. ieee_is_finite(half_length) &
                    .and. ieee_is_finite(e_left) .and. ieee_is_finite(e_right))) then
@@ -144,7 +150,8 @@ contains
             m = 0.0_wp
         end if
         if (e_left > e_right) m = -m
-        value = half_length*m(1)
+        largest = huge(1.0_wp)/max(half_length, 1.0_wp)
+        value = half_length*max(-largest, min(largest, m(1)))
         d_x = m(2)
         if (x < 0.0_wp) d_x = -d_x
         d_half_length = m(3)
@@ -182,38 +189,49 @@ contains
         real(wp), intent(out) :: m(3)
 
         real(wp), parameter :: largest_scaled = 1.0e240_wp
-        real(wp) :: reach, cr
+        real(wp) :: near, far
 
-        reach = point_ratio*min(xd, largest_scaled)
-        if (x > reach .or. el > reach) then
+        near = point_ratio*min(xd, largest_scaled)
+        far = point_ratio*near
+        if (x > near .or. el > near) then
             call point_moments(x, xd, el, er, m)
-        else if (er > reach) then
-            cr = reach/xd
-            call unit_moments(x/xd, el/xd, cr, demand, m)
-            m(1) = m(1) + 0.5_wp*pi*(log(er) - log(reach))
-            m(3) = m(3) + 0.5_wp*pi*(log(er) - log(reach))
+        else if (er > far) then
+            call unit_moments(x/xd, el/xd, far/xd, demand, m)
+            m(1) = m(1) + 0.5_wp*pi*(log(er) - log(far))
+            m(3) = m(3) + 0.5_wp*pi*(log(er) - log(far))
         else
             call unit_moments(x/xd, el/xd, er/xd, demand, m)
         end if
     end subroutine one_side
 
-    !> A strip so short that it is a point: `(pi/2) ker(x)`.
+    !> A strip so short that it is a point: `(pi/2) ker(x)`; x > 0 or el > 0.
     pure subroutine point_moments(x, xd, el, er, m)
         real(wp), intent(in) :: x, xd, el, er
         real(wp), intent(out) :: m(3)
 
-        real(wp), parameter :: scale = 2.0_wp**(-700)
-        real(wp) :: xs, cl, cr, sl, sr
+        real(wp), parameter :: far_edge = 1.0e60_wp
+        real(wp) :: size, xs, cl, cr, sl, sr, ker
+        logical :: beyond
 
-        xs = x*scale
-        cl = el*scale
-        cr = er*scale
+        size = max(x, el)
+        xs = x/size
+        cl = el/size
         sl = hypot(xs, cl)
-        sr = hypot(xs, cr)
-        m = 0.0_wp
-        if (.not. (sl > 0.0_wp .and. cr > cl)) return
-        m(1) = 0.5_wp*pi*log_1p((cr - cl)/(cl + sl)*(1.0_wp + (cr + cl)/(sr + sl)))
-        m(2) = -0.5_wp*pi*xd*scale*(xs/sl)*((cr - cl)/sr)/sl*((cr + cl)/(cr + cl*(sr/sl)))
+        beyond = er/far_edge > size
+        if (size < 1.0_wp) beyond = er > far_edge*size
+        if (beyond) then
+            ker = log_2 + log(er) - log(size) - log(cl + sl)
+            m(2) = -xs/(sl*(cl + sl))
+        else
+            cr = er/size
+            m = 0.0_wp
+            if (.not. cr > cl) return
+            sr = hypot(xs, cr)
+            ker = log_1p((cr - cl)/(cl + sl)*(1.0_wp + (cr + cl)/(sr + sl)))
+            m(2) = -xs*(cr - cl)*(cr + cl)/(sr*sl*(cr*sl + cl*sr))
+        end if
+        m(1) = 0.5_wp*pi*ker
+        m(2) = 0.5_wp*pi*(xd/size)*m(2)
         m(3) = m(1)
     end subroutine point_moments
 
@@ -227,7 +245,11 @@ contains
         integer :: rule
 
         m = 0.0_wp
-        if (.not. cr > cl) return
+        if (.not. cr > max(cl, no_width)) return
+        if (.not. x > 0.0_wp .and. cl <= center_ratio*(cr - cl)) then
+            call strip_influence_center_gradient(cl, cr, m(1), m(3))
+            return
+        end if
         sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cl*cl) + sqrt((x + 1.0_wp)**2 + cl*cl))
         rule = least_far_rule(sigma, demand)
         if (rule <= demand%last_far) then

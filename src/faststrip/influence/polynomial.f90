@@ -8,7 +8,7 @@ module faststrip_influence_polynomial
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_not_finite, st_out_of_range
+                                message_length, st_not_finite, st_out_of_range
     implicit none
     private
 
@@ -56,6 +56,7 @@ contains
         real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
         real(wp) :: l, e
         integer :: k, row
+        character(len=message_length) :: words
 
         call clear_status(status)
         value = 0.0_wp
@@ -65,8 +66,8 @@ contains
             return
         end if
         if (n < -table_last_distance .or. n > table_last_distance) then
-            call set_status(status, st_out_of_range, 'the table ends at strip distance 20: ' // &
-                            trim(number_text(real(n, wp))))
+            write (words, '(a, i0)') 'the table ends at strip distance 20: ', n
+            call set_status(status, st_out_of_range, words)
             return
         end if
         if (b < b_least .or. b > b_most) then

@@ -19,7 +19,8 @@ module faststrip_influence_quadrature
                                            c_funptr, c_int, c_loc, c_ptr, c_size_t
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_bad_argument, st_not_finite, st_out_of_range, st_quadrature
+                                message_length, st_bad_argument, st_not_finite, &
+                                st_out_of_range, st_quadrature
     use faststrip_numerics_gsl, only: gsl_function_t, gsl_set_error_handler_off, &
                                       gsl_integration_qags, gsl_integration_workspace_alloc, &
                                       gsl_integration_workspace_free
@@ -94,6 +95,7 @@ contains
         type(c_ptr) :: workspace
         real(wp) :: relative
         integer(c_int) :: code
+        character(len=message_length) :: words
 
         value = 0.0_wp
         abs_error = 0.0_wp
@@ -128,10 +130,10 @@ contains
             if (code /= 0) then
                 value = 0.0_wp
                 abs_error = 0.0_wp
-                call set_status(status, st_quadrature, 'quadrature of the influence at strip '// &
-                                'distance ' // trim(number_text(real(n, wp))) // ', b = ' // &
-                                trim(number_text(b)) // ', X = ' // trim(number_text(x)) // &
-                                ' ended with GSL status ' // trim(number_text(real(code, wp))))
+                write (words, '(a, i0, 4a, a, i0)') 'quadrature at strip distance ', n, ', b = ', &
+                    trim(number_text(b)), ', X = ', trim(number_text(x)), &
+                    ' ended with GSL status ', code
+                call set_status(status, st_quadrature, words)
             end if
         else
             call set_status(status, st_quadrature, 'no memory for the quadrature')
