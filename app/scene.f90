@@ -17,6 +17,9 @@ module faststrip_app_scene
 
     public :: scene_t, make_scene, write_gap, write_profiles
 
+    !> Shifts nearer to each other than this are the same, mm.
+    real(wp), parameter :: same_shift = 1.0e-9_wp
+
     !> One contact, ready to be solved.
     type :: scene_t
         type(gap_t) :: gap              !! undeformed gap, mm
@@ -28,7 +31,8 @@ module faststrip_app_scene
 
 contains
 
-    !> Place the wheelset and make the gap, or read it.
+    !> Place the wheelset and make the gap, or read it. A shift the case's sweep lists gets the
+    !> load and the creepages listed with it.
     subroutine make_scene(case, shift, scene, status)
         type(case_t), intent(in) :: case       !! a case that was read
         real(wp), intent(in) :: shift          !! lateral shift, without meaning for a gap file, mm
@@ -51,9 +55,24 @@ contains
         if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
         if (case%creepage_by_formula) scene%creepage = &
             shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
+        call take_lists(case, scene)
         call make_gap(case%wheel, case%rail, case%wheelset, scene%contact, case%gap_step, &
                       case%gap_height, scene%gap, status)
     end subroutine make_scene
+
+    !> Load and creepages that the sweep of the case lists for this shift.
+    subroutine take_lists(case, scene)
+        type(case_t), intent(in) :: case
+        type(scene_t), intent(inout) :: scene
+
+        integer :: i
+
+        i = findloc(abs(case%shifts - scene%shift) < same_shift, .true., dim=1)
+        if (i == 0) return
+        if (size(case%shift_loads) > 0) scene%load = case%shift_loads(i)
+        if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
+            case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
+    end subroutine take_lists
 
     !> Write the gap; ends the program if that fails.
     subroutine write_gap(path, gap)

@@ -2,7 +2,6 @@
 module faststrip_app_sweep
     use faststrip_status, only: status_t, is_error, number_text
     use faststrip_text, only: integer_text
-    use faststrip_creepage, only: creepage_t
     use faststrip_csv, only: csv_writer_t, open_csv, close_csv
     use faststrip_app_console, only: fail, fail_on_error, note, progress, exit_bad_input
     use faststrip_app_options, only: command_t, option_t, parse_command, option_text
@@ -65,9 +64,6 @@ contains
         do i = 1, size(case%shifts)
             call progress('shifts', i, size(case%shifts))
             call make_scene(case, case%shifts(i), scene, placed)
-            if (size(case%shift_loads) > 0) scene%load = case%shift_loads(i)
-            if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
-                case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
             do m = 1, size(solver)
                 status = placed
                 if (.not. is_error(placed)) &
