@@ -12,9 +12,9 @@ module faststrip_csv
     use, intrinsic :: iso_fortran_env, only: output_unit
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
-                                st_file_missing, st_file_format, st_file_write
-    use faststrip_text, only: read_line, trim_blanks, parse_real, parse_integer, integer_text, &
-                              set_place_status
+                                st_file_format, st_file_write
+    use faststrip_text, only: open_text, is_folder, read_line, trim_blanks, parse_real, &
+                              parse_integer, integer_text, set_place_status
     implicit none
     private
 
@@ -123,9 +123,8 @@ contains
                                                  !! fewer cells than names, an open quote
         integer :: unit
 
-        call clear_status(status)
         call empty_table(path, table)
-        call open_for_reading(path, unit, status)
+        call open_text(path, unit, status)
         if (status%code /= 0) return
         call read_rows(unit, table, status)
         close (unit)
@@ -139,23 +138,6 @@ contains
         table%file = path
         allocate (table%names(0), table%cells(0, 0), table%line(0), table%comments(0))
     end subroutine empty_table
-
-    subroutine open_for_reading(path, unit, status)
-        character(len=*), intent(in) :: path
-        integer, intent(out) :: unit
-        type(status_t), intent(inout) :: status
-        logical :: exists
-        integer :: code
-
-        unit = 0
-        inquire (file=path, exist=exists)
-        if (len_trim(path) == 0 .or. .not. exists) then
-            call set_status(status, st_file_missing, 'no such file: ' // path)
-            return
-        end if
-        open (newunit=unit, file=path, status='old', action='read', form='formatted', iostat=code)
-        if (code /= 0) call set_status(status, st_file_missing, 'cannot read the file: ' // path)
-    end subroutine open_for_reading
 
     subroutine read_rows(unit, table, status)
         integer, intent(in) :: unit
@@ -488,12 +470,6 @@ contains
         if (.not. c_associated(writer%stream)) call note_failure(writer)
         status = writer%status
     end subroutine open_csv
-
-    logical function is_folder(path)
-        character(len=*), intent(in) :: path
-
-        inquire (file=path // '/.', exist=is_folder)
-    end function is_folder
 
     !> Add a comment line, above the header.
     subroutine put_comment(writer, text)

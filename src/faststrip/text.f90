@@ -2,12 +2,13 @@
 module faststrip_text
     use, intrinsic :: iso_fortran_env, only: iostat_end, iostat_eor
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, message_length
+    use faststrip_status, only: status_t, set_status, clear_status, message_length, &
+                                st_file_missing
     implicit none
     private
 
-    public :: read_line, trim_blanks, parse_real, parse_integer, integer_text, lower_case
-    public :: set_place_status
+    public :: open_text, is_folder, read_line, trim_blanks, parse_real, parse_integer
+    public :: integer_text, lower_case, set_place_status
 
     character(len=*), parameter :: digits = '0123456789'
     character(len=1), parameter :: tab = achar(9), carriage_return = achar(13)
@@ -18,6 +19,37 @@ module faststrip_text
     integer, parameter :: overflow_exponent = 308, underflow_exponent = -330
 
 contains
+
+    !> Open a text file for reading.
+    subroutine open_text(path, unit, status)
+        character(len=*), intent(in) :: path   !! name of the file
+        integer, intent(out) :: unit           !! the unit; to be closed by the caller if all is
+                                               !! well
+        type(status_t), intent(out) :: status  !! `st_file_missing`: not there, a folder, or not
+                                               !! readable
+        logical :: exists
+        integer :: code
+
+        call clear_status(status)
+        unit = 0
+        exists = .false.
+        if (len_trim(path) > 0) inquire (file=path, exist=exists)
+        if (.not. exists) then
+            call set_status(status, st_file_missing, 'no such file: ' // path)
+            return
+        end if
+        code = 1
+        if (.not. is_folder(path)) open (newunit=unit, file=path, status='old', action='read', &
+                                         form='formatted', iostat=code)
+        if (code /= 0) call set_status(status, st_file_missing, 'cannot read the file: ' // path)
+    end subroutine open_text
+
+    !> Is there a folder of that name?
+    logical function is_folder(path)
+        character(len=*), intent(in) :: path !! a name
+
+        inquire (file=path // '/.', exist=is_folder)
+    end function is_folder
 
     !> The next line of a formatted file, of any length, without its line end (LF or CRLF).
     subroutine read_line(unit, line, found, failed)

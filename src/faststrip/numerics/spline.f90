@@ -140,7 +140,7 @@ contains
             left = (y(i) - y(i - 1))/(x(i) - x(i - 1))
             right = (y(i + 1) - y(i))/(x(i + 1) - x(i))
             a = (x(i) - x(i - 1))/(x(i + 1) - x(i - 1))
-            b = 1.0_wp - a
+            b = (x(i + 1) - x(i))/(x(i + 1) - x(i - 1))
             lower(i - 1) = b
             diagonal(i) = 2.0_wp
             upper(i) = a

@@ -165,6 +165,7 @@ contains
 
         found = .false.
         start = point%y
+        if (start < profile%y_first .or. start > profile%y_last) return
         call turned_at(start, point, missing)
         if (point%along <= least_along) return
         side = sign(1.0_wp, missing)

@@ -5,10 +5,10 @@ module faststrip_profile_file
     use faststrip_kinds, only: wp
     use faststrip_profile_sampled, only: min_profile_points
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                st_bad_argument, st_file_format, st_file_missing, &
+                                st_bad_argument, st_file_format, &
                                 st_not_increasing, st_too_few_points
-    use faststrip_text, only: read_line, trim_blanks, parse_real, integer_text, lower_case, &
-                              set_place_status
+    use faststrip_text, only: open_text, read_line, trim_blanks, parse_real, integer_text, &
+                              lower_case, set_place_status
     implicit none
     private
 
@@ -76,7 +76,7 @@ contains
                             integer_text(y_sense) // ', ' // integer_text(z_sense))
             return
         end if
-        call open_profile(path, unit, status)
+        call open_text(path, unit, status)
         if (is_error(status)) return
         number = 0
         named = .false.
@@ -170,7 +170,7 @@ contains
         integer :: unit, number
         logical :: found, failed, in_points, has_points
 
-        call open_profile(path, unit, status)
+        call open_text(path, unit, status)
         if (is_error(status)) return
         number = 0
         in_points = .false.
@@ -276,24 +276,6 @@ contains
         end if
     end subroutine take_key
 
-    subroutine open_profile(path, unit, status)
-        character(len=*), intent(in) :: path
-        integer, intent(out) :: unit
-        type(status_t), intent(out) :: status
-        integer :: code
-        logical :: exists
-
-        call clear_status(status)
-        unit = 0
-        inquire (file=path, exist=exists)
-        if (len_trim(path) == 0 .or. .not. exists) then
-            call set_status(status, st_file_missing, 'no such file: ' // path)
-            return
-        end if
-        open (newunit=unit, file=path, status='old', action='read', form='formatted', iostat=code)
-        if (code /= 0) call set_status(status, st_file_missing, 'cannot read the file: ' // path)
-    end subroutine open_profile
-
     pure function without_comment(line, marks) result(text)
         character(len=*), intent(in) :: line, marks
         character(len=:), allocatable :: text
@@ -378,7 +360,8 @@ contains
             call parse_real(line(first(i):last(i)), values(i), valid)
             if (.not. valid .or. abs(values(i)) > largest) then
                 call set_place_status(status, st_file_format, &
-                                      'not a finite number within 1e9', "'" // line(first(i):last(i)) // "'", path, number)
+                                      'not a finite number within 1e9', &
+                                      "'" // line(first(i):last(i)) // "'", path, number)
                 return
             end if
         end do

@@ -126,9 +126,9 @@ contains
         call rotate(head%y2, head%z2, crown_y, crown_z, head%joint(6), z_end)
         call place_flank(-1.0_wp, head%flank_y(1), head%flank_z(1), head%flank_dz(1), y_end)
         head%joint(1) = y_end
-        head%joint(2) = max(head%flank_y(1), y_end)
+        head%joint(2) = head%flank_y(1)
         call place_flank(1.0_wp, head%flank_y(2), head%flank_z(2), head%flank_dz(2), y_end)
-        head%joint(7) = min(head%flank_y(2), y_end)
+        head%joint(7) = head%flank_y(2)
         head%joint(8) = y_end
 
     contains
@@ -158,6 +158,7 @@ contains
                 slope = 0.0_wp
                 y_last = head%arc_y(merge(1, 5, side < 0.0_wp)) &
                          + side*(radius(3) - vertical_margin)
+                y = y_last
             end if
         end subroutine place_flank
     end subroutine make_rail_head
