@@ -209,7 +209,7 @@ contains
             call set_status(status, st_bad_argument, 'fewer than one strip asked')
             return
         end if
-        if (.not. (hertz%a > 0.0_wp .and. hertz%b > 0.0_wp)) then
+        if (hertz%a <= 0.0_wp .or. hertz%b <= 0.0_wp) then
             call set_status(status, st_bad_argument, 'no Hertz ellipse to cut into strips')
             return
         end if

@@ -43,27 +43,23 @@
 !> predict each other (theory notes).
 module faststrip_tangential_faststrip
     use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, number_text, st_out_of_range, &
-                                st_workspace_too_small
+    use faststrip_status, only: status_t, set_status, is_error, st_out_of_range
     use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
                                   combined_poisson_ratio
     use faststrip_creepage, only: creepage_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
-    use faststrip_tangential_patch, only: patch_ellipse_t, patch_ellipse, check_strips
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, &
-                                          state_adhesion, state_slip
+    use faststrip_tangential_patch, only: patch_ellipse_t, patch_ellipse, patch_end, check_strips
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
+                                          add_element, most_points, state_adhesion, state_slip
     implicit none
     private
 
-    public :: faststrip_solve, default_points, most_points
+    public :: faststrip_solve, default_points
 
     !> Points along each strip unless told otherwise.
     integer, parameter :: default_points = 15
-
-    !> The most points along a strip.
-    integer, parameter :: most_points = 1000
 
     ! The constants of the list above.
     real(wp), parameter :: gamma_length = 0.4_wp    ! 1
@@ -131,15 +127,8 @@ contains
             return
         end if
         if (present(field)) then
-            field%n = 0
-            if (.not. allocated(field%x)) then
-                call set_status(status, st_workspace_too_small, 'no room reserved for the field')
-                return
-            end if
-            if (size(field%x) < strips%n*points_per_strip) then
-                call set_status(status, st_workspace_too_small, 'too little room for the field')
-                return
-            end if
+            call empty_field(field, strips%n*points_per_strip, status)
+            if (is_error(status)) return
         end if
 
         stuck = 0.0_wp
@@ -147,14 +136,13 @@ contains
         last = 0
         do while (last < strips%n)
             first = last + 1
-            last = first
-            do while (last < strips%n)
-                if (strips%patch(last + 1) /= strips%patch(first)) exit
-                last = last + 1
-            end do
+            last = patch_end(strips, first)
             call solve_patch(strips, first, last, material, mu, creepage, points_per_strip, &
                              result, stuck, covered, status, field)
-            if (is_error(status)) return
+            if (is_error(status)) then
+                result = tangential_result_t()
+                return
+            end if
         end do
         if (covered > 0.0_wp) result%stick_fraction = stuck/covered
     end subroutine faststrip_solve
@@ -303,16 +291,8 @@ contains
             sum_y = sum_y + py
             arm_x = arm_x + x*py
             if (present(field)) then
-                field%n = field%n + 1
-                field%x(field%n) = x
-                field%y(field%n) = y
-                field%area(field%n) = cell
-                field%pn(field%n) = p0*sqrt(1.0_wp - (x/half_length)**2)
-                field%px(field%n) = px
-                field%py(field%n) = py
-                field%sx(field%n) = -lambda*px
-                field%sy(field%n) = -lambda*py
-                field%state(field%n) = state
+                call add_element(field, x, y, cell, p0*sqrt(1.0_wp - (x/half_length)**2), px, py, &
+                                 -lambda*px, -lambda*py, state)
             end if
         end do
         used = min(cell*sqrt(sum_x**2 + sum_y**2)/strength, 1.0_wp)

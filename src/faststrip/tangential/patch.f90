@@ -8,7 +8,7 @@ module faststrip_tangential_patch
     implicit none
     private
 
-    public :: patch_ellipse_t, patch_ellipse, check_strips
+    public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -65,6 +65,18 @@ contains
             end if
         end do
     end subroutine check_strips
+
+    !> The last strip of the patch that begins with strip `first`.
+    pure integer function patch_end(strips, first) result(last)
+        type(contact_strips_t), intent(in) :: strips !! checked strips
+        integer, intent(in) :: first                 !! 1 to n
+
+        last = first
+        do while (last < strips%n)
+            if (strips%patch(last + 1) /= strips%patch(first)) exit
+            last = last + 1
+        end do
+    end function patch_end
 
     !> The ellipse with the area `pi a b` of strips `first` to `last` and their proportion
     !> `a/b = sqrt(Ix/Iy)`, `Ix = int x^2 dA`, `Iy = int (y - yc)^2 dA` (theory 5): exact on an

@@ -1,16 +1,21 @@
 !> What every tangential method gives: forces, friction power, and on demand a field.
 module faststrip_tangential_types
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
+    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
+                                st_workspace_too_small
     implicit none
     private
 
-    public :: tangential_result_t, tangential_field_t, reserve_field
+    public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element
+    public :: most_points
     public :: state_adhesion, state_slip
 
     !> State of an element, the numbers CONTACT uses.
     integer, parameter :: state_adhesion = 1
     integer, parameter :: state_slip = 2
+
+    !> The most points along a strip, and strips across an ellipse.
+    integer, parameter :: most_points = 1000
 
     !> Sums over the contact; forces act on the rail.
     type :: tangential_result_t
@@ -61,4 +66,41 @@ contains
                   field%sx(capacity), field%sy(capacity), source=0.0_wp)
         allocate (field%state(capacity), source=0)
     end subroutine reserve_field
+
+    !> Empty a field that is about to be filled, if it has the room.
+    pure subroutine empty_field(field, elements, status)
+        type(tangential_field_t), intent(inout) :: field !! reserved beforehand
+        integer, intent(in) :: elements                  !! number of elements to come
+        type(status_t), intent(out) :: status            !! `st_workspace_too_small`
+
+        call clear_status(status)
+        field%n = 0
+        if (.not. allocated(field%x)) then
+            call set_status(status, st_workspace_too_small, 'no room reserved for the field')
+        else if (size(field%x) < elements) then
+            call set_status(status, st_workspace_too_small, 'too little room for the field')
+        end if
+    end subroutine empty_field
+
+    !> Put one more element into a field that has the room.
+    pure subroutine add_element(field, x, y, area, pn, px, py, sx, sy, state)
+        type(tangential_field_t), intent(inout) :: field !! emptied by `empty_field`
+        real(wp), intent(in) :: x, y   !! middle of the element, mm
+        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: pn     !! pressure, MPa
+        real(wp), intent(in) :: px, py !! traction on the rail, MPa
+        real(wp), intent(in) :: sx, sy !! slip over rolling speed
+        integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
+
+        field%n = field%n + 1
+        field%x(field%n) = x
+        field%y(field%n) = y
+        field%area(field%n) = area
+        field%pn(field%n) = pn
+        field%px(field%n) = px
+        field%py(field%n) = py
+        field%sx(field%n) = sx
+        field%sy(field%n) = sy
+        field%state(field%n) = state
+    end subroutine add_element
 end module faststrip_tangential_types
