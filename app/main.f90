@@ -14,8 +14,12 @@ program faststrip_main
     case ('contact'); call run_contact()
     case ('batch'); call run_batch()
     case ('sweep'); call run_sweep()
-    case ('--help', '-h', 'help'); call print_help()
-    case ('--version', '-V'); call say(version_text())
+    case ('--help', '-h', 'help')
+        call need_nothing_more()
+        call print_help()
+    case ('--version', '-V')
+        call need_nothing_more()
+        call say(version_text())
     case default
         if (index(command_argument(1), '-') == 1) &
             call usage_error('unknown option: ' // command_argument(1), '')
@@ -23,6 +27,11 @@ program faststrip_main
     end select
 
 contains
+
+    subroutine need_nothing_more()
+        if (command_argument_count() > 1) &
+            call usage_error('too many arguments: ' // command_argument(2), '')
+    end subroutine need_nothing_more
 
     subroutine print_help()
         call say('usage: faststrip SUBCOMMAND [arguments] [options]')
