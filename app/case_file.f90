@@ -23,6 +23,8 @@ module faststrip_app_case_file
 
     integer, parameter :: path_length = 512
     integer, parameter :: max_shifts = 1000
+    ! What stands in a list where the file gives no number.
+    real(wp), parameter :: not_given = -huge(1.0_wp)
 
     !> A case as its file tells it.
     type :: case_t
@@ -243,7 +245,7 @@ contains
         type(case_t), intent(inout) :: case
 
         character(len=word_length) :: creepage
-        character(len=1) :: sign_set
+        character(len=word_length) :: sign_set
         real(wp) :: cksi, ceta, cphi_rad_per_mm
         namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm
         type(group_t) :: group
@@ -332,11 +334,11 @@ contains
         character(len=message_length) :: words
         integer :: n, code
 
-        shifts_mm = unset()
-        load_n = unset()
-        cksi = unset()
-        ceta = unset()
-        cphi_rad_per_mm = unset()
+        shifts_mm = not_given
+        load_n = not_given
+        cksi = not_given
+        ceta = not_given
+        cphi_rad_per_mm = not_given
         call find_group(content, 'sweep', .false., group)
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
@@ -373,12 +375,14 @@ contains
         real(wp), intent(in) :: list(:)
         real(wp), allocatable, intent(out) :: values(:)
 
-        integer :: n
+        integer :: i, n
 
-        n = count(ieee_is_finite(list))
-        if (.not. all(ieee_is_finite(list(:n)))) &
-            call refuse(content, group, name, 'is not a finite number at place', &
-                        integer_text(findloc(ieee_is_finite(list), .false., dim=1)))
+        n = count(list /= not_given)
+        do i = 1, n
+            if (.not. ieee_is_finite(list(i)) .or. list(i) == not_given) &
+                call refuse(content, group, name, 'is missing or not a finite number at place ' &
+                            // integer_text(i), number_text(list(i)))
+        end do
         values = list(:n)
     end subroutine take_list
 

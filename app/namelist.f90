@@ -72,7 +72,7 @@ contains
         character(len=*), intent(in) :: known(:)
 
         character(len=:), allocatable :: text, name
-        integer :: i, j, open_at, seen(size(known))
+        integer :: i, j, open_at, slash, seen(size(known))
 
         name = ''
         open_at = 0
@@ -94,7 +94,10 @@ contains
             else if (open_at == 0) then
                 call refuse_line(content, i, 'text outside any group', text)
             end if
-            if (ends_group(text)) open_at = 0
+            slash = slash_at(text)
+            if (slash > 0 .and. slash < len(text)) &
+                call refuse_line(content, i, 'text after the slash that closes the group', text)
+            if (slash > 0) open_at = 0
         end do
         if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
                                           trim_blanks(content%line(open_at)))
@@ -118,7 +121,7 @@ contains
                 if (lower_case(first_word(text(2:))) == name) group%first = i
             end if
             if (group%first == 0) cycle
-            if (ends_group(text)) then
+            if (slash_at(text) > 0) then
                 group%last = i
                 return
             end if
@@ -218,29 +221,39 @@ contains
         character(len=*), intent(in) :: text
         character(len=:), allocatable :: kept
 
-        integer :: i
+        integer :: mark
+
+        mark = first_outside_quotes(text, '!')
+        if (mark == 0) mark = len(text) + 1
+        kept = text(:mark - 1)
+    end function without_comment
+
+    !> Place of the first such character that stands outside quotes; 0 if there is none.
+    pure integer function first_outside_quotes(text, mark) result(at)
+        character(len=*), intent(in) :: text
+        character, intent(in) :: mark
+
         character :: quote
 
         quote = ' '
-        do i = 1, len(text)
+        do at = 1, len(text)
             if (quote /= ' ') then
-                if (text(i:i) == quote) quote = ' '
-            else if (text(i:i) == '''' .or. text(i:i) == '"') then
-                quote = text(i:i)
-            else if (text(i:i) == '!') then
-                exit
+                if (text(at:at) == quote) quote = ' '
+            else if (text(at:at) == '''' .or. text(at:at) == '"') then
+                quote = text(at:at)
+            else if (text(at:at) == mark) then
+                return
             end if
         end do
-        kept = text(:i - 1)
-    end function without_comment
+        at = 0
+    end function first_outside_quotes
 
-    !> Does a line close its group, with a slash outside quotes at its end?
-    pure logical function ends_group(text)
+    !> Place of the first slash outside quotes, which closes a group; 0 if there is none.
+    pure integer function slash_at(text)
         character(len=*), intent(in) :: text
 
-        ends_group = .false.
-        if (len(text) > 0) ends_group = text(len(text):) == '/'
-    end function ends_group
+        slash_at = first_outside_quotes(text, '/')
+    end function slash_at
 
     pure function first_word(text) result(word)
         character(len=*), intent(in) :: text
