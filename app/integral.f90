@@ -1,5 +1,6 @@
 !> `faststrip integral`: influence integrals of strips.
 module faststrip_app_integral
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, clear_status, is_error, set_status, number_text, &
                                 st_bad_argument, st_out_of_range
@@ -121,8 +122,10 @@ contains
                 if (x == 0.0_wp) then
                     value = strip_influence(n, b)
                 else
-                    value = strip_influence_at(x, (2*n - 1)*b, (2*n + 1)*b)
+                    value = strip_influence_at(x, (2.0_wp*n - 1.0_wp)*b, (2.0_wp*n + 1.0_wp)*b)
                 end if
+                if (.not. ieee_is_finite(value)) call set_status(status, st_out_of_range, &
+                    'no finite value at b, X: ' // trim(number_text(b)) // ', ' // number_text(x))
             case ('quadrature')
                 call quadrature_influence(n, b, x, value, abs_error, status)
             case ('table')
