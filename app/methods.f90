@@ -2,6 +2,7 @@
 module faststrip_app_methods
     use faststrip_text, only: integer_text
     use faststrip_normal_strip, only: fewest_strips
+    use faststrip_tangential_faststrip, only: most_points_per_strip => most_points
     implicit none
     private
 
@@ -41,7 +42,8 @@ contains
             value = trim(methods%tangential)
         else
             call check('strips_per_patch', methods%strips_per_patch, fewest_strips, most_strips)
-            call check('points_per_strip', methods%points_per_strip, 1, most_points)
+            call check('points_per_strip', methods%points_per_strip, 1, &
+                       most_points_per_strip)
             call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
             call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
         end if
