@@ -32,7 +32,7 @@ contains
     !> End the program if a status is an error: exit code 3 for no convergence, else 1.
     subroutine fail_on_error(status, context)
         type(status_t), intent(in) :: status              !! of a call to the library
-        character(len=*), intent(in), optional :: context !! goes in front of the message
+        character(len=*), intent(in), optional :: context !! file it is about; follows in brackets
 
         integer :: code
 
@@ -40,7 +40,7 @@ contains
         code = exit_bad_input
         if (status%code == st_no_convergence) code = exit_no_convergence
         if (present(context)) then
-            call fail(code, context // ': ' // trim(status%message))
+            call fail(code, trim(status%message) // ' (' // context // ')')
         else
             call fail(code, trim(status%message))
         end if

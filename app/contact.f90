@@ -1,20 +1,24 @@
 !> `faststrip contact`: one contact of a case file.
 module faststrip_app_contact
-    use faststrip_status, only: status_t, st_ok
-    use faststrip_csv, only: csv_writer_t, open_csv, close_csv
+    use faststrip_status, only: status_t, is_error, st_ok
+    use faststrip_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
     use faststrip_app_console, only: fail_on_error, note, usage_error
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
                                      option_number
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: case_t, read_case
-    use faststrip_app_scene, only: scene_t, make_scene, write_gap, write_profiles
+    use faststrip_app_scene, only: scene_t, make_scene, put_gap, put_profiles
     use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
-    use faststrip_app_result_csv, only: write_strips, write_field
+    use faststrip_app_result_csv, only: put_strips, put_field
     use faststrip_app_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
     private
 
     public :: run_contact
+
+    !> The options that name files to write.
+    character(len=*), parameter :: outputs(5) = [character(len=10) :: &
+        '-o', '--strips', '--fields', '--gap', '--profiles']
 
 contains
 
@@ -25,8 +29,8 @@ contains
         type(scene_t) :: scene
         type(solver_t) :: solver
         type(outcome_t) :: outcome
-        type(csv_writer_t) :: writer
-        type(status_t) :: status, written
+        type(csv_writer_t) :: writer(size(outputs))
+        type(status_t) :: status
 
         command%name = 'contact'
         command%usage = 'CASE.nml'
@@ -52,26 +56,72 @@ contains
                 call usage_error('--shift: the case has a gap file', command%name)
         end if
         call make_scene(case, option_number(command, '--shift', case%shift), scene, status)
-        call fail_on_error(status)
+        if (len(case%gap_file) > 0) call fail_on_error(status)
+        call fail_on_error(status, command%arguments(1)%text)
         call make_solver(case%methods, given(command, '--fields'), solver, status)
         call fail_on_error(status)
         call solve(solver, scene%gap, case%material, case%mu, scene%load, scene%creepage, &
                    outcome, status)
-        call fail_on_error(status)
+        call fail_on_error(status, command%arguments(1)%text)
         if (status%code /= st_ok) call note(trim(status%message))
-        if (given(command, '--gap')) &
-            call write_gap(option_text(command, '--gap', ''), scene%gap)
-        if (given(command, '--profiles')) &
-            call write_profiles(option_text(command, '--profiles', ''), case, scene)
-        if (given(command, '--strips')) &
-            call write_strips(option_text(command, '--strips', ''), case%name, solver%strips)
-        if (given(command, '--fields')) &
-            call write_field(option_text(command, '--fields', ''), case%name, solver%field)
-        call open_csv(writer, option_text(command, '-o', '-'), written)
-        call fail_on_error(written)
-        call put_sweep_header(writer, case)
-        call put_sweep_row(writer, case, case%methods, scene, outcome, status)
-        call close_csv(writer, written)
-        call fail_on_error(written)
+        call open_outputs(command, writer)
+        call put_sweep_header(writer(1), case)
+        call put_sweep_row(writer(1), case, case%methods, scene, outcome, status)
+        if (given(command, '--strips')) call put_strips(writer(2), case%name, solver%strips)
+        if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
+        if (given(command, '--gap')) call put_gap(writer(4), scene%gap)
+        if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
+        call close_outputs(command, writer)
     end subroutine run_contact
+
+    !> Open all files before anything is written: if one cannot be, the others stay as they were.
+    subroutine open_outputs(command, writer)
+        type(command_t), intent(in) :: command
+        type(csv_writer_t), intent(out) :: writer(:)
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = 1, size(outputs)
+            if (.not. is_wanted(command, i)) cycle
+            call open_csv(writer(i), option_text(command, trim(outputs(i)), '-'), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine open_outputs
+
+    subroutine close_outputs(command, writer)
+        type(command_t), intent(in) :: command
+        type(csv_writer_t), intent(inout) :: writer(:)
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = size(outputs), 1, -1
+            if (.not. is_wanted(command, i)) cycle
+            call close_csv(writer(i), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine close_outputs
+
+    !> The result is always written, to stdout if nothing else is said.
+    logical function is_wanted(command, i)
+        type(command_t), intent(in) :: command
+        integer, intent(in) :: i
+
+        is_wanted = i == 1
+        if (i > 1) is_wanted = given(command, trim(outputs(i)))
+    end function is_wanted
+
+    subroutine drop_on_error(writer, status)
+        type(csv_writer_t), intent(inout) :: writer(:)
+        type(status_t), intent(in) :: status
+
+        integer :: i
+
+        if (.not. is_error(status)) return
+        do i = 1, size(writer)
+            call abort_csv(writer(i))
+        end do
+        call fail_on_error(status)
+    end subroutine drop_on_error
 end module faststrip_app_contact

@@ -2,15 +2,15 @@
 module faststrip_app_result_csv
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, status_word
-    use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t
-    use faststrip_app_console, only: fail_on_error, put_origin
+    use faststrip_app_console, only: put_origin
     use faststrip_app_solver, only: outcome_t
     implicit none
     private
 
-    public :: result_columns, put_result, write_strips, write_field
+    public :: result_columns, put_result, put_strips, put_field
 
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(15) = [character(len=16) :: &
@@ -51,18 +51,14 @@ contains
         call put_cell(writer, outcome%tangential_us)
     end subroutine put_result
 
-    !> Write the strips of a contact, one row a strip; ends the program if that fails.
-    subroutine write_strips(path, case_name, strips)
-        character(len=*), intent(in) :: path        !! name of the file
-        character(len=*), intent(in) :: case_name   !! for the column `case`
+    !> The strips of a contact, one row a strip.
+    subroutine put_strips(writer, case_name, strips)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file
+        character(len=*), intent(in) :: case_name    !! for the column `case`
         type(contact_strips_t), intent(in) :: strips !! mm, MPa
 
-        type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: k
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
         call put_origin(writer)
         call put_header(writer, [character(len=14) :: 'case', 'patch', 'strip', 'y_left_mm', &
                                  'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N'])
@@ -81,22 +77,16 @@ contains
                 call end_row(writer)
             end associate
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
-    end subroutine write_strips
+    end subroutine put_strips
 
-    !> Write the elements of a contact, one row an element; ends the program if that fails.
-    subroutine write_field(path, case_name, field)
-        character(len=*), intent(in) :: path       !! name of the file
-        character(len=*), intent(in) :: case_name  !! for the column `case`
+    !> The elements of a contact, one row an element.
+    subroutine put_field(writer, case_name, field)
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+        character(len=*), intent(in) :: case_name     !! for the column `case`
         type(tangential_field_t), intent(in) :: field !! mm, MPa
 
-        type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
         call put_origin(writer)
         call put_header(writer, [character(len=8) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
                                  'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy'])
@@ -113,7 +103,5 @@ contains
             call put_cell(writer, field%sy(i))
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
-    end subroutine write_field
+    end subroutine put_field
 end module faststrip_app_result_csv

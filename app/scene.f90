@@ -1,21 +1,22 @@
 !> From a case to the gap, load and creepages of one contact.
 module faststrip_app_scene
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, clear_status, is_error
     use faststrip_creepage, only: creepage_t
-    use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_profile, only: profile_t, profile_at
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_file, only: read_gap_file
     use faststrip_profile_contact, only: rigid_contact_t, find_wheelset_contacts, contact_force, &
                                          shift_creepage
     use faststrip_profile_contact_gap, only: make_gap
-    use faststrip_app_console, only: fail_on_error, put_origin
+    use faststrip_app_console, only: put_origin
     use faststrip_app_case_file, only: case_t
     implicit none
     private
 
-    public :: scene_t, make_scene, write_gap, write_profiles
+    public :: scene_t, make_scene, put_gap, put_profiles
 
     !> Shifts nearer to each other than this are the same, mm.
     real(wp), parameter :: same_shift = 1.0e-9_wp
@@ -51,7 +52,10 @@ contains
         end if
         call find_wheelset_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
                                     scene%contact, left, status)
-        if (is_error(status)) return
+        if (is_error(status)) then
+            call clear_place(case, scene)
+            return
+        end if
         if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
         if (case%creepage_by_formula) scene%creepage = &
             shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
@@ -74,17 +78,26 @@ contains
             case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
     end subroutine take_lists
 
-    !> Write the gap; ends the program if that fails.
-    subroutine write_gap(path, gap)
-        character(len=*), intent(in) :: path !! name of the file
-        type(gap_t), intent(in) :: gap       !! mm, mm, 1/mm
+    !> Without a contact point there is no contact angle, nor what follows from one.
+    subroutine clear_place(case, scene)
+        type(case_t), intent(in) :: case
+        type(scene_t), intent(inout) :: scene
 
-        type(csv_writer_t) :: writer
-        type(status_t) :: status
+        real(wp) :: unknown
+
+        unknown = ieee_value(unknown, ieee_quiet_nan)
+        scene%contact%gamma = unknown
+        if (case%load_is_vertical) scene%load = unknown
+        if (case%creepage_by_formula) scene%creepage = creepage_t(unknown, unknown, unknown)
+    end subroutine clear_place
+
+    !> The gap, one row a point.
+    subroutine put_gap(writer, gap)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(gap_t), intent(in) :: gap              !! mm, mm, 1/mm
+
         integer :: i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
         call put_origin(writer)
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, size(gap%y)
@@ -93,29 +106,20 @@ contains
             call put_cell(writer, gap%inv2r(i))
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
-    end subroutine write_gap
+    end subroutine put_gap
 
-    !> Write both profiles in contact, in the frame of the rail; ends the program if that fails.
-    subroutine write_profiles(path, case, scene)
-        character(len=*), intent(in) :: path !! name of the file
-        type(case_t), intent(in) :: case     !! with profiles
-        type(scene_t), intent(in) :: scene   !! where they touch
+    !> Both profiles in contact, in the frame of the rail, one row a point.
+    subroutine put_profiles(writer, case, scene)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(case_t), intent(in) :: case            !! with profiles
+        type(scene_t), intent(in) :: scene          !! where they touch
 
-        type(csv_writer_t) :: writer
-        type(status_t) :: status
-
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
         call put_origin(writer)
         call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
         call put_profile(writer, 'wheel', case%wheel, scene%contact%y_rail - scene%contact%y_wheel, &
                          scene%contact%z_rail - scene%contact%z_wheel)
         call put_profile(writer, 'rail', case%rail, 0.0_wp, 0.0_wp)
-        call close_csv(writer, status)
-        call fail_on_error(status)
-    end subroutine write_profiles
+    end subroutine put_profiles
 
     subroutine put_profile(writer, name, profile, y_offset, z_offset)
         type(csv_writer_t), intent(inout) :: writer
