@@ -2,7 +2,7 @@
 module faststrip_app_methods
     use faststrip_text, only: integer_text
     use faststrip_normal_strip, only: fewest_strips
-    use faststrip_tangential_faststrip, only: most_points_per_strip => most_points
+    use faststrip_tangential_types, only: most_points_per_strip => most_points
     implicit none
     private
 
