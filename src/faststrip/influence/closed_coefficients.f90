@@ -4,7 +4,7 @@ module faststrip_influence_closed_coefficients
     implicit none
     private
 
-    public :: a_small, b_small, r_large, r_centre
+    public :: a_small, b_small, r_large, r_centre, atanh_series, atanh_last
 
     !> Centre of the powers of `r_large`.
     real(wp), parameter :: r_centre = 1.025_wp
@@ -85,4 +85,26 @@ module faststrip_influence_closed_coefficients
         -4.3443159961257969543e-12_wp, &
         -4.5269898709372979155e-12_wp, &
         2.0362335897927460350e-12_wp]
+
+    !> Largest argument of `atanh_series`.
+    real(wp), parameter :: atanh_last = 0.6_wp
+
+    !> atanh(z)/z, powers of z^2, |z| <= atanh_last.
+    real(wp), parameter :: atanh_series(0:15) = [ &
+        9.9999999999999997334e-1_wp, &
+        3.3333333333337122485e-1_wp, &
+        1.9999999999108348490e-1_wp, &
+        1.4285714368422709147e-1_wp, &
+        1.1111107094894208131e-1_wp, &
+        9.0910265989622655830e-2_wp, &
+        7.6900603475641783245e-2_wp, &
+        6.6962136651126596825e-2_wp, &
+        5.6068207048189891072e-2_wp, &
+        7.1178761281531491568e-2_wp, &
+        -4.3051837055520471089e-2_wp, &
+        3.6359023373744110341e-1_wp, &
+        -7.5972183278305951572e-1_wp, &
+        1.3903893422984654179e+0_wp, &
+        -1.3814928054587791509e+0_wp, &
+        7.5726119220837331495e-1_wp]
 end module faststrip_influence_closed_coefficients

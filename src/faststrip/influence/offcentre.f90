@@ -5,6 +5,7 @@
 !>     G(X, cr) - G(X, cl) = int_{-1}^{1} sqrt(1 - u^2) ker(u - X) du,
 !>     ker(delta) = asinh(cr/|delta|) - asinh(cl/|delta|) = ln(1 + d),
 !>     d = (cr - cl) [1 + (cr + cl)/(s_r + s_l)] / (cl + s_l),   s = sqrt(delta^2 + c^2),
+!>     ker(delta) = 2 atanh((cr - cl)/(s_r + s_l)),  the cheaper form while the argument is small,
 !>
 !> the inner integral of eq. (18)-(20) with source and field exchanged, even in X. Derivatives need
 !> two more integrals of the same kernel (edges and half-length in mm, I = xd [G(cr) - G(cl)]):
@@ -30,6 +31,7 @@ module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
+    use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
     implicit none
     private
 
@@ -38,8 +40,9 @@ module faststrip_influence_offcentre
     integer :: i_, k_
 
     ! Trapezium (midpoint) rules in the angle; the cosines and sines of their nodes.
-    integer, parameter :: n_rules = 11
-    integer, parameter :: rule_size(n_rules) = [4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192]
+    integer, parameter :: n_rules = 13
+    integer, parameter :: rule_size(n_rules) = [4, 6, 8, 12, 16, 20, 24, 32, 48, 64, &
+                                                          96, 128, 192]
     integer, parameter :: rule_start(n_rules) = [(sum(rule_size(:i_)) - rule_size(i_) + 1, &
                                                   i_=1, n_rules)]
     integer, parameter :: n_nodes = sum(rule_size)
@@ -75,16 +78,21 @@ module faststrip_influence_offcentre
         real(wp) :: near(n_rules) ! largest half interval of each near rule
         integer :: last_far       ! largest far rule worth its price
         real(wp) :: thin          ! largest cr/(1 - |X|) of the series
-        integer :: terms          ! of the series
+        real(wp) :: tail          ! of the series, where it may be cut
         real(wp) :: loss          ! largest cr/(cr - cl) when primitives are subtracted
         real(wp) :: split         ! least cr for taking the logarithm apart
     end type demand_t
 
+    ! The series in c: 1/(2k + 1), 1/k, ratio of successive factors.
     integer, parameter :: max_terms = 12
-    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 7, 0.1_wp, 10, &
+    real(wp), parameter :: inverse_odd(0:max_terms) = [(1.0_wp/(2*k_ + 1), k_=0, max_terms)]
+    real(wp), parameter :: reciprocal(max_terms) = [(1.0_wp/k_, k_=1, max_terms)]
+    real(wp), parameter :: series_step(0:max_terms) = [(-0.25_wp/(k_ + 1)**2, k_=0, max_terms)]
+
+    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, 1.0e-16_wp, &
                                                       20.0_wp, 0.5_wp)
-    type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 5, 0.2_wp, &
-                                                         10, 1.0e3_wp, 1.0e-3_wp)
+    type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 7, 0.2_wp, &
+                                                         1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
 
     ! From this many half-lengths away a strip is a point; an edge this many times farther still
     ! sees it, and all within the former, as one.
@@ -253,9 +261,13 @@ contains
         sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cl*cl) + sqrt((x + 1.0_wp)**2 + cl*cl))
         rule = least_far_rule(sigma, demand)
         if (rule <= demand%last_far) then
-            call far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
+            if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
+                call narrow_far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
+            else
+                call far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
+            end if
         else if (cr <= demand%thin*(1.0_wp - x) .and. cr <= demand%loss*(cr - cl)) then
-            call series_moments(x, cl, cr, demand%terms, m)
+            call series_moments(x, cl, cr, demand%tail, m)
         else if (x > 1.0_wp .or. cl > on_the_edge) then
             call near_moments(x, cl, cr, max(cl, x - 1.0_wp), demand, m)
         else if (cr >= demand%split) then
@@ -335,6 +347,39 @@ contains
         m(3) = pi/n*m2
     end subroutine far_moments
 
+    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm.
+    pure subroutine narrow_far_moments(n, u, x, cl, cr, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: u(n)
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: delta, sl, sr, z, y, ker, uu, m0, m1, m2
+        integer :: j
+
+        m0 = 0.0_wp
+        m1 = 0.0_wp
+        m2 = 0.0_wp
+        !$omp simd private(delta, sl, sr, z, y, ker, uu) reduction(+:m0, m1, m2)
+        do j = 1, n
+            delta = u(j) - x
+            sl = sqrt(delta*delta + cl*cl)
+            sr = sqrt(delta*delta + cr*cr)
+            z = (cr - cl)/(sr + sl)
+            y = z*z
+            ker = z*(a(0) + y*(a(1) + y*(a(2) + y*(a(3) + y*(a(4) + y*(a(5) + y*(a(6) &
+                  + y*(a(7) + y*(a(8) + y*(a(9) + y*(a(10) + y*(a(11) + y*(a(12) &
+                  + y*(a(13) + y*(a(14) + y*a(15))))))))))))))))
+            uu = u(j)*u(j)
+            m0 = m0 + (1.0_wp - uu)*ker
+            m2 = m2 + uu*ker
+            m1 = m1 + (1.0_wp - uu)*delta/(sr*sl*(cr*sl + cl*sr))
+        end do
+        m(1) = 2.0_wp*pi/n*m0
+        m(2) = pi/n*(cr - cl)*(cr + cl)*m1
+        m(3) = 2.0_wp*pi/n*m2
+    end subroutine narrow_far_moments
+
     !> Trapezium rule in phi, `u = X + c sinh(mid + half cos(phi))`.
     pure subroutine near_moments(x, cl, cr, c, demand, m)
         real(wp), intent(in) :: x, cl, cr, c
@@ -349,8 +394,13 @@ contains
         mid = 0.5_wp*(t_right + t_left)
         half = 0.5_wp*(t_right - t_left)
         rule = least_near_rule(half, demand)
-        call near_sums(rule_size(rule), cosine(rule_start(rule)), sine(rule_start(rule)), &
-                       x, cl, cr, c, mid, half, m)
+        if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
+            call narrow_near_sums(rule_size(rule), cosine(rule_start(rule)), &
+                                  sine(rule_start(rule)), x, cl, cr, c, mid, half, m)
+        else
+            call near_sums(rule_size(rule), cosine(rule_start(rule)), sine(rule_start(rule)), &
+                           x, cl, cr, c, mid, half, m)
+        end if
     end subroutine near_moments
 
     pure subroutine near_sums(n, cos_phi, sin_phi, x, cl, cr, c, mid, half, m)
@@ -385,6 +435,42 @@ contains
         m(2) = -pi/n*half*m1
         m(3) = pi/n*half*m2
     end subroutine near_sums
+
+    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm.
+    pure subroutine narrow_near_sums(n, cos_phi, sin_phi, x, cl, cr, c, mid, half, m)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: cos_phi(n), sin_phi(n)
+        real(wp), intent(in) :: x, cl, cr, c, mid, half
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: e, delta, u, root, sl, sr, z, y, ker, m0, m1, m2
+        integer :: j
+
+        m0 = 0.0_wp
+        m1 = 0.0_wp
+        m2 = 0.0_wp
+        !$omp simd private(e, delta, u, root, sl, sr, z, y, ker) reduction(+:m0, m1, m2)
+        do j = 1, n
+            e = exp(mid + half*cos_phi(j))
+            delta = 0.5_wp*c*(e - 1.0_wp/e)
+            u = x + delta
+            root = (1.0_wp - x - delta)*(1.0_wp + x + delta)
+            sl = sqrt(delta*delta + cl*cl)
+            sr = sqrt(delta*delta + cr*cr)
+            z = (cr - cl)/(sr + sl)
+            y = z*z
+            ker = z*(a(0) + y*(a(1) + y*(a(2) + y*(a(3) + y*(a(4) + y*(a(5) + y*(a(6) &
+                  + y*(a(7) + y*(a(8) + y*(a(9) + y*(a(10) + y*(a(11) + y*(a(12) &
+                  + y*(a(13) + y*(a(14) + y*a(15))))))))))))))))
+            ker = ker*c*(e + 1.0_wp/e)*sin_phi(j)/sqrt(root)
+            m0 = m0 + root*ker
+            m1 = m1 + u*ker
+            m2 = m2 + u*u*ker
+        end do
+        m(1) = pi/n*half*m0
+        m(2) = -pi/n*half*m1
+        m(3) = pi/n*half*m2
+    end subroutine narrow_near_sums
 
     !> The part ln(c + s) of the kernel of an edge on the field point, trapezium rule in theta.
     pure subroutine smooth_far_moments(n, u, x, c, m)
@@ -476,15 +562,21 @@ contains
     !> F = f (4 ln 2 - 2 + 2 ln w) + 2 X asin X, each times w^m, w = 1 - X^2, come by recurrence;
     !>
     !>     G = sum_k (-1)^k c^(2k+1)/(4^k k!^2 (2k+1)) [F^(2k) + 2 f^(2k) (H_k + 1/(2k+1) - ln c)]
-    pure subroutine series_moments(x, cl, cr, terms, m)
+    pure subroutine series_moments(x, cl, cr, tail, m)
         real(wp), intent(in) :: x, cl, cr
-        integer, intent(in) :: terms
+        real(wp), intent(in) :: tail
         real(wp), intent(out) :: m(3)
 
         real(wp) :: w, hh(0:2*max_terms + 1), f(0:2*max_terms + 1), ff(0:2*max_terms + 1)
-        real(wp) :: log_w, right(3), left(3)
-        integer :: k
+        real(wp) :: log_w, ratio, power, right(3), left(3)
+        integer :: k, terms
 
+        ratio = (cr/(1.0_wp - x))**2
+        power = ratio
+        do terms = 2, max_terms - 1
+            power = power*ratio
+            if (power < tail) exit
+        end do
         w = (1.0_wp - x)*(1.0_wp + x)
         log_w = 4.0_wp*log_2 + 2.0_wp*log(w)
         f(0) = sqrt(w)
@@ -516,7 +608,7 @@ contains
         real(wp), intent(in) :: f(0:), ff(0:)
         real(wp), intent(out) :: g(3)
 
-        real(wp) :: ratio, factor, harmonic, odd, log_c
+        real(wp) :: ratio, factor, odd_factor, harmonic, log_c, inner, outer
         integer :: k
 
         g = 0.0_wp
@@ -525,12 +617,14 @@ contains
         factor = c
         harmonic = 0.0_wp
         do k = 0, terms - 1
-            odd = 1.0_wp/(2*k + 1)
-            g(1) = g(1) + factor*odd*(ff(2*k) + 2.0_wp*f(2*k)*(harmonic + odd - log_c))
-            g(2) = g(2) + factor*odd*(ff(2*k + 1) + 2.0_wp*f(2*k + 1)*(harmonic + odd - log_c))
-            g(3) = g(3) + factor*(ff(2*k) + 2.0_wp*f(2*k)*(harmonic - log_c))
-            factor = -factor*ratio*0.25_wp/(k + 1)**2
-            harmonic = harmonic + 1.0_wp/(k + 1)
+            odd_factor = factor*inverse_odd(k)
+            outer = 2.0_wp*(harmonic - log_c)
+            inner = outer + 2.0_wp*inverse_odd(k)
+            g(1) = g(1) + odd_factor*(ff(2*k) + f(2*k)*inner)
+            g(2) = g(2) + odd_factor*(ff(2*k + 1) + f(2*k + 1)*inner)
+            g(3) = g(3) + factor*(ff(2*k) + f(2*k)*outer)
+            factor = factor*ratio*series_step(k)
+            harmonic = harmonic + reciprocal(k + 1)
         end do
         g(2) = g(2)/w
     end subroutine series_primitive
