@@ -89,8 +89,8 @@ module faststrip_influence_offcentre
     real(wp), parameter :: reciprocal(max_terms) = [(1.0_wp/k_, k_=1, max_terms)]
     real(wp), parameter :: series_step(0:max_terms) = [(-0.25_wp/(k_ + 1)**2, k_=0, max_terms)]
 
-    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, 1.0e-16_wp, &
-                                                      20.0_wp, 0.5_wp)
+    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, &
+                                                      1.0e-16_wp, 20.0_wp, 0.5_wp)
     type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 7, 0.2_wp, &
                                                          1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
 
