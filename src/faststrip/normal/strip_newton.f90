@@ -13,7 +13,7 @@
 !> 2. The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_newton
     use faststrip_kinds, only: wp, pi
-    use faststrip_influence_closed, only: strip_influence_edges, influence_primitive_slope
+    use faststrip_influence_closed, only: strip_influence_center_gradient
     use faststrip_influence_offcentre, only: strip_influence_gradient
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
     implicit none
@@ -125,8 +125,7 @@ contains
         real(wp), intent(inout) :: jacobian(:, :), rhs(:)
 
         integer :: n, k, s
-        real(wp) :: y, c_left, c_right, value, d_x, d_half_length, scale, strip_force, per_length
-        real(wp) :: centre, tip
+        real(wp) :: y, value, d_x, d_half_length, scale, strip_force, per_length, centre, tip
 
         n = size(p0)
         scale = compliance/penetration
@@ -143,11 +142,10 @@ contains
             per_length = 1.0_wp/half_length(s)
             do k = 1, n
                 y = 0.5_wp*(y_left(k) + y_right(k))
-                c_left = (y_left(s) - y)*per_length
-                c_right = (y_right(s) - y)*per_length
-                value = half_length(s)*strip_influence_edges(c_left, c_right)
-                d_half_length = value*per_length - c_right*influence_primitive_slope(c_right) &
-                                + c_left*influence_primitive_slope(c_left)
+                call strip_influence_center_gradient((y_left(s) - y)*per_length, &
+                                                     (y_right(s) - y)*per_length, value, &
+                                                     d_half_length)
+                value = half_length(s)*value
                 rhs(k) = rhs(k) - scale*p0(s)*value
                 jacobian(k, s) = scale*p_scale*value
                 jacobian(k, n + s) = scale*p0(s)*d_half_length*half_length(s)
