@@ -29,11 +29,14 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_patch, only: patch_ellipse_t, patch_ellipse, patch_end, check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, most_points, state_adhesion, state_slip
+                                          add_element, state_adhesion, state_slip
     implicit none
     private
 
     public :: fastsim_solve, fastsim_strips_solve
+
+    ! The most elements along x and strips across.
+    integer, parameter :: most_elements = 10000
 
     !> Areas of the elements gone through so far.
     type :: areas_t
@@ -57,7 +60,7 @@ contains
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
         type(creepage_t), intent(in) :: creepage     !! about y = 0, rail relative to wheel
         integer, intent(in) :: nx                    !! elements along x in each strip, >= 1
-        integer, intent(in) :: ny                    !! strips across, >= 1
+        integer, intent(in) :: ny                    !! strips across, >= 1; both <= 10000
         type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (no ellipse, mu < 0, grid), `st_not_finite`,
@@ -138,9 +141,9 @@ contains
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
-        if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_points) then
+        if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_elements) then
             call set_status(status, st_bad_argument, 'a grid of fewer than one or more than ' // &
-                            '1000 elements along or across')
+                            '10000 elements along or across')
             return
         end if
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)

@@ -7,14 +7,13 @@ module faststrip_tangential_types
     private
 
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element
-    public :: most_points
-    public :: state_adhesion, state_slip
+    public :: state_adhesion, state_slip, most_points
 
     !> State of an element, the numbers CONTACT uses.
     integer, parameter :: state_adhesion = 1
     integer, parameter :: state_slip = 2
 
-    !> The most points along a strip, and strips across an ellipse.
+    !> The most points along a strip.
     integer, parameter :: most_points = 1000
 
     !> Sums over the contact; forces act on the rail.
