@@ -1,0 +1,41 @@
+!> What `use faststrip` gives: the embeddable core, from profiles to forces.
+!>
+!> Needs LAPACK and nothing else: no file is read or written, nothing is printed, nothing stops.
+!> Readers (`faststrip_profile_file`, `faststrip_profile_gap_file`, `faststrip_csv`) and GSL's
+!> quadrature (`faststrip_influence_quadrature`) are modules of their own.
+module faststrip
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error, status_word, st_ok, first_error, &
+                                st_fallback_used, st_edge_of_data, st_fewer_strips, &
+                                st_bad_argument, st_not_finite, st_not_increasing, &
+                                st_too_few_points, st_bad_material, st_bad_load, st_no_contact, &
+                                st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
+                                st_workspace_too_small, st_linear_algebra
+    use faststrip_material, only: material_t, check_material, normal_compliance, &
+                                  combined_shear_modulus, combined_poisson_ratio
+    use faststrip_creepage, only: creepage_t
+    use faststrip_influence_closed, only: influence_primitive, influence_primitive_slope, &
+                                          strip_influence, strip_influence_edges
+    use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
+    use faststrip_influence_polynomial, only: table_influence
+    use faststrip_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                 make_points_profile, profile_at, standard_cant
+    use faststrip_profile_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                         find_rigid_contact, find_wheelset_contacts, &
+                                         contact_force, shift_creepage, creepage_set_a, &
+                                         creepage_set_b
+    use faststrip_profile_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_profile_gap, only: gap_t, check_gap
+    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, hertz_strips
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
+                                          state_adhesion, state_slip
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
+    use faststrip_tangential_faststrip, only: faststrip_solve
+    implicit none
+    public
+end module faststrip
