@@ -379,8 +379,10 @@ contains
 
         n = count(list /= not_given)
         do i = 1, n
-            if (.not. ieee_is_finite(list(i)) .or. list(i) == not_given) &
-                call refuse(content, group, name, 'is missing or not a finite number at place ' &
+            if (list(i) == not_given) call refuse(content, group, name, 'has no number at place', &
+                                                  integer_text(i))
+            if (.not. ieee_is_finite(list(i))) &
+                call refuse(content, group, name, 'is not a finite number at place ' &
                             // integer_text(i), number_text(list(i)))
         end do
         values = list(:n)

@@ -14,6 +14,7 @@ module faststrip_app_namelist
 
     !> Longest line of a case file, characters.
     integer, parameter :: line_length = 1024
+    character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
     !> A case file as it was read.
     type :: namelist_file_t
@@ -45,6 +46,8 @@ contains
         content%file = path
         inquire (file=path, exist=exists)
         if (.not. exists) call fail(exit_bad_input, 'no such file: ' // path)
+        inquire (file=path // '/.', exist=exists)
+        if (exists) call fail(exit_bad_input, 'a folder, not a case file: ' // path)
         open (newunit=unit, file=path, status='old', action='read', iostat=code)
         if (code /= 0) call fail(exit_bad_input, 'cannot read the file: ' // path)
         allocate (content%line(64))
@@ -59,6 +62,7 @@ contains
                 call move_alloc(more, content%line)
             end if
             n = n + 1
+            if (n == 1 .and. index(text, byte_order_mark) == 1) text = text(4:)
             if (len(text) > line_length) call refuse_line(content, n, 'line is too long', '')
             content%line(n) = without_comment(text)
         end do
