@@ -1,0 +1,118 @@
+"""Run bin/faststrip from outside, in folders of its own, and read what it writes."""
+
+import csv
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "bin" / "faststrip"
+GAPS = ROOT / "reference" / "contact" / "gaps"
+
+BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
+RESULT_COLUMNS = (
+    "status,penetration_mm,area_mm2,pmax_MPa,ymin_mm,ymax_mm,xmax_mm,n_patches,Fx_N,Fy_N,"
+    "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us"
+).split(",")
+
+
+def rows_of(text):
+    """The rows of a CSV text as dictionaries, comments left out."""
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines, strict=True))
+
+
+def numbers(rows, name):
+    return [float(row[name]) for row in rows]
+
+
+def gap_text(height, n=601, half_width=15.0, inv2r=1.0 / 920.0):
+    """A gap file of n points; height(y) in mm."""
+    lines = ["y_mm,h_mm,inv2R_per_mm"]
+    for i in range(n):
+        y = -half_width + 2.0 * half_width * i / (n - 1)
+        lines.append(f"{y!r},{height(y)!r},{inv2r!r}")
+    return "\n".join(lines) + "\n"
+
+
+def parabola(y):
+    return y * y / 600.0
+
+
+def gap_case(gap_file="gap.csv", load="1e5", mu="0.3", motion="", extra=""):
+    """A case file that works on a gap file."""
+    return (
+        f"&contact\n  name = 'gap'\n  gap_file = '{gap_file}'\n  load_N = {load}\n/\n"
+        f"&material\n  mu = {mu}\n/\n"
+        f"&motion\n  {motion}\n/\n{extra}"
+    )
+
+
+def profile_case(contact="load_N = 1e5", wheel="profile = 's1002'", rail="profile = 'uic60'",
+                 material="mu = 0.3", motion="", extra=""):
+    """A case file that works on two profiles; each group takes one line."""
+    return (
+        f"&contact\n  {contact}\n/\n&wheel\n  {wheel}\n/\n&rail\n  {rail}\n/\n"
+        f"&material\n  {material}\n/\n&motion\n  {motion}\n/\n{extra}"
+    )
+
+
+class ProgramTest(unittest.TestCase):
+    """Tests that run the program in a folder that is gone afterwards."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode("utf-8"))
+        return path
+
+    def read(self, name):
+        return rows_of((self.folder / name).read_text(encoding="utf-8"))
+
+    def run_program(self, *words):
+        return subprocess.run(
+            [str(PROGRAM), *(str(word) for word in words)],
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            timeout=60,
+            check=False,
+        )
+
+    def good(self, *words):
+        """Run what has to succeed without a word on stderr; the rows on stdout."""
+        done = self.run_program(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        return rows_of(done.stdout)
+
+    def refused(self, code, *words, says=()):
+        """Run what has to fail with one line on stderr that holds some texts."""
+        done = self.run_program(*words)
+        self.assertEqual(done.returncode, code, (words, done.stderr))
+        self.assertEqual(done.stdout, "", words)
+        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]+\n\Z", words)
+        for text in says:
+            self.assertIn(text, done.stderr, words)
+        return done.stderr
+
+    def refused_and_untouched(self, *words, says=()):
+        """The same on stdout and with -o: an existing file stays, nothing is left over."""
+        self.refused(1, *words, says=says)
+        kept = b"kept as it is,\r\n no line end"
+        (self.folder / "kept.csv").write_bytes(kept)
+        before = sorted(path.name for path in self.folder.iterdir())
+        self.refused(1, *words, "-o", "kept.csv", says=says)
+        self.assertEqual((self.folder / "kept.csv").read_bytes(), kept, words)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before, words)
+
+    def assert_close(self, value, wanted, relative=0.0, absolute=0.0, what=None):
+        self.assertLessEqual(abs(value - wanted), relative * abs(wanted) + absolute,
+                             (what, value, wanted))

@@ -1,0 +1,150 @@
+"""Every bad input is one line that names file, line and value; nothing is written."""
+
+from cli_program import ProgramTest, gap_case, gap_text, parabola, profile_case
+
+
+class GapFiles(ProgramTest):
+    def test_bad_gaps(self):
+        self.write("case.nml", gap_case())
+        lines = gap_text(parabola, n=31).splitlines()
+
+        def changed(number, text):
+            return "\n".join(lines[:number - 1] + [text] + lines[number:]) + "\n"
+
+        for text, says in (
+            (changed(7, "NaN,1,0.001"), ["(gap.csv:7)", "'NaN'", "y_mm"]),
+            (changed(7, "-10,nan,0.001"), ["(gap.csv:7)", "'nan'", "h_mm"]),
+            (changed(7, "-10,1,Inf"), ["(gap.csv:7)", "'Inf'", "inv2R_per_mm"]),
+            (changed(7, "-10,,0.001"), ["(gap.csv:7)", "''", "h_mm"]),
+            (changed(7, "-10,1e400,0.001"), ["(gap.csv:7)", "1e400"]),
+            (changed(7, "-10,1 2,0.001"), ["(gap.csv:7)", "1 2"]),
+            (changed(7, "-10,1"), ["(gap.csv:7)"]),
+            (changed(7, "-10,1,-0.001"), ["(gap.csv:7)", "-0.001", "radius"]),
+            (changed(7, "-20,1,0.001"), ["(gap.csv:7)", "-20"]),
+            (changed(7, lines[5]), ["(gap.csv:7)", lines[5].split(",")[0]]),
+            ("\n".join(lines[:5]) + "\n", ["gap.csv", ": 4 "]),
+            (lines[0] + "\n", ["gap.csv", ": 0 "]),
+            ("y,h,r\n1,2,3\n", ["gap.csv", "y_mm"]),
+            ("", ["gap.csv"]),
+        ):
+            with self.subTest(says):
+                self.write("gap.csv", text)
+                self.refused_and_untouched("contact", "case.nml", says=says)
+        (self.folder / "gap.csv").unlink()
+        self.refused_and_untouched("contact", "case.nml", says=["gap.csv"])
+
+    def test_comments_count_as_lines(self):
+        self.write("case.nml", gap_case())
+        self.write("gap.csv", "# one\n\n" + gap_text(parabola).replace("15.0,", "x,", 1))
+        self.refused_and_untouched("contact", "case.nml", says=["(gap.csv:4)", "'-x'"])
+
+
+class CaseFiles(ProgramTest):
+    def check(self, text, *says):
+        with self.subTest(text=text):
+            self.write("c.nml", text)
+            self.refused_and_untouched("contact", "c.nml", says=says)
+
+    def test_values(self):
+        self.write("gap.csv", gap_text(parabola, n=61))
+        for load in ("-1e5", "0", "-0.0", "NaN", "Infinity"):
+            value = {"-1e5": "-100000", "0": "0.00", "-0.0": "0.00", "Infinity": "Inf"}
+            self.check(gap_case(load=load), "(c.nml:4)", "load_N", value.get(load, load))
+        self.check(gap_case(mu="-0.1"), "(c.nml:7)", "mu", "-0.1")
+        self.check(gap_case(mu="NaN"), "(c.nml:7)", "mu", "NaN")
+        for nu, value in (("0.51", "0.51"), ("-1", "-1.0"), ("-2", "-2.0"), ("NaN", "NaN")):
+            for body in ("wheel", "rail"):
+                self.check(gap_case(mu=f"0.3\n nu_{body} = {nu}"), "(c.nml:8)", f"nu_{body}",
+                           value)
+        for modulus, value in (("0", "0.0"), ("-5", "-5.0"), ("Inf", "Inf")):
+            self.check(gap_case(mu=f"0.3\n E_rail_MPa = {modulus}"), "(c.nml:8)", "E_rail_MPa",
+                       value)
+        self.check(gap_case(motion="ceta = NaN"), "(c.nml:10)", "ceta", "NaN")
+        self.check(gap_case(motion="sign_set = 'Bad'"), "(c.nml:10)", "sign_set", "Bad")
+        self.check(gap_case(motion="creepage = 'guess'"), "(c.nml:10)", "creepage", "guess")
+        self.check(gap_case(motion="creepage = 'formula'"), "(c.nml:10)", "formula")
+        self.check(gap_case(load="1e5\n load_direction = 'up'"), "(c.nml:5)", "up")
+        self.check(gap_case(load="1e5\n load_direction = 'vertical'"), "(c.nml:5)", "vertical")
+        for line, value in (("strips_per_patch = 0", "0"), ("normal = 'guess'", "guess"),
+                            ("points_per_strip = 1001", "1001"), ("fastsim_nx = -1", "-1"),
+                            ("gap_step_mm = 0", "0.0"), ("gap_height_mm = -1", "-1.0")):
+            self.check(gap_case(extra=f"&numerics\n {line}\n/\n"), "(c.nml:13)",
+                       line.split(" ")[0], value)
+
+    def test_values_of_profiles(self):
+        for changes, says in (
+            (dict(wheel="profile = 's1002', radius_mm = -460"), ["(c.nml:5)", "radius_mm", "-460"]),
+            (dict(wheel="profile = 's1002', radius_mm = 0"), ["(c.nml:5)", "radius_mm", "0.0"]),
+            (dict(wheel="profile = 's1002', back_spacing_mm = NaN"), ["(c.nml:5)", "NaN"]),
+            (dict(rail="profile = 'uic60', gauge_mm = -1435"), ["(c.nml:8)", "gauge_mm", "-1435"]),
+            (dict(rail="profile = 'uic60', cant = NaN"), ["(c.nml:8)", "cant", "NaN"]),
+            (dict(rail="profile = 'uic60', cant = 3"), ["(c.nml:8)", "cant"]),
+            (dict(rail="cant = 0.025"), ["&rail", "profile", "c.nml:7"]),
+            (dict(wheel="profile = 'none.txt'"), ["none.txt"]),
+            (dict(rail="profile = 'none.prr'"), ["none.prr"]),
+            (dict(rail="profile = 'p.txt', z_positive_to = 'left'"), ["(c.nml:8)", "left"]),
+            (dict(wheel="profile = 'p.txt', y_positive_to = 'up'"), ["(c.nml:5)", "up"]),
+            (dict(contact="load_N = 1e5, shift_mm = NaN"), ["(c.nml:2)", "shift_mm", "NaN"]),
+            (dict(contact="load_N = 1e5, shift_mm = 100"), ["c.nml", "100"]),
+            (dict(contact="shift_mm = 1"), ["&contact", "load_N"]),
+            (dict(material="nu_rail = 0.3"), ["&material", "mu"]),
+        ):
+            self.check(profile_case(**changes), *says)
+
+    def test_measured_profiles(self):
+        points = [f"{y} {abs(y) ** 1.5 / 100.0}" for y in range(-30, 31)]
+        for number, text, says in (
+            (5, "NaN 1", ["(p.txt:5)", "NaN"]), (5, "-26 Inf", ["(p.txt:5)", "Inf"]),
+            (5, "-26", ["(p.txt:5)", "-26"]), (5, "-26 1 2", ["(p.txt:5)", "-26 1 2"]),
+            (5, "-26 one", ["(p.txt:5)", "one"]), (5, "-27 1", ["(p.txt:5)", "-27"]),
+            (5, "-40 1", ["(p.txt:5)", "-40"]), (5, "-26 1e12", ["(p.txt:5)", "1e12"]),
+        ):
+            lines = points[:]
+            lines[number - 1] = text
+            self.write("p.txt", "\n".join(lines) + "\n")
+            self.check(profile_case(wheel="profile = 'p.txt'"), *says)
+            self.check(profile_case(rail="profile = 'p.txt'"), *says)
+        self.write("p.txt", "\n".join(points[:4]) + "\n")
+        self.check(profile_case(wheel="profile = 'p.txt'"), "p.txt", "4")
+        self.write("p.txt", "")
+        self.check(profile_case(wheel="profile = 'p.txt'"), "p.txt", "0")
+
+    def test_groups_and_names(self):
+        self.write("gap.csv", gap_text(parabola, n=61))
+        good = gap_case()
+        for text, says in (
+            (good.replace("load_N", "loadN"), ["(c.nml:4)", "loadn"]),
+            (gap_case(load="1e5\n colour = 'red'"), ["(c.nml:5)", "colour"]),
+            (good.replace("&motion", "&emotion"), ["(c.nml:9)", "&emotion"]),
+            (good + "&mystery x = 1 /\n", ["(c.nml:12)", "&mystery"]),
+            (good + "&motion\n/\n", ["(c.nml:12)", "&motion"]),
+            (good.split("&motion")[0], ["c.nml", "&motion"]),
+            (good.replace("&material\n  mu = 0.3\n/\n", ""), ["c.nml", "&material"]),
+            (good[good.index("&material"):], ["c.nml", "&contact"]),
+            ("", ["c.nml", "&contact"]),
+            (profile_case().replace("&wheel\n  profile = 's1002'\n/\n", ""), ["c.nml", "&wheel"]),
+            (profile_case().replace("&rail\n  profile = 'uic60'\n/\n", ""), ["c.nml", "&rail"]),
+            (good.rstrip("/\n"), ["(c.nml:9)", "&motion"]),
+            (good.replace("1e5\n/", "1e5\n"), ["(c.nml:1)", "&contact"]),
+            (good.replace("1e5\n/", "1e5\n/\nstray"), ["(c.nml:6)", "stray"]),
+            (gap_case(load="abc"), ["(c.nml:4)", "abc"]),
+            (gap_case(load="'1e5'"), ["(c.nml:4)", "'1e5'"]),
+            (gap_case(load="1e5 shift_mm = .true."), ["(c.nml:4)", ".true."]),
+            (gap_case(load="1,5"), ["(c.nml:4)", "1,5"]),
+            (gap_case(load="200000/2"), ["(c.nml:4)", "200000/2"]),
+            (gap_case(load="1e400"), ["(c.nml:4)"]),
+            (gap_case(load="1e5 2e5"), ["(c.nml:4)", "2e5"]),
+            (gap_case(motion="cksi = 0.1 / ceta = 0.1"), ["(c.nml:10)", "ceta"]),
+            (gap_case(extra="&numerics\n strips_per_patch = 15.5\n/\n"), ["(c.nml:13)", "15.5"]),
+            (gap_case(extra="&numerics\n strips_per_patch = 99999999999\n/\n"), ["(c.nml:13)"]),
+            (gap_case(gap_file="gap.csv"[:3] + "'x"), ["(c.nml:3)"]),
+            (gap_case(load="1e5 !" + 2000 * "x"), ["(c.nml:4)"]),
+        ):
+            self.check(text, *says)
+
+    def test_files(self):
+        self.refused_and_untouched("contact", "none.nml", says=["none.nml"])
+        self.refused_and_untouched("sweep", "none.nml", says=["none.nml"])
+        (self.folder / "dir").mkdir()
+        self.refused_and_untouched("contact", "dir", says=["dir"])
+        self.refused_and_untouched("contact", "", says=["no such file"])

@@ -1,0 +1,202 @@
+"""`faststrip batch` and `faststrip sweep`."""
+
+import statistics
+
+from cli_program import (
+    BATCH_COLUMNS, GAPS, RESULT_COLUMNS, ROOT, ProgramTest, gap_case, gap_text, numbers, parabola,
+    profile_case, rows_of,
+)
+
+CONTACT = ROOT / "reference" / "contact" / "s1002_uic60_B.csv"
+E_STEEL = repr(2.0 * 82000.0 * 1.28)
+GOOD = f"{E_STEEL},0.28,0.3,1e5,0.001,0,1e-4"
+
+
+def reference():
+    return rows_of(CONTACT.read_text(encoding="utf-8"))
+
+
+class Batch(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("gaps/g.csv", gap_text(parabola, n=301))
+
+    def batch_of_gaps(self, *words):
+        rows = reference()
+        for row in rows:
+            name = f"shift_{row['yw_mm']}.csv"
+            self.write(f"cases/gaps/{name}", (GAPS / name).read_text(encoding="utf-8"))
+        lines = [BATCH_COLUMNS] + [
+            f"{row['yw_mm']},gaps/shift_{row['yw_mm']}.csv,{E_STEEL},0.28,0.3,{row['Fn_N']},"
+            f"{row['cksi']},{row['ceta']},{row['cphi_rad_per_mm']}" for row in rows]
+        self.write("cases/cases.csv", "\n".join(lines) + "\n")
+        return rows, self.good("batch", "cases/cases.csv", *words)
+
+    def test_against_contact(self):
+        rows, results = self.batch_of_gaps()
+        self.assertEqual([row["case"] for row in results], [row["yw_mm"] for row in rows])
+        self.assertEqual({row["status"] for row in results}, {"ok"})
+        self.assertEqual(list(results[0]), BATCH_COLUMNS.split(",") + RESULT_COLUMNS)
+
+        def errors(name, wanted, scale):
+            return [abs(float(a[name]) - float(b[wanted])) / scale(b)
+                    for a, b in zip(results, rows)]
+
+        for name, mean, worst in (("penetration_mm", 0.001, 0.003), ("pmax_MPa", 0.01, 0.05),
+                                  ("area_mm2", 0.004, 0.01)):
+            parts = errors(name, name, lambda row: float(row[name]))
+            self.assertLess(statistics.mean(parts), mean, name)
+            self.assertLess(max(parts), worst, name)
+        for name, mean in (("Fx_N", 0.015), ("Fy_N", 0.005)):
+            parts = errors(name, name.replace("_N", "_extrap_N"),
+                           lambda row: 0.3 * float(row["Fn_N"]))
+            self.assertLess(statistics.mean(parts), mean, name)
+
+    def test_methods_and_strips_change_the_result(self):
+        self.write("cases.csv", f"{BATCH_COLUMNS}\n1,gaps/g.csv,{GOOD}\n")
+        plain = self.good("batch", "cases.csv")[0]
+        for words, name in ((("--normal", "hertz"), "area_mm2"),
+                            (("--tangential", "fastsim"), "Fx_N"),
+                            (("--strips-per-patch", "31"), "Fx_N"),
+                            (("--points-per-strip", "31"), "Fx_N")):
+            other = self.good("batch", "cases.csv", *words)[0]
+            self.assertNotEqual(other[name], plain[name], words)
+            self.assert_close(float(other[name]), float(plain[name]), 0.1, what=words)
+
+    def test_same_as_contact(self):
+        self.write("case.nml", gap_case("gaps/g.csv", extra="&numerics /\n",
+                                        motion="cksi = 0.001, cphi_rad_per_mm = 1e-4"))
+        self.write("cases.csv", f"{BATCH_COLUMNS}\n1,gaps/g.csv,209920,0.28,0.3,1e5,0.001,0,1e-4\n")
+        one = self.good("contact", "case.nml")[0]
+        many = self.good("batch", "cases.csv")[0]
+        for name in RESULT_COLUMNS[:-2]:
+            self.assertEqual(one[name], many[name], name)
+
+    def test_other_columns_are_carried_through(self):
+        cells = ["007", "1e5", ' "quoted", with a comma ', "", "# not a comment", "+0.10", "\u00e4\u00f6",
+                 "NaN", '"', "a  b"]
+        quoted = ['"' + cell.replace('"', '""') + '"' for cell in cells]
+        names = [f"extra {i}" for i in range(len(cells))]
+        self.write("cases.csv", "# a comment\n" + ",".join(names[:4]) + f",{BATCH_COLUMNS},"
+                   + ",".join(names[4:]) + "\r\n" + ",".join(quoted[:4])
+                   + f",0042,gaps/g.csv,{GOOD.replace('1e5', '0100000.00')},"
+                   + ",".join(quoted[4:]) + "\r\n")
+        row = self.good("batch", "cases.csv")[0]
+        self.assertEqual([row[name] for name in names], cells)
+        self.assertEqual((row["case"], row["N_N"], row["status"]), ("0042", "0100000.00", "ok"))
+        self.assertEqual(list(row), names[:4] + BATCH_COLUMNS.split(",") + names[4:]
+                         + RESULT_COLUMNS)
+
+    def test_failing_rows_do_not_stop_the_others(self):
+        self.write("gaps/nan.csv", gap_text(parabola, n=11).replace("15.0,", "NaN,"))
+        self.write("gaps/four.csv", gap_text(parabola, n=4))
+        self.write("gaps/flat.csv", gap_text(lambda y: 0.0))
+        rows = [
+            (f"gaps/g.csv,{GOOD}", "ok", ""),
+            (f"gaps/none.csv,{GOOD}", "file_missing", "none.csv"),
+            (f"gaps/nan.csv,{GOOD}", "file_format", "nan.csv:2"),
+            (f"gaps/four.csv,{GOOD}", "too_few_points", "four.csv"),
+            ("gaps/g.csv,2e5,0.28,0.3,-1e5,0,0,0", "bad_load", "-100000"),
+            ("gaps/g.csv,2e5,0.28,0.3,0,0,0,0", "bad_load", "0.0"),
+            ("gaps/g.csv,2e5,0.6,0.3,1e5,0,0,0", "bad_material", "0.6"),
+            ("gaps/g.csv,2e5,-1,0.3,1e5,0,0,0", "bad_material", "-1.0"),
+            ("gaps/g.csv,-2e5,0.28,0.3,1e5,0,0,0", "bad_material", "-200000"),
+            ("gaps/g.csv,2e5,0.28,-0.3,1e5,0,0,0", "bad_argument", "-0.3"),
+            ("gaps/g.csv,2e5,0.28,0.3,1e5,NaN,0,0", "file_format", "'NaN'"),
+            ("gaps/g.csv,2e5,0.28,0.3,,0,0,0", "file_format", "N_N"),
+            (f"gaps/g.csv,{GOOD}", "ok", ""),
+        ]
+        self.write("cases.csv", BATCH_COLUMNS + "\n" + "".join(
+            f"{i},{text}\n" for i, (text, _, _) in enumerate(rows)))
+        done = self.run_program("batch", "cases.csv")
+        self.assertEqual(done.returncode, 1)
+        results = rows_of(done.stdout)
+        self.assertEqual([row["status"] for row in results], [word for _, word, _ in rows])
+        told = done.stderr.splitlines()
+        self.assertEqual(len(told), 12)
+        self.assertEqual(told[-1], "faststrip: 11 of 13 contacts failed")
+        bad = [(i, says) for i, (_, word, says) in enumerate(rows) if word != "ok"]
+        for line, (i, says) in zip(told, bad):
+            self.assertIn(f"(cases.csv:{i + 2})", line)
+            self.assertIn(says, line)
+            self.assertTrue(all(results[i][name] == "" for name in RESULT_COLUMNS[1:]))
+        for name in RESULT_COLUMNS[:-2]:
+            self.assertEqual(results[0][name], results[-1][name], name)
+        self.write("flat.csv", f"{BATCH_COLUMNS}\n1,gaps/flat.csv,{GOOD}\n")
+        done = self.run_program("batch", "flat.csv", "--normal", "hertz", "-o", "out.csv")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(self.read("out.csv")[0]["status"], "no_hertz_ellipse")
+
+    def test_files_that_are_no_batch(self):
+        row = f"1,gaps/g.csv,{GOOD}"
+        for text, says in (
+            ("", ["(c.csv)"]),
+            (BATCH_COLUMNS.replace(",mu", "") + "\n", ["(c.csv)", ": mu "]),
+            (BATCH_COLUMNS + ",mu\n", ["(c.csv:1)", "'mu'"]),
+            (BATCH_COLUMNS + ",status\n", ["(c.csv)", "status"]),
+            (f"{BATCH_COLUMNS}\n{row}\n{row},2\n", ["(c.csv:3)"]),
+            (f'{BATCH_COLUMNS}\n"{row}\n', ["(c.csv:2)"]),
+        ):
+            with self.subTest(text):
+                self.write("c.csv", text)
+                self.refused_and_untouched("batch", "c.csv", says=says)
+        self.refused_and_untouched("batch", "none.csv", says=["none.csv"])
+        self.write("c.csv", f"{BATCH_COLUMNS}\n")
+        self.assertEqual(self.good("batch", "c.csv"), [])
+
+
+class Sweep(ProgramTest):
+    def test_rows_are_shifts_times_methods(self):
+        case = ROOT / "example" / "wheelset_shift.nml"
+        rows = self.good("sweep", case)
+        shifts = [-4.0, -2.0, 0.0, 2.0, 4.0]
+        self.assertEqual(numbers(rows, "yw_mm"), [shift for shift in shifts for _ in range(3)])
+        self.assertEqual([(row["normal"], row["tangential"]) for row in rows],
+                         [("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim")] * 5)
+        one = self.good("contact", case, "--shift", "2")[0]
+        for name in one:
+            if not name.endswith("_us"):
+                self.assertEqual(one[name], rows[9][name], name)
+
+    def test_loads_and_creepages_of_each_shift(self):
+        self.write("s.nml", profile_case(extra=(
+            "&sweep shifts_mm = 0, 1\n load_N = 1e4, 2e4\n cksi = 0.001, 0\n ceta = 2*0.0\n"
+            "  cphi_rad_per_mm = 2*0 /\n")))
+        rows = self.good("sweep", "s.nml")
+        self.assertEqual(numbers(rows, "N_N"), [1e4] * 3 + [2e4] * 3)
+        self.assertEqual(numbers(rows, "cksi"), [1e-3] * 3 + [0.0] * 3)
+        self.assertTrue(all(value < 0.0 for value in numbers(rows[:3], "Fx_N")))
+        self.assertEqual(numbers(rows[3:], "Fx_N"), [0.0] * 3)
+
+    def test_shift_without_contact(self):
+        self.write("s.nml", profile_case(
+            contact="load_N = 1e5, load_direction = 'vertical'", motion="creepage = 'formula'",
+            extra="&sweep shifts_mm = 0, 100 /\n"))
+        done = self.run_program("sweep", "s.nml")
+        rows = rows_of(done.stdout)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.splitlines()[-1], "faststrip: 3 of 6 contacts failed")
+        self.assertEqual([row["status"] for row in rows], ["ok"] * 3 + ["no_contact"] * 3)
+        for row in rows[3:]:
+            for name in list(row)[4:9] + RESULT_COLUMNS[1:]:
+                self.assertEqual(row[name], "", name)
+
+    def test_bad_sweeps(self):
+        self.write("gap.csv", gap_text(parabola))
+        for text, says in (
+            ("", ["&sweep"]),
+            ("&sweep /\n", ["shifts_mm"]),
+            ("&sweep shifts_mm = 1, NaN /\n", ["NaN", "s.nml:16"]),
+            ("&sweep shifts_mm = 1, 2,\n  Inf /\n", ["Inf", "s.nml:16"]),
+            ("&sweep shifts_mm(2) = 1 /\n", ["shifts_mm", "s.nml:16"]),
+            ("&sweep shifts_mm = 1, x /\n", ["s.nml:16"]),
+            ("&sweep shifts_mm = 1001*1.0 /\n", ["s.nml:16"]),
+            ("&sweep shifts_mm = 1, 2\n load_N = 1 /\n", ["load_N", "s.nml:17"]),
+            ("&sweep shifts_mm = 1, 2\n load_N = 1, -1 /\n", ["load_N", "-1.0", "s.nml:17"]),
+            ("&sweep shifts_mm = 1\n cksi = 0.1 /\n", ["ceta"]),
+        ):
+            with self.subTest(text):
+                self.write("s.nml", profile_case(extra=text))
+                self.refused_and_untouched("sweep", "s.nml", says=says)
+        self.write("s.nml", gap_case(extra="&sweep shifts_mm = 1 /\n"))
+        self.refused_and_untouched("sweep", "s.nml", says=["gap.csv", "s.nml"])

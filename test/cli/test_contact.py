@@ -1,0 +1,304 @@
+"""`faststrip contact`: what it writes belongs together and agrees with the analytic profiles."""
+
+import math
+import subprocess
+
+from cli_program import (
+    GAPS, PROGRAM, RESULT_COLUMNS, ProgramTest, gap_case, gap_text, numbers, parabola, profile_case,
+    rows_of,
+)
+
+FIGURES = RESULT_COLUMNS[1:-2]  # without status and times
+
+
+def bumpy(y):
+    """Two hollows: the middle would be pulled if strips could pull."""
+    return 3e-5 * (y * y - 25.0) ** 2
+
+
+class GapFile(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("gap.csv", gap_text(parabola))
+
+    def contact(self, *words, **case):
+        self.write("case.nml", gap_case(**case))
+        return self.good("contact", "case.nml", *words)[0]
+
+    def same(self, result, other, relative=0.0):
+        for name in FIGURES:
+            self.assert_close(float(result[name]), float(other[name]), relative, 1e-9, name)
+
+    def test_row(self):
+        row = self.contact(motion="cksi = 0.001")
+        self.assertEqual(list(row)[-len(RESULT_COLUMNS):], RESULT_COLUMNS)
+        self.assertEqual((row["status"], row["case"], row["gamma_rad"]), ("ok", "gap", ""))
+        for name in FIGURES:
+            self.assertTrue(math.isfinite(float(row[name])), name)
+        # A paraboloid: Hertz's own numbers.
+        hertz = self.contact("--normal", "hertz", motion="cksi = 0.001")
+        for name, relative in (("penetration_mm", 3e-3), ("area_mm2", 1e-2), ("pmax_MPa", 1e-2)):
+            self.assert_close(float(row[name]), float(hertz[name]), relative, what=name)
+
+    def test_gap_file_is_beside_the_case_file(self):
+        row = self.contact()
+        self.write("deep/gap.csv", gap_text(parabola))
+        self.write("deep/case.nml", gap_case())
+        self.same(self.good("contact", "deep/case.nml")[0], row)
+        self.write("case.nml", gap_case(gap_file=str(self.folder / "gap.csv")))
+        self.same(self.good("contact", "case.nml")[0], row)
+
+    def test_line_ends_and_spelling_do_not_count(self):
+        text = gap_case(motion="cksi = 0.001")
+        row = self.contact(motion="cksi = 0.001")
+        for other in (text.replace("\n", "\r\n"), text.upper().replace("GAP.CSV", "gap.csv"),
+                      text.replace("\n", "  ! a comment with / and 'quotes\n"),
+                      "\ufeff" + text, text.rstrip("\n"), text.replace("  ", "\t")):
+            self.write("case.nml", other)
+            self.same(self.good("contact", "case.nml")[0], row)
+
+    def test_sums_of_strips_and_fields(self):
+        motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
+        self.write("bumpy.csv", gap_text(bumpy))
+        for gap in ("gap.csv", "bumpy.csv", str(GAPS / "shift_0.csv")):
+            for methods in (("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim")):
+                if gap == "bumpy.csv" and methods[0] == "hertz":
+                    continue
+                with self.subTest(gap=gap, methods=methods):
+                    row = self.contact("--normal", methods[0], "--tangential", methods[1],
+                                       "--strips", "s.csv", "--fields", "f.csv", "--gap", "g.csv",
+                                       gap_file=gap, motion=motion)
+                    self.check_strips(row, self.read("s.csv"))
+                    self.check_fields(row, self.read("f.csv"))
+
+    def check_strips(self, row, strips):
+        load = float(row["N_N"])
+        hertz = row["normal"] == "hertz"
+        self.assert_close(sum(numbers(strips, "load_N")), load, 1e-6)
+        self.assertGreaterEqual(min(numbers(strips, "p0_MPa")), 0.0)
+        self.assertGreater(min(numbers(strips, "half_length_mm")), 0.0)
+        self.assertEqual(len({strip["patch"] for strip in strips}), int(row["n_patches"]))
+        for left, right in zip(strips, strips[1:]):
+            self.assertLessEqual(float(left["y_right_mm"]), float(right["y_left_mm"]) + 1e-12)
+        self.assert_close(float(strips[0]["y_left_mm"]), float(row["ymin_mm"]), 0, 0.02)
+        self.assert_close(float(strips[-1]["y_right_mm"]), float(row["ymax_mm"]), 0, 0.02)
+        area = sum(2.0 * float(strip["half_length_mm"])
+                   * (float(strip["y_right_mm"]) - float(strip["y_left_mm"])) for strip in strips)
+        self.assert_close(area, float(row["area_mm2"]), 0.03)
+        if not hertz:
+            self.assert_close(max(numbers(strips, "p0_MPa")), float(row["pmax_MPa"]), 0.01)
+
+    def check_fields(self, row, field):
+        area = numbers(field, "area_mm2")
+        px, py, pn = (numbers(field, name) for name in ("px_MPa", "py_MPa", "pn_MPa"))
+        mu_n = 0.3 * float(row["N_N"])
+        self.assert_close(math.fsum(p * a for p, a in zip(px, area)), float(row["Fx_N"]),
+                          absolute=1e-3 * mu_n)
+        self.assert_close(math.fsum(p * a for p, a in zip(py, area)), float(row["Fy_N"]),
+                          absolute=1e-3 * mu_n)
+        self.assert_close(math.fsum(area), float(row["area_mm2"]), 0.03)
+        self.assert_close(math.fsum(p * a for p, a in zip(pn, area)), float(row["N_N"]), 0.02)
+        self.assertLessEqual(set(numbers(field, "state")), {1.0, 2.0})
+        self.check_bounds(row, field)
+
+    def check_bounds(self, row, field):
+        largest = max(numbers(field, "pn_MPa"))
+        strips = {}
+        for element in field:
+            p = math.hypot(float(element["px_MPa"]), float(element["py_MPa"]))
+            n = float(element["pn_MPa"])
+            # FASTSIM bounds by a paraboloid of the same load; the march by a form of its own
+            # whose peak over mu pn stays below 1.25.
+            bound = 0.3 * 1.25 * n if row["tangential"] == "faststrip" else 0.3 * 4 / 3 * largest
+            self.assertLessEqual(p, bound + 1e-9 * largest)
+            total = strips.setdefault(element["y_mm"], 0.0)
+            strips[element["y_mm"]] = total + p * float(element["area_mm2"])
+        if row["tangential"] == "faststrip":
+            for strip in self.read("s.csv"):
+                used = strips[strip["y_mm"]]
+                self.assertLessEqual(used, 0.3 * float(strip["load_N"]) * (1.0 + 1e-9))
+
+    def test_gap_that_was_read_is_the_gap_that_is_written(self):
+        self.contact("--gap", "g.csv")
+        for name in ("y_mm", "h_mm", "inv2R_per_mm"):
+            self.assertEqual(numbers(self.read("g.csv"), name), numbers(self.read("gap.csv"), name))
+
+    def test_no_tension_in_a_conforming_gap(self):
+        self.write("bumpy.csv", gap_text(bumpy))
+        for load, patches in (("1e3", 2), ("1e4", 2), ("1e6", 1)):
+            row = self.contact("--strips", "s.csv", gap_file="bumpy.csv", load=load)
+            self.assertEqual(int(row["n_patches"]), patches)
+            strips = self.read("s.csv")
+            self.assertGreater(min(numbers(strips, "p0_MPa")), 0.0)
+            self.assert_close(sum(numbers(strips, "load_N")), float(load), 1e-6)
+
+    def test_no_friction_or_no_creepage_is_exactly_no_force(self):
+        for case in (dict(mu="0", motion="cksi = 0.001, ceta = 0.01, cphi_rad_per_mm = 1e-4"),
+                     dict(motion=""), dict(mu="0", motion="")):
+            for words in ((), ("--tangential", "fastsim"),
+                          ("--normal", "hertz", "--tangential", "fastsim"),
+                          ("--normal", "hertz")):
+                row = self.contact(*words, **case)
+                for name in ("Fx_N", "Fy_N", "Mz_Nmm", "friction_power_N"):
+                    self.assertEqual(float(row[name]), 0.0, (name, words, case))
+
+    def test_full_sliding(self):
+        row = self.contact(motion="cksi = -0.1")
+        self.assert_close(float(row["Fx_N"]), 0.3e5, 1e-3)
+        self.assert_close(float(row["friction_power_N"]), 0.1 * 0.3e5, 1e-2)
+
+    def test_number_of_points(self):
+        row = self.contact()
+        for n, relative in ((20, 1e-6), (20000, 1e-6)):
+            self.write("other.csv", gap_text(parabola, n=n))
+            other = self.contact(gap_file="other.csv")
+            for name in ("penetration_mm", "area_mm2", "pmax_MPa"):
+                self.assert_close(float(other[name]), float(row[name]), relative, what=(n, name))
+
+    def test_loads_over_many_decades(self):
+        # Penetration grows with the load to 2/3, area too, pressure to 1/3.
+        one = self.contact(load="1")
+        for load in ("1e-9", "1e-3", "1e3", "1e6"):
+            row = self.contact(load=load)
+            n = float(load)
+            self.assert_close(float(row["penetration_mm"]),
+                              float(one["penetration_mm"]) * n ** (2 / 3), 2e-3, what=load)
+            self.assert_close(float(row["area_mm2"]), float(one["area_mm2"]) * n ** (2 / 3),
+                              2e-3, what=load)
+            self.assert_close(float(row["pmax_MPa"]), float(one["pmax_MPa"]) * n ** (1 / 3),
+                              2e-3, what=load)
+
+    def test_absurd_load_is_an_error_of_one_line(self):
+        self.write("case.nml", gap_case(load="1e300"))
+        done = self.run_program("contact", "case.nml", "-o", "out.csv", "--strips", "s.csv")
+        self.assertIn(done.returncode, (1, 3))
+        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]*case\.nml[^\n]*\n\Z")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         ["case.nml", "gap.csv"])
+
+    def test_edge_of_data_is_told(self):
+        self.write("short.csv", gap_text(lambda y: y * y / 60000.0, half_width=3.0))
+        self.write("case.nml", gap_case(gap_file="short.csv"))
+        done = self.run_program("contact", "case.nml")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]*end of the gap data[^\n]*\n\Z")
+        row = rows_of(done.stdout)[0]
+        self.assertEqual(row["status"], "edge_of_data")
+        self.assertGreater(float(row["penetration_mm"]), 0.0)
+
+
+class Profiles(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("case.nml", profile_case(contact="load_N = 1e5, shift_mm = 1",
+                                            motion="cksi = 0.0007, cphi_rad_per_mm = 1.5e-4"))
+
+    def test_shift_option_stands_for_that_of_the_case(self):
+        own = self.good("contact", "case.nml")[0]
+        same = self.good("contact", "case.nml", "--shift", "1.0")[0]
+        other = self.good("contact", "case.nml", "--shift=-2")[0]
+        for name in FIGURES:
+            self.assertEqual(own[name], same[name])
+        self.assertEqual((float(own["yw_mm"]), float(other["yw_mm"])), (1.0, -2.0))
+        self.assertNotEqual(own["penetration_mm"], other["penetration_mm"])
+
+    def test_gap_that_is_written_gives_the_same_contact(self):
+        row = self.good("contact", "case.nml", "--gap", "gap.csv")[0]
+        self.write("again.nml", gap_case(motion="cksi = 0.0007, cphi_rad_per_mm = 1.5e-4"))
+        again = self.good("contact", "again.nml")[0]
+        for name in FIGURES:
+            self.assert_close(float(again[name]), float(row[name]), 1e-9, 1e-9, name)
+
+    def measured(self, y_sense, z_sense):
+        """Write both profiles as someone measured them, and a case that reads them."""
+        self.good("contact", "case.nml", "--profiles", "p.csv", "-o", "row.csv")
+        rows = self.read("p.csv")
+        for body in ("wheel", "rail"):
+            points = [(y_sense * float(row["y_mm"]), z_sense * float(row["z_mm"]))
+                      for row in rows if row["body"] == body]
+            if body == "wheel":
+                # As it stands in the file the wheel was moved to where it touches the rail.
+                dy, dz = self.offset
+                points = [(y - y_sense * dy, z - z_sense * dz) for y, z in points]
+            points.sort()
+            self.write(f"{body}.txt", "".join(f"{y!r} {z!r}\n" for y, z in points))
+        senses = (f"y_positive_to = '{'field' if y_sense > 0 else 'gauge'}', "
+                  f"z_positive_to = '{'down' if z_sense > 0 else 'up'}'")
+        self.write("measured.nml", profile_case(
+            contact="load_N = 1e5, shift_mm = 1", wheel=f"profile = 'wheel.txt', {senses}",
+            rail=f"profile = 'rail.txt', {senses}",
+            motion="cksi = 0.0007, cphi_rad_per_mm = 1.5e-4"))
+
+    def test_measured_profiles_agree_with_the_drawn_ones(self):
+        # The wheel's own frame: the tread line z = 0 at y = 0, which the S1002 passes through.
+        self.good("contact", "case.nml", "--profiles", "p.csv")
+        wheel = [(float(row["y_mm"]), float(row["z_mm"])) for row in self.read("p.csv")
+                 if row["body"] == "wheel"]
+        wheel.sort()
+        dy = wheel[-1][0] - 60.0
+        near = min(range(len(wheel) - 1), key=lambda i: abs(wheel[i][0] - dy))
+        (y0, z0), (y1, z1) = wheel[near], wheel[near + 1]
+        self.offset = dy, z0 + (z1 - z0) * (dy - y0) / (y1 - y0)
+        drawn = self.good("contact", "case.nml")[0]
+        first = None
+        for y_sense in (1, -1):
+            for z_sense in (1, -1):
+                self.measured(y_sense, z_sense)
+                row = self.good("contact", "measured.nml")[0]
+                # Points 0.15 mm apart: curvatures, hence pressures, are those of their spline.
+                for name, relative in (("penetration_mm", 0.03), ("area_mm2", 0.05),
+                                       ("pmax_MPa", 0.05)):
+                    self.assert_close(float(row[name]), float(drawn[name]), relative, what=name)
+                self.assert_close(float(row["gamma_rad"]), float(drawn["gamma_rad"]), 0, 2e-3)
+                if first is None:
+                    first = row
+                for name in FIGURES:
+                    self.assert_close(float(row[name]), float(first[name]), 1e-4, 1e-6, name)
+
+    def test_vertical_load_is_larger_along_the_normal(self):
+        self.write("case.nml", profile_case(
+            contact="load_N = 1e5, shift_mm = 3, load_direction = 'vertical'"))
+        row = self.good("contact", "case.nml")[0]
+        self.assert_close(float(row["N_N"]), 1e5 / math.cos(float(row["gamma_rad"])), 1e-12)
+
+
+class Outputs(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("gap.csv", gap_text(parabola))
+        self.write("case.nml", gap_case())
+        (self.folder / "dir").mkdir()
+
+    def test_what_cannot_be_written(self):
+        for path in ("dir", "dir/", "none/out.csv", "", "gap.csv/out.csv", "/dev/full",
+                     "/proc/out.csv"):
+            for words in (["contact", "case.nml"], ["integral", "--n", "1", "--b", "1"]):
+                with self.subTest(path=path, words=words):
+                    self.refused(1, *words, "-o", path, says=[path])
+
+    def test_all_files_or_none(self):
+        for option in ("-o", "--strips", "--fields", "--gap"):
+            words = ["contact", "case.nml", "-o", "a.csv", "--strips", "b.csv", "--fields",
+                     "c.csv", "--gap", "d.csv"]
+            words[words.index(option) + 1] = "dir"
+            with self.subTest(option):
+                self.refused(1, *words, says=["dir"])
+                self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                                 ["case.nml", "dir", "gap.csv"])
+        self.assertEqual(list((self.folder / "dir").iterdir()), [])
+
+    def test_stdout_that_is_full(self):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([str(PROGRAM), "contact", "case.nml"], cwd=self.folder,
+                                  stdin=subprocess.DEVNULL, stdout=full, stderr=subprocess.PIPE,
+                                  encoding="utf-8", timeout=60, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]+\n\Z")
+
+    def test_existing_file_is_replaced_whole(self):
+        self.write("out.csv", "x" * 100000)
+        self.assertEqual(self.good("contact", "case.nml", "-o", "out.csv"), [])
+        self.assertEqual(len(self.read("out.csv")), 1)
+        self.assertNotIn("xx", (self.folder / "out.csv").read_text(encoding="utf-8"))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         ["case.nml", "dir", "gap.csv", "out.csv"])

@@ -1,0 +1,103 @@
+"""Help, version and what the command line itself refuses."""
+
+from cli_program import ROOT, ProgramTest, gap_case, gap_text, parabola
+
+SUBCOMMANDS = ("integral", "contact", "batch", "sweep")
+
+
+class Help(ProgramTest):
+    def check(self, *words, lines=1):
+        done = self.run_program(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        self.assertGreaterEqual(len(done.stdout.splitlines()), lines)
+        for line in done.stdout.splitlines():
+            self.assertLessEqual(len(line), 100, line)
+            self.assertEqual(line, line.rstrip())
+        return done.stdout
+
+    def test_overview_names_every_subcommand(self):
+        for words in (["--help"], ["-h"], ["help"]):
+            text = self.check(*words, lines=8)
+            for name in SUBCOMMANDS:
+                self.assertIn(f"\n  {name} ", text)
+
+    def test_subcommands(self):
+        for name in SUBCOMMANDS:
+            text = self.check(name, "--help", lines=6)
+            self.assertTrue(text.startswith(f"usage: faststrip {name}"))
+            self.assertIn("\n  -o FILE ", text)
+            self.assertEqual(self.check(name, "-h"), text)
+            self.assertEqual(self.check(name, "no_such_file", "--help"), text)
+
+    def test_options_of_the_issue_are_told(self):
+        for name, options in (
+            ("integral", ("--n", "--b", "--x", "--method", "--input")),
+            ("contact", ("--fields", "--strips", "--gap", "--profiles", "--shift")),
+            ("batch", ("--normal", "--tangential", "--strips-per-patch")),
+        ):
+            text = self.check(name, "--help")
+            for option in options:
+                self.assertIn(f"\n  {option} ", text)
+
+    def test_version_is_that_of_the_manifest(self):
+        manifest = (ROOT / "fpm.toml").read_text(encoding="utf-8")
+        version = manifest.split('version = "', 1)[1].split('"', 1)[0]
+        for word in ("--version", "-V"):
+            text = self.check(word)
+            self.assertRegex(text, rf"\Afaststrip {version} rev \S+\n\Z")
+
+
+class Usage(ProgramTest):
+    def test_wrong_calls(self):
+        self.write("gap.csv", gap_text(parabola, n=61))
+        self.write("case.nml", gap_case())
+        for words, says in (
+            ([], "subcommand"),
+            (["frobnicate"], "frobnicate"),
+            (["--frobnicate"], "--frobnicate"),
+            ([""], "subcommand"),
+            (["--help", "more"], "more"),
+            (["--version", "more"], "more"),
+            (["integral"], "--n"),
+            (["integral", "--n", "1"], "--b"),
+            (["integral", "--n"], "--n"),
+            (["integral", "--n", "1", "--n", "2", "--b", "1"], "twice: --n"),
+            (["integral", "--n=1", "--n", "2", "--b", "1"], "twice: --n"),
+            (["integral", "--n", "1", "--b", "1", "more"], "more"),
+            (["integral", "--n", "1", "--b", "1", "--", "--x"], "--x"),
+            (["integral", "--n", "1.5", "--b", "1"], "1.5"),
+            (["integral", "--n", "99999999999", "--b", "1"], "99999999999"),
+            (["integral", "--n", "1", "--b", "1e999"], "1e999"),
+            (["integral", "--n", "1", "--b", "one"], "one"),
+            (["integral", "--n", "1", "--b", "NaN"], "NaN"),
+            (["integral", "--n", "1", "--b="], "--b"),
+            (["integral", "--n", "1", "--b", "1", "--x", "1,5"], "1,5"),
+            (["integral", "--n", "1", "--b", "1", "--method", "guess"], "guess"),
+            (["integral", "--n", "1", "--b", "1", "--input", "x.csv"], "--input"),
+            (["integral", "--strips", "x"], "--strips"),
+            (["contact"], "CASE.nml"),
+            (["contact", "case.nml", "case.nml"], "case.nml"),
+            (["contact", "case.nml", "--frobnicate"], "--frobnicate"),
+            (["contact", "case.nml", "--frob=1"], "--frob=1"),
+            (["contact", "case.nml", "-o"], "-o"),
+            (["contact", "case.nml", "--normal", "guess"], "guess"),
+            (["contact", "case.nml", "--tangential", "guess"], "guess"),
+            (["contact", "case.nml", "--strips-per-patch", "0"], "0"),
+            (["contact", "case.nml", "--strips-per-patch", "-3"], "-3"),
+            (["contact", "case.nml", "--points-per-strip", "1001"], "1001"),
+            (["contact", "case.nml", "--fastsim-nx", "0"], "0"),
+            (["contact", "case.nml", "--shift", "1"], "--shift"),
+            (["contact", "case.nml", "--profiles", "p.csv"], "--profiles"),
+            (["batch"], "CASES.csv"),
+            (["batch", "a.csv", "b.csv"], "b.csv"),
+            (["batch", "a.csv", "--shift", "1"], "--shift"),
+            (["batch", "a.csv", "--normal", "guess"], "guess"),
+            (["sweep"], "CASE.nml"),
+            (["sweep", "a.nml", "b.nml"], "b.nml"),
+            (["sweep", "a.nml", "--normal", "hertz"], "--normal"),
+        ):
+            with self.subTest(words):
+                text = self.refused(2, *words, says=[says])
+                self.assertIn("--help", text)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         ["case.nml", "gap.csv"])
