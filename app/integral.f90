@@ -43,7 +43,7 @@ contains
             option_t('--n', 'INTEGER', 'distance in strips, >= 0'), &
             option_t('--b', 'NUMBER', 'half-width over half-length, > 0'), &
             option_t('--x', 'NUMBER', 'field point over half-length (default 0)'), &
-            option_t('--input', 'FILE.csv', 'columns n,b and optionally X, instead of --n --b --x'), &
+            option_t('--input', 'FILE.csv', 'columns n,b, optionally X; no --n --b --x then'), &
             option_t('--method', 'NAME', 'closed (default), quadrature or table'), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)')]
         call parse_command(command, 0)

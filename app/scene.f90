@@ -116,7 +116,8 @@ contains
 
         call put_origin(writer)
         call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
-        call put_profile(writer, 'wheel', case%wheel, scene%contact%y_rail - scene%contact%y_wheel, &
+        call put_profile(writer, 'wheel', case%wheel, &
+                         scene%contact%y_rail - scene%contact%y_wheel, &
                          scene%contact%z_rail - scene%contact%z_wheel)
         call put_profile(writer, 'rail', case%rail, 0.0_wp, 0.0_wp)
     end subroutine put_profiles

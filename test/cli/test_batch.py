@@ -73,8 +73,8 @@ class Batch(ProgramTest):
             self.assertEqual(one[name], many[name], name)
 
     def test_other_columns_are_carried_through(self):
-        cells = ["007", "1e5", ' "quoted", with a comma ', "", "# not a comment", "+0.10", "\u00e4\u00f6",
-                 "NaN", '"', "a  b"]
+        cells = ["007", "1e5", ' "quoted", with a comma ', "", "# not a comment", "+0.10",
+                 "\u00e4\u00f6", "NaN", '"', "a  b"]
         quoted = ['"' + cell.replace('"', '""') + '"' for cell in cells]
         names = [f"extra {i}" for i in range(len(cells))]
         self.write("cases.csv", "# a comment\n" + ",".join(names[:4]) + f",{BATCH_COLUMNS},"
