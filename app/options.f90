@@ -49,12 +49,13 @@ contains
     !> Read the command line from its second word on. Prints the help and ends the program if
     !> asked for it; ends it with a usage error for an unknown option, a missing value or a wrong
     !> number of arguments.
-    subroutine parse_command(command, n_arguments)
-        type(command_t), intent(inout) :: command !! options and arguments are filled in
-        integer, intent(in) :: n_arguments        !! how many arguments it takes
+    subroutine parse_command(command, n_arguments, n_optional)
+        type(command_t), intent(inout) :: command   !! options and arguments are filled in
+        integer, intent(in) :: n_arguments          !! how many arguments it takes
+        integer, intent(in), optional :: n_optional !! how many more it may take
 
         character(len=:), allocatable :: word
-        integer :: i, equals, at
+        integer :: i, equals, at, n_most
         logical :: only_arguments
 
         allocate (command%arguments(0))
@@ -99,9 +100,11 @@ contains
         end do
         if (size(command%arguments) < n_arguments) &
             call usage_error('missing ' // command%usage, command%name)
-        if (size(command%arguments) > n_arguments) &
-            call usage_error('too many arguments: ' &
-                             // command%arguments(n_arguments + 1)%text, command%name)
+        n_most = n_arguments
+        if (present(n_optional)) n_most = n_most + n_optional
+        if (size(command%arguments) > n_most) &
+            call usage_error('too many arguments: ' // command%arguments(n_most + 1)%text, &
+                             command%name)
     end subroutine parse_command
 
     subroutine print_help(command)

@@ -21,7 +21,7 @@ module faststrip_csv
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
     public :: column_numbers
-    public :: open_csv, put_comment, put_header, put_cell, end_row, close_csv, abort_csv
+    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
     public :: real_text
 
     !> One text of its own length.
@@ -477,7 +477,7 @@ contains
         character(len=*), intent(in) :: text        !! one line; `# ` goes in front
 
         if (scan(text, achar(10) // achar(13)) > 0) call note_line_break(writer)
-        call write_line(writer, '# ' // trim(text))
+        call put_line(writer, '# ' // trim(text))
     end subroutine put_comment
 
     !> Add the row of column names.
@@ -561,20 +561,21 @@ contains
     subroutine end_row(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call write_line(writer, writer%row)
+        call put_line(writer, writer%row)
         writer%row = ''
         writer%n_cells = 0
     end subroutine end_row
 
-    subroutine write_line(writer, text)
-        type(csv_writer_t), intent(inout) :: writer
-        character(len=*), intent(in) :: text
+    !> Write one line as it is, for files that are no tables.
+    subroutine put_line(writer, text)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, not in the middle of a row
+        character(len=*), intent(in) :: text        !! the line, without its end
         integer(c_int) :: code
 
         if (.not. c_associated(writer%stream) .or. writer%status%code /= 0) return
         code = c_fputs(text // new_line('a') // c_null_char, writer%stream)
         if (code < 0) call note_failure(writer)
-    end subroutine write_line
+    end subroutine put_line
 
     subroutine note_failure(writer)
         type(csv_writer_t), intent(inout) :: writer

@@ -5,7 +5,7 @@ module faststrip_numerics_lapack
     implicit none
     private
 
-    public :: dgtsv, dgetrf, dgetrs, dgecon
+    public :: dgtsv, dgetrf, dgetrs, dgecon, dgeqrf, dormqr, dtrtrs, dgesvd
 
     interface
         !> Solve a tridiagonal system by elimination with partial pivoting; the three diagonals
@@ -51,5 +51,52 @@ module faststrip_numerics_lapack
             integer, intent(inout) :: iwork(*)
             integer, intent(out) :: info
         end subroutine dgecon
+
+        !> QR factors of a general matrix with m >= n, in place: R in the upper triangle, the
+        !> reflectors below with `tau` of length n; `work` of length `lwork` >= n.
+        pure subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
+            import :: wp
+            integer, intent(in) :: m, n, lda, lwork
+            real(wp), intent(inout) :: a(lda, *)
+            real(wp), intent(out) :: tau(*)
+            real(wp), intent(inout) :: work(*)
+            integer, intent(out) :: info
+        end subroutine dgeqrf
+
+        !> Multiply by the Q of `dgeqrf`, `k` reflectors; `side` L: from the left, `trans` T: with
+        !> its transpose; `work` of length `lwork` >= n.
+        pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+            import :: wp
+            character(len=1), intent(in) :: side, trans
+            integer, intent(in) :: m, n, k, lda, ldc, lwork
+            real(wp), intent(in) :: a(lda, *)
+            real(wp), intent(in) :: tau(*)
+            real(wp), intent(inout) :: c(ldc, *)
+            real(wp), intent(inout) :: work(*)
+            integer, intent(out) :: info
+        end subroutine dormqr
+
+        !> Solve with a triangular matrix; `info` > 0: singular.
+        pure subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)
+            import :: wp
+            character(len=1), intent(in) :: uplo, trans, diag
+            integer, intent(in) :: n, nrhs, lda, ldb
+            real(wp), intent(in) :: a(lda, *)
+            real(wp), intent(inout) :: b(ldb, *)
+            integer, intent(out) :: info
+        end subroutine dtrtrs
+
+        !> Singular values, descending, and with `jobu` = `jobvt` = S the vectors; `a` is
+        !> destroyed; `work` of length `lwork` >= 5 max(m, n); `info` > 0: no convergence.
+        pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+            import :: wp
+            character(len=1), intent(in) :: jobu, jobvt
+            integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+            real(wp), intent(inout) :: a(lda, *)
+            real(wp), intent(out) :: s(*)
+            real(wp), intent(out) :: u(ldu, *), vt(ldvt, *)
+            real(wp), intent(inout) :: work(*)
+            integer, intent(out) :: info
+        end subroutine dgesvd
     end interface
 end module faststrip_numerics_lapack
