@@ -6,6 +6,7 @@ program faststrip_main
     use faststrip_app_contact, only: run_contact
     use faststrip_app_batch, only: run_batch
     use faststrip_app_sweep, only: run_sweep
+    use faststrip_app_table, only: run_table
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -14,6 +15,7 @@ program faststrip_main
     case ('contact'); call run_contact()
     case ('batch'); call run_batch()
     case ('sweep'); call run_sweep()
+    case ('table'); call run_table()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -42,6 +44,7 @@ contains
         call say('  contact CASE.nml       one contact, from two profiles or a gap file')
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
+        call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

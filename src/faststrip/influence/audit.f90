@@ -4,9 +4,10 @@
 !> With d(L) the row less the fresh fit, in E, the least-squares change of coefficient k alone is
 !> `delta_k = <d, phi_k>/<phi_k, phi_k>` over the nodes of the fit, and it explains the share
 !> `<d, phi_k>^2/(<phi_k, phi_k><d, d>)` of the sum of squares. The coefficient with the largest
-!> share is named. A row made by the same kind of fit and then misprinted has a share of 1: a
-!> misprint is called demonstrable from 0.999 on, if the change also is what makes the row worse
-!> than the fit (d exceeds half of the fit's own error).
+!> share is named. A row made by the same kind of fit and then misprinted has a share of 1: from
+!> 0.999 on a misprint is called demonstrable. It is not where d is below one hundredth of the
+!> fit's own error (coefficients rounded to few digits), nor below degree 2 (one or two
+!> coefficients explain anything).
 module faststrip_influence_audit
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error
@@ -32,7 +33,7 @@ module faststrip_influence_audit
         integer :: suspect = -1                 !! the k whose change explains most; -1: no residual
         real(wp) :: change = 0.0_wp             !! c_k less what it should be
         real(wp) :: share = 0.0_wp              !! of the sum of squares, 0 to 1
-        real(wp) :: corrected_max = 0.0_wp      !! largest relative error of the row with c_k - change
+        real(wp) :: corrected_max = 0.0_wp      !! largest relative error without the change
         logical :: misprint = .false.           !! is a misprint of c_k demonstrable?
         real(wp) :: below = 0.0_wp              !! relative error one decade of b below the range
         real(wp) :: above = 0.0_wp              !! relative error one decade above it
@@ -97,7 +98,7 @@ contains
             audit%suspect = k
             audit%change = along/square
         end do
-        audit%misprint = audit%share >= misprint_share .and. &
-                         audit%residual_rms > 0.5_wp*log10_e*audit%fresh%rms_rel_err
+        audit%misprint = degree >= 2 .and. audit%share >= misprint_share .and. &
+                         audit%residual_max > 0.01_wp*log10_e*audit%fresh%max_rel_err
     end subroutine find_suspect
 end module faststrip_influence_audit

@@ -65,8 +65,9 @@ contains
                             // integer_text(n) // ' columns were not found')
             return
         end if
-        factors%condition = min(1.0e300_wp, factors%s(1)/max(factors%s(n), &
-                                                             1.0e-300_wp*factors%s(1), tiny(1.0_wp)))
+        associate (least => max(factors%s(n), 1.0e-300_wp*factors%s(1), tiny(1.0_wp)))
+            factors%condition = factors%s(1)/least
+        end associate
         factors%by_svd = factors%condition > svd_condition
     end subroutine factor_least_squares
 

@@ -23,9 +23,8 @@ contains
 
     !> Minimax polynomial through points.
     !>
-    !> It ends when the largest error exceeds the levelled one by less than 1e-6 of it, or when
-    !> the errors drown in rounding (below 100 units of the largest value): then the best
-    !> polynomial met stands.
+    !> It ends when the largest error exceeds the levelled one by less than 1e-6 of it and 16
+    !> units of rounding of the largest value.
     pure subroutine fit_minimax(low, high, x, y, c, deviation, status)
         real(wp), intent(in) :: low             !! lower end of the interval of the T_k
         real(wp), intent(in) :: high            !! upper end, > low
@@ -54,7 +53,7 @@ contains
         end if
         allocate (matrix(size(x), 0:n - 1), error(size(x)), trial(0:n - 1), reference(n + 1))
         call basis_matrix(basis_chebyshev, low, high, x, matrix)
-        rounding = 100.0_wp*epsilon(1.0_wp)*max(maxval(abs(y)), tiny(1.0_wp))
+        rounding = 16.0_wp*epsilon(1.0_wp)*max(maxval(abs(y)), tiny(1.0_wp))
         call spread_points(size(x), reference)
         do exchange = 1, most_exchanges
             call level_errors(matrix, y, reference, trial, level, status)
@@ -65,7 +64,7 @@ contains
                 deviation = worst
                 c = trial
             end if
-            if (worst <= abs(level)*(1.0_wp + levelled) .or. worst <= rounding) return
+            if (worst <= abs(level)*(1.0_wp + levelled) + rounding) return
             call exchange_points(error, reference, alternates)
             if (.not. alternates) exit
         end do
