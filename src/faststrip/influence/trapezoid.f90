@@ -2,9 +2,10 @@
 !>
 !> The trapezoid rule with 500 panels on 0 <= u <= 1 of
 !> `sqrt(1 - u^2) [asinh((2n+1) b/u) - asinh((2n-1) b/u)]`, at u = 0 its limit
-!> `ln((2n+1)/(2n-1))`: one half of i_n(b), low by 3.4e-5 because of the root at u = 1. For n = 0
-!> the integrand has no limit; there the first node is moved to u = 1.5e-4, the choice that
-!> comes closest to the printed row 0 (7.6e-4 per coefficient, 1e-3 in E); none reproduces it.
+!> `ln((2n+1)/(2n-1))`: one half of i_n(b), low by 3.0e-5 to 3.4e-5 because of the root at
+!> u = 1. For n = 0 the integrand has no limit; there the first node is moved to u = 1.5e-4, the
+!> choice that comes closest to the printed row 0 (7.6e-4 per coefficient, 1e-3 in E); none
+!> reproduces it.
 module faststrip_influence_trapezoid
     use faststrip_kinds, only: wp
     implicit none

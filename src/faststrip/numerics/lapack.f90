@@ -88,6 +88,7 @@ module faststrip_numerics_lapack
 
         !> Singular values, descending, and with `jobu` = `jobvt` = S the vectors; `a` is
         !> destroyed; `work` of length `lwork` >= 5 max(m, n); `info` > 0: no convergence.
+        !> Without vectors (N) LAPACK divides by zero on purpose, to see whether it may.
         pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
             import :: wp
             character(len=1), intent(in) :: jobu, jobvt

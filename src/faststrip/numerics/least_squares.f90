@@ -1,8 +1,9 @@
 !> Linear least squares with one matrix and many right-hand sides.
 !>
-!> The matrix is factored once, `A = Q R` by Householder reflectors. The singular values of R are
-!> those of A and give its condition number. Up to condition `svd_condition` a solution is
-!> `R^-1 Q^T y`; above, it is formed from the singular values, those below rounding left out.
+!> The matrix is factored once, its columns scaled to length 1, `A = Q R D` by Householder
+!> reflectors. The singular values of R D are those of A and give its condition number. Up to
+!> condition `svd_condition` a solution is `D^-1 R^-1 Q^T y`; above, R^-1 is formed from the
+!> singular values of R, those below rounding left out.
 module faststrip_numerics_least_squares
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, st_linear_algebra, &
@@ -25,8 +26,9 @@ module faststrip_numerics_least_squares
         real(wp) :: condition = 0.0_wp              !! largest over smallest singular value; at
                                                     !! most 1e300
         logical :: by_svd = .false.                 !! do solutions come from singular values?
-        real(wp), allocatable :: qr(:, :), tau(:)
-        real(wp), allocatable :: s(:), u(:, :), vt(:, :)
+        real(wp), allocatable :: length(:)          !! of the columns
+        real(wp), allocatable :: qr(:, :), tau(:)   !! QR factors of the scaled matrix
+        real(wp), allocatable :: s(:), u(:, :), vt(:, :) !! and the singular values of its R
     end type least_squares_t
 
 contains
@@ -50,25 +52,35 @@ contains
         end if
         factors%n_rows = m
         factors%n_columns = n
-        factors%qr = matrix
-        allocate (factors%tau(n), factors%s(n), factors%u(n, n), factors%vt(n, n), work(64*n))
+        allocate (factors%qr(m, n), factors%tau(n), factors%length(n))
+        allocate (factors%s(n), factors%u(n, n), factors%vt(n, n), r(n, n), work(64*n))
+        do k = 1, n
+            factors%length(k) = norm2(matrix(:, k))
+            if (.not. factors%length(k) > 0.0_wp) factors%length(k) = 1.0_wp
+            factors%qr(:, k) = matrix(:, k)/factors%length(k)
+        end do
         work = 0.0_wp
         call dgeqrf(m, n, factors%qr, m, factors%tau, work, size(work), info)
-        allocate (r(n, n), source=0.0_wp)
+        r = 0.0_wp
         do k = 1, n
-            r(:k, k) = factors%qr(:k, k)
+            r(:k, k) = factors%qr(:k, k)*factors%length(k)
         end do
         call dgesvd('S', 'S', n, n, r, n, factors%s, factors%u, n, factors%vt, n, work, &
                     size(work), info)
-        if (info /= 0) then
-            call set_status(status, st_linear_algebra, 'the singular values of a matrix of ' &
-                            // integer_text(n) // ' columns were not found')
-            return
+        if (info == 0) then
+            associate (least => max(factors%s(n), 1.0e-300_wp*factors%s(1), tiny(1.0_wp)))
+                factors%condition = factors%s(1)/least
+            end associate
+            factors%by_svd = factors%condition > svd_condition
+            r = 0.0_wp
+            do k = 1, n
+                r(:k, k) = factors%qr(:k, k)
+            end do
+            call dgesvd('S', 'S', n, n, r, n, factors%s, factors%u, n, factors%vt, n, work, &
+                        size(work), info)
         end if
-        associate (least => max(factors%s(n), 1.0e-300_wp*factors%s(1), tiny(1.0_wp)))
-            factors%condition = factors%s(1)/least
-        end associate
-        factors%by_svd = factors%condition > svd_condition
+        if (info /= 0) call set_status(status, st_linear_algebra, 'the singular values of a ' // &
+                                       'matrix of ' // integer_text(n) // ' columns were not found')
     end subroutine factor_least_squares
 
     !> The vector that makes the sum of squares of `matrix c - y` least.
@@ -106,5 +118,6 @@ contains
             end if
             c = qty(:n, 1)
         end if
+        c = c/factors%length
     end subroutine solve_least_squares
 end module faststrip_numerics_least_squares

@@ -2,8 +2,9 @@
 !>
 !> The polynomial of a degree whose largest error over given points is least errs by the same
 !> amount, with alternating sign, at degree + 2 of them (Chebyshev). The exchange starts from
-!> spread points, levels the error there, moves to the extremes of each run of one sign and ends
-!> when none exceeds the levelled error.
+!> spread points, levels the error there, moves to the extremes of each run of one sign (where
+!> there are too few runs: moves one point to the largest error) and ends when none exceeds the
+!> levelled error.
 module faststrip_numerics_minimax
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, number_text, &
@@ -66,7 +67,7 @@ contains
             end if
             if (worst <= abs(level)*(1.0_wp + levelled) + rounding) return
             call exchange_points(error, reference, alternates)
-            if (.not. alternates) exit
+            if (.not. alternates) call exchange_one_point(error, level, reference)
         end do
         if (deviation > rounding) call set_status(status, st_no_convergence, &
             'the exchange for a minimax polynomial of degree ' // integer_text(n - 1) // &
@@ -146,4 +147,30 @@ contains
         end do
         reference = extreme(first:n)
     end subroutine exchange_points
+
+    ! The point of the largest error takes the place of the neighbour in the reference whose
+    ! levelled error has the same sign; beyond an end without one, of the point at the other end.
+    pure subroutine exchange_one_point(error, level, reference)
+        real(wp), intent(in) :: error(:), level
+        integer, intent(inout) :: reference(:)
+
+        integer :: worst, n, k
+        logical :: odd
+
+        n = size(reference)
+        worst = maxloc(abs(error), dim=1)
+        k = count(reference <= worst)
+        ! Do the points with odd numbers have an error of the sign of the worst?
+        odd = (level < 0.0_wp) .eqv. (error(worst) < 0.0_wp)
+        if (k == 0) then
+            if (.not. odd) reference = [0, reference(:n - 1)]
+            reference(1) = worst
+        else if (odd .eqv. modulo(k, 2) == 1) then
+            reference(k) = worst
+        else if (k < n) then
+            reference(k + 1) = worst
+        else
+            reference = [reference(2:), worst]
+        end if
+    end subroutine exchange_one_point
 end module faststrip_numerics_minimax
