@@ -147,7 +147,7 @@ class Folder:
         """Exit status, stdout and stderr of `plots/COMMAND.py ARGUMENTS` run in the folder."""
         from faststrip_plots.command import run
 
-        main = _load(command).main
+        main = load(command).main
         out, err = io.StringIO(), io.StringIO()
         before = os.getcwd()
         os.chdir(self.path)
@@ -162,7 +162,7 @@ class Folder:
         return status, out.getvalue(), err.getvalue()
 
 
-def _load(command):
+def load(command):
     spec = importlib.util.spec_from_file_location(f"plots_{command}", PLOTS / f"{command}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
