@@ -90,9 +90,9 @@ def draw_fit(upper, lower, decays):
         axes.axvline(PUBLISHED, color="#bbbbbb", linewidth=1.2, zorder=1)
         axes.yaxis.set_major_locator(LogLocator(numticks=10))
         axes.yaxis.set_minor_formatter(NullFormatter())
-    upper.annotate(f"degree {PUBLISHED}: published", (PUBLISHED, 0.985), (4.0, 0.0), va="top",
-                   color=style.GREY, xycoords=("data", "axes fraction"), textcoords="offset points",
-                   fontsize=style.SMALL)
+    upper.annotate(f"degree {PUBLISHED}: published", (PUBLISHED, 0.02), (3.0, 0.0), rotation=90,
+                   va="bottom", color=style.GREY, xycoords=("data", "axes fraction"),
+                   textcoords="offset points", fontsize=style.SMALL)
     for basis in reversed(decays):
         decay, look = decays[basis], BASES[basis]
         front = 4 if basis == "monomial" else 3

@@ -9,6 +9,7 @@ import numpy as np
 from . import style
 
 LABEL_GAP = 3.0  # points between a label and what it belongs to
+NEAR = 9.0  # points from a dot to its label where nothing is in the way
 
 
 def groups(*columns):
@@ -64,32 +65,41 @@ def place_labels(axes, labels, obstacles):
     """Texts beside their points where they cover neither each other nor an obstacle.
 
     `labels` holds tuples (x, y, text, colour); `obstacles` boxes (x0, y0, x1, y1), all in data.
-    Limits must be set and the layout done. Returns the texts.
+    A text that stands farther off is tied to its point by a thin line. Limits must be set and
+    the layout done. Returns the texts.
     """
     renderer = axes.figure.canvas.get_renderer()
     unit = axes.figure.dpi / 72.0
     taken = [_box(axes, *each, 4.0 * unit) for each in obstacles]
     frame = axes.get_window_extent(renderer)
-    texts = []
+    written, texts = [], []
     for x, y, text, colour in labels:
         drawn = axes.text(x, y, text, color=colour, fontsize=style.SMALL, zorder=6,
                           linespacing=1.15)
+        point = axes.transData.transform((x, y))
         best = None
         for order, (across, up, far) in enumerate(_places()):
             drawn.set_horizontalalignment(("right", "center", "left")[across + 1])
             drawn.set_verticalalignment(("top", "center", "bottom")[up + 1])
-            at = axes.transData.transform((x, y)) + far * unit * np.array([across, up])
+            at = point + far * unit * np.array([across, up])
             drawn.set_position(axes.transData.inverted().transform(at))
             box = drawn.get_window_extent(renderer)
             box = np.array([box.x0, box.y0, box.x1, box.y1])
-            hidden = sum(_common(box, other) for other in taken)
+            tie = np.linspace(point, np.clip(point, box[:2], box[2:]), 20)
+            hidden = sum(_common(box, other) for other in taken + written)
+            crossed = sum(_common((*(q - unit), *(q + unit)), other)
+                          for q in tie for other in written)
             inside = _common(box, (frame.x0, frame.y0, frame.x1, frame.y1))
-            cost = hidden + 10.0 * (_area(box) - inside) + 1e-3 * order
+            cost = hidden + 10.0 * (crossed + _area(box) - inside) + 1e-3 * order
             if best is None or cost < best[0]:
-                best = cost, drawn.get_position(), drawn.get_ha(), drawn.get_va(), box
-        _, position, across, up, box = best
+                best = (cost, drawn.get_position(), drawn.get_ha(), drawn.get_va(), box, tie, far)
+        _, position, across, up, box, tie, far = best
         drawn.set(position=position, horizontalalignment=across, verticalalignment=up)
-        taken.append(box)
+        written.append(box)
+        if far > NEAR:
+            axes.plot(*axes.transData.inverted().transform(tie[[0, -1]]).T, color="#555555",
+                      linewidth=0.7, zorder=3.5)
+            taken += [np.array([*(q - unit), *(q + unit)]) for q in tie]
         texts.append(drawn)
     return texts
 
@@ -97,7 +107,7 @@ def place_labels(axes, labels, obstacles):
 def _places():
     """Directions (across, up) and distances in points tried for a label, the best first."""
     directions = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
-    for far in (9.0, 16.0, 26.0, 40.0, 60.0):
+    for far in (NEAR, 16.0, 26.0, 40.0, 60.0):
         for across, up in directions:
             yield across, up, far
 
