@@ -13,8 +13,7 @@
 !> 2. The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_newton
     use faststrip_kinds, only: wp, pi
-    use faststrip_influence_closed, only: strip_influence_center_gradient
-    use faststrip_influence_offcentre, only: strip_influence_gradient
+    use faststrip_influence_row, only: center_influence_column_gradient, influence_column_gradient
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
     implicit none
     private
@@ -37,6 +36,8 @@ module faststrip_normal_strip_newton
     type :: newton_workspace_t
         real(wp), allocatable :: jacobian(:, :)
         real(wp), allocatable :: step(:, :)
+        real(wp), allocatable :: y(:)            !! centre lines
+        real(wp), allocatable :: influence(:, :) !! one column: values, d/dx, d/dxd
         integer, allocatable :: pivot(:)
     end type newton_workspace_t
 
@@ -52,9 +53,11 @@ contains
         n = 2*max_strips + 1
         if (allocated(workspace%pivot)) then
             if (size(workspace%pivot) >= n) return
-            deallocate (workspace%jacobian, workspace%step, workspace%pivot)
+            deallocate (workspace%jacobian, workspace%step, workspace%pivot, workspace%y, &
+                        workspace%influence)
         end if
         allocate (workspace%jacobian(n, n), workspace%step(n, 1), source=0.0_wp)
+        allocate (workspace%y(max_strips), workspace%influence(max_strips, 3), source=0.0_wp)
         allocate (workspace%pivot(n), source=0)
     end subroutine reserve_newton
 
@@ -86,7 +89,8 @@ contains
             iterations = iterations + 1
             p_scale = maxval(abs(p0))
             call assemble(y_left, y_right, height, inv2r, compliance, load, p0, half_length, &
-                          penetration, p_scale, workspace%jacobian, workspace%step(:, 1))
+                          penetration, p_scale, workspace%jacobian, workspace%step(:, 1), &
+                          workspace%y, workspace%influence)
             call dgetrf(2*n + 1, 2*n + 1, workspace%jacobian, size(workspace%jacobian, 1), &
                         workspace%pivot, info)
             if (info /= 0) return
@@ -119,15 +123,16 @@ contains
 
     !> Negative residual and Jacobian in scaled unknowns (p0/p_scale, ln xd, D/penetration).
     subroutine assemble(y_left, y_right, height, inv2r, compliance, load, p0, half_length, &
-                        penetration, p_scale, jacobian, rhs)
+                        penetration, p_scale, jacobian, rhs, y, influence)
         real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:), compliance, load
         real(wp), intent(in) :: p0(:), half_length(:), penetration, p_scale
-        real(wp), intent(inout) :: jacobian(:, :), rhs(:)
+        real(wp), intent(inout) :: jacobian(:, :), rhs(:), y(:), influence(:, :)
 
         integer :: n, k, s
-        real(wp) :: y, value, d_x, d_half_length, scale, strip_force, per_length, centre, tip
+        real(wp) :: scale, strip_force, centre, tip
 
         n = size(p0)
+        y(:n) = 0.5_wp*(y_left + y_right)
         scale = compliance/penetration
         do k = 1, n
             centre = (penetration - height(k))/penetration
@@ -139,29 +144,27 @@ contains
             jacobian(n + k, 2*n + 1) = -1.0_wp
         end do
         do s = 1, n
-            per_length = 1.0_wp/half_length(s)
+            call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y(:n), &
+                                                  influence(:n, 1), influence(:n, 3))
             do k = 1, n
-                y = 0.5_wp*(y_left(k) + y_right(k))
-                call strip_influence_center_gradient((y_left(s) - y)*per_length, &
-                                                     (y_right(s) - y)*per_length, value, &
-                                                     d_half_length)
-                value = half_length(s)*value
-                rhs(k) = rhs(k) - scale*p0(s)*value
-                jacobian(k, s) = scale*p_scale*value
-                jacobian(k, n + s) = scale*p0(s)*d_half_length*half_length(s)
-                call strip_influence_gradient(half_length(k), half_length(s), y_left(s) - y, &
-                                              y_right(s) - y, value, d_x, d_half_length)
-                rhs(n + k) = rhs(n + k) - scale*p0(s)*value
-                jacobian(n + k, s) = scale*p_scale*value
-                if (s == k) then
-                    jacobian(n + k, n + k) = jacobian(n + k, n + k) &
-                                             + scale*p0(s)*d_half_length*half_length(s)
-                else
-                    jacobian(n + k, n + s) = scale*p0(s)*d_half_length*half_length(s)
-                end if
-                ! The tip of the field strip moves with its own length, under every source.
+                rhs(k) = rhs(k) - scale*p0(s)*influence(k, 1)
+                jacobian(k, s) = scale*p_scale*influence(k, 1)
+                jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+            end do
+            call influence_column_gradient(half_length(s), y_left(s), y_right(s), half_length, &
+                                           y(:n), influence(:n, 1), influence(:n, 2), &
+                                           influence(:n, 3))
+            tip = jacobian(n + s, n + s)
+            do k = 1, n
+                rhs(n + k) = rhs(n + k) - scale*p0(s)*influence(k, 1)
+                jacobian(n + k, s) = scale*p_scale*influence(k, 1)
+                jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+            end do
+            jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
+            ! The tip of the field strip moves with its own length, under every source.
+            do k = 1, n
                 jacobian(n + k, n + k) = jacobian(n + k, n + k) &
-                                         + scale*p0(s)*d_x*half_length(k)
+                                         + scale*p0(s)*half_length(k)*influence(k, 2)
             end do
         end do
         rhs(2*n + 1) = 1.0_wp
