@@ -1,14 +1,16 @@
 !> Whole columns of influence numbers: one strip that carries pressure, many field points.
 !>
-!> The same integrals as in faststrip_influence_closed and faststrip_influence_offcentre, arranged
-!> for vector arithmetic: field points are sorted by the rule they need, and points that need the
-!> same rule are evaluated together. What fits no common rule (edges on both sides of the field
-!> point, strips wide for their distance, extreme sizes, arguments that are not finite) goes to the
-!> scalar functions, so that every argument has its answer.
-!>
 !> A column is what the matrix of the strip method is filled by: the source strip has half-length
-!> xd and edges y_left, y_right; field point k lies at (x_k, y_k). All lengths are in mm.
-!> Nothing here allocates or raises a floating-point exception.
+!> xd and edges y_left, y_right; field point k lies at (x_k, y_k). All lengths are in mm. The
+!> integrals are those of faststrip_influence_closed and faststrip_influence_offcentre, arranged
+!> for vector arithmetic:
+!>
+!> - centre line: field points are sorted by the two forms of G and evaluated side by side;
+!> - off the centre line: rules whose nodes are constants, one square root and one division a node.
+!>
+!> What fits no such rule (edges on both sides of the field point, strips wide for their distance,
+!> extreme sizes, arguments that are not finite) goes to the scalar procedures, so that every
+!> argument has its answer. Nothing here allocates or raises a floating-point exception.
 module faststrip_influence_row
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
@@ -24,9 +26,8 @@ module faststrip_influence_row
 
     integer :: i_, k_
 
-    ! Field points are taken so many at a time, and evaluated so many together.
+    ! Field points of the centre line are taken so many at a time.
     integer, parameter :: chunk = 64
-    integer, parameter :: lanes = 4
 
     ! The two forms of G overlap on [c_large, c_small].
     real(wp), parameter :: c_small = 1.0_wp
@@ -36,9 +37,9 @@ module faststrip_influence_row
     real(wp), parameter :: largest_edge = 1.0e100_wp
 
     ! Midpoint rules in the angle, on half the circle: sizes, cosines and sines of the nodes.
-    integer, parameter :: n_rules = 19
-    integer, parameter :: rule_size(n_rules) = [4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, &
-                                                32, 36, 40, 48, 56, 64]
+    integer, parameter :: n_rules = 18
+    integer, parameter :: rule_size(n_rules) = [4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, &
+                                                36, 40, 48, 56, 64]
     integer, parameter :: rule_start(n_rules) = [(sum(rule_size(:i_)) - rule_size(i_) + 1, &
                                                   i_=1, n_rules)]
     integer, parameter :: n_nodes = sum(rule_size)
@@ -52,7 +53,7 @@ module faststrip_influence_row
     real(wp), parameter :: far_limit(n_rules) = cosh(0.5_wp*digits/(rule_size - 1))
     real(wp), parameter :: half_t(n_rules) = 0.5_wp*pi/sinh(0.5_wp*digits/rule_size)
     ! The largest far rule that is cheaper than a near one.
-    integer, parameter :: last_far = 7
+    integer, parameter :: last_far = 8
 
     ! Near rules. Of all maps u = X + a sinh(t) of [t1, t2] on [-1, 1], a singularity at +-i cl
     ! allows those with a <= cl; the one with half interval H, `t = mid + tau`, has
@@ -61,8 +62,8 @@ module faststrip_influence_row
     ! linear in X: with H fixed for each rule, hyperbolic functions are constants.
     real(wp), parameter :: near_a0(n_rules) = 1.0_wp/sinh(half_t)**2
     real(wp), parameter :: near_a1(n_rules) = 1.0_wp/cosh(half_t)**2
-    ! From X = coth(H) on a^2 is negative, and u(tau) turns round at tanh(tau) = coth(H)/X; its mirror
-    ! image of the end u = 1 stays as harmless as the kernel's singularity up to this X.
+    ! From X = coth(H) on a^2 is negative, and u(tau) turns round at tanh(tau) = coth(H)/X. The
+    ! mirror image of the end u = 1 is as harmless as the kernel's singularity up to this X.
     real(wp), parameter :: turn(n_rules) = 0.5_wp*(half_t + sqrt(half_t**2 + 0.25_wp*pi**2))
     real(wp), parameter :: near_last(n_rules) = 1.0_wp/(tanh(half_t)*tanh(turn))
     real(wp), parameter :: h_node(n_nodes) = [((half_t(k_), i_=1, rule_size(k_)), k_=1, n_rules)]
@@ -75,12 +76,6 @@ module faststrip_influence_row
     real(wp), parameter :: d_cosh(n_nodes) = h_node*sin(angle)*sinh(tau)/cosh(h_node)
     real(wp), parameter :: d_sinh(n_nodes) = h_node*sin(angle)*cosh(tau)/sinh(h_node)
 
-    ! Kinds of field points, each with one inner loop.
-    integer, parameter :: far_thin = 1
-    integer, parameter :: far_wide = 2
-    integer, parameter :: near_thin = 3
-    integer, parameter :: near_wide = 4
-    integer, parameter :: n_kinds = 4
     ! A strip is thin if its half-width over its distance is below this. Its kernel is then, with
     ! h its half-width, c its middle, s = sqrt(delta^2 + c^2) and xi = (c/s)^2,
     !     ker = (2h/s) sum_k (h/s)^(2k) P_2k(c/s)/(2k + 1) = (2h/s) sum_m C_m(h^2/c^2) xi^m:
@@ -190,15 +185,16 @@ contains
         real(wp), dimension(chunk, 2) :: width, cl, cr, i0, i1
         real(wp) :: per_length, c1, c2, other
         integer :: place(chunk, 2), members(2), form, k, j
-        logical :: plain
+        logical :: plain, inside
 
-        plain = is_plain(half_length, max(abs(y_left), abs(y_right)))
+        plain = is_plain(half_length, abs(y_left)) .and. is_plain(1.0_wp, abs(y_right))
         per_length = 0.0_wp
         if (plain) per_length = 1.0_wp/half_length
         members = 0
         do k = 1, n
             form = 0
-            if (plain .and. is_plain(1.0_wp, abs(y(k)))) then
+            inside = plain .and. is_plain(1.0_wp, abs(y(k)))
+            if (inside) then
                 c1 = (y_left - y(k))*per_length
                 c2 = (y_right - y(k))*per_length
                 if (c1 + c2 < 0.0_wp) then
@@ -225,14 +221,14 @@ contains
                     cl(j, form) = 0.0_wp
                     width(j, form) = c2
                 end if
-            else if (half_length > 0.0_wp) then
-                call strip_influence_center_gradient((y_left - y(k))/half_length, &
-                                                     (y_right - y(k))/half_length, value(k), &
+            else if (inside) then
+                call strip_influence_center_gradient((y_left - y(k))*per_length, &
+                                                     (y_right - y(k))*per_length, value(k), &
                                                      slope(k))
                 value(k) = half_length*value(k)
             else
-                value(k) = 0.0_wp
-                slope(k) = 0.0_wp
+                call strip_influence_gradient(0.0_wp, half_length, y_left - y(k), &
+                                              y_right - y(k), value(k), other, slope(k))
             end if
         end do
         if (with_slope) then
@@ -425,12 +421,20 @@ contains
         real(wp), intent(in) :: y(:)        !! field points across, (n), mm
         real(wp), intent(out) :: value(:)   !! influence I, (n), mm
 
+        real(wp) :: d_x, d_half_length
         integer :: k
+        logical :: plain
 
+        plain = is_plain(half_length, abs(y_left)) .and. is_plain(1.0_wp, abs(y_right))
         do k = 1, size(y)
-            value(k) = half_length*strip_influence_at(x(k)/half_length, &
-                                                      (y_left - y(k))/half_length, &
-                                                      (y_right - y(k))/half_length)
+            if (plain .and. is_plain(1.0_wp, abs(x(k))) .and. is_plain(1.0_wp, abs(y(k)))) then
+                value(k) = half_length*strip_influence_at(x(k)/half_length, &
+                                                          (y_left - y(k))/half_length, &
+                                                          (y_right - y(k))/half_length)
+            else
+                call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
+                                              value(k), d_x, d_half_length)
+            end if
         end do
     end subroutine influence_column_at
 
@@ -447,301 +451,259 @@ contains
         real(wp), intent(out) :: d_x(:)           !! dI/dx, (n)
         real(wp), intent(out) :: d_half_length(:) !! dI/dxd, (n)
 
-        integer :: from, to
+        real(wp) :: per_length, xs, cl, cr, m(3)
+        integer :: k
+        logical :: plain, found
 
-        do from = 1, size(y), chunk
-            to = min(from + chunk - 1, size(y))
-            call chunk_gradient(to - from + 1, half_length, y_left, y_right, x(from:to), &
-                                y(from:to), value(from:to), d_x(from:to), d_half_length(from:to))
+        plain = is_plain(half_length, abs(y_left)) .and. is_plain(1.0_wp, abs(y_right))
+        per_length = 0.0_wp
+        if (plain) per_length = 1.0_wp/half_length
+        do k = 1, size(y)
+            found = .false.
+            if (plain .and. is_plain(1.0_wp, abs(x(k))) .and. is_plain(1.0_wp, abs(y(k)))) then
+                xs = abs(x(k))*per_length
+                cl = (y_left - y(k))*per_length
+                cr = (y_right - y(k))*per_length
+                if (cl + cr < 0.0_wp) then
+                    m(1) = -cl
+                    cl = -cr
+                    cr = m(1)
+                end if
+                if (cl >= least_near .and. cr > cl .and. cr < largest_sigma .and. xs > 0.0_wp &
+                    .and. xs < largest_sigma) call point_gradient(xs, cl, cr, m, found)
+            end if
+            if (found) then
+                value(k) = half_length*m(1)
+                d_x(k) = sign(1.0_wp, x(k))*m(2)
+                d_half_length(k) = m(3)
+            else
+                call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
+                                              value(k), d_x(k), d_half_length(k))
+            end if
         end do
     end subroutine influence_column_gradient
 
-    !> The same for at most `chunk` points.
-    pure subroutine chunk_gradient(n, half_length, y_left, y_right, x, y, value, d_x, &
-                                   d_half_length)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: half_length, y_left, y_right, x(n), y(n)
-        real(wp), intent(out) :: value(n), d_x(n), d_half_length(n)
+    !> The same for one point; all sizes plain, 0 < cl, X > 0, in half-lengths. `found` is false if
+    !> no rule fits.
+    pure subroutine point_gradient(x, cl, cr, m, found)
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
+        logical, intent(out) :: found
 
-        real(wp), dimension(chunk) :: xs, cl, cr
-        real(wp), dimension(lanes) :: gx, gl, gr, m0, m1, m2
-        real(wp) :: per_length, narrowness, sigma
-        integer, dimension(chunk) :: key, order
-        integer :: count(0:n_kinds*n_rules), k, i, j, rule, kind, first, last, members(lanes)
-        logical :: plain
+        real(wp) :: narrowness, sigma
+        integer :: rule, i, j
+        logical :: far, thin
 
-        plain = is_plain(half_length, max(abs(y_left), abs(y_right)))
-        per_length = 0.0_wp
-        if (plain) per_length = 1.0_wp/half_length
-        do k = 1, n
-            key(k) = 0
-            if (.not. plain) cycle
-            if (.not. is_plain(1.0_wp, abs(x(k))) .or. .not. is_plain(1.0_wp, abs(y(k)))) cycle
-            xs(k) = abs(x(k))*per_length
-            cl(k) = (y_left - y(k))*per_length
-            cr(k) = (y_right - y(k))*per_length
-            if (cl(k) + cr(k) < 0.0_wp) then
-                sigma = -cl(k)
-                cl(k) = -cr(k)
-                cr(k) = sigma
-            end if
-            if (cl(k) < least_near .or. .not. cr(k) > cl(k)) cycle
-            if (.not. (xs(k) < largest_sigma .and. cr(k) < largest_sigma)) cycle
-            if (.not. xs(k) > 0.0_wp) cycle
-            narrowness = (cr(k) - cl(k))/(max(cr(k), xs(k) - 1.0_wp) + max(cl(k), xs(k) - 1.0_wp))
-            if (narrowness > atanh_last) cycle
-            sigma = 0.5_wp*(sqrt((xs(k) - 1.0_wp)**2 + cl(k)*cl(k)) &
-                            + sqrt((xs(k) + 1.0_wp)**2 + cl(k)*cl(k)))
-            do rule = 1, last_far
+        found = .false.
+        m = 0.0_wp
+        narrowness = (cr - cl)/(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))
+        if (narrowness > atanh_last) return
+        thin = narrowness <= thin_last
+        sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cl*cl) + sqrt((x + 1.0_wp)**2 + cl*cl))
+        far = sigma >= far_limit(last_far)
+        rule = n_rules
+        if (.not. far) then
+            do rule = 1, n_rules
+                if (near_a0(rule) - x*x*near_a1(rule) <= cl*cl) exit
+            end do
+            if (rule > n_rules) return
+            far = x > near_last(rule)
+        end if
+        if (far) then
+            do rule = 1, n_rules
                 if (sigma >= far_limit(rule)) exit
             end do
-            if (rule <= last_far) then
-                kind = far_thin
-                if (narrowness > thin_last) kind = far_wide
-            else
-                do rule = 1, n_rules
-                    if (near_a0(rule) - xs(k)**2*near_a1(rule) <= cl(k)**2) exit
-                end do
-                if (rule > n_rules) cycle
-                if (xs(k) > near_last(rule)) cycle
-                kind = near_thin
-                if (narrowness > thin_last) kind = near_wide
-            end if
-            key(k) = (kind - 1)*n_rules + rule
-        end do
+            if (rule > n_rules) return
+        end if
+        found = .true.
+        i = rule_start(rule)
+        j = rule_start(rule) + rule_size(rule) - 1
+        if (far .and. thin) then
+            call far_thin_sums(rule_size(rule), cosine(i:j), x, cl, cr, m)
+        else if (far) then
+            call far_wide_sums(rule_size(rule), cosine(i:j), x, cl, cr, m)
+        else if (thin) then
+            call near_thin_sums(rule_size(rule), one_cosh(i:j), one_sinh(i:j), d_cosh(i:j), &
+                                d_sinh(i:j), x, cl, cr, m)
+        else
+            call near_wide_sums(rule_size(rule), one_cosh(i:j), one_sinh(i:j), d_cosh(i:j), &
+                                d_sinh(i:j), x, cl, cr, m)
+        end if
+    end subroutine point_gradient
 
-        ! Counting sort; points without a rule come first and are done one by one.
-        count = 0
-        do k = 1, n
-            count(key(k)) = count(key(k)) + 1
-        end do
-        do i = 1, n_kinds*n_rules
-            count(i) = count(i) + count(i - 1)
-        end do
-        do k = n, 1, -1
-            order(count(key(k))) = k
-            count(key(k)) = count(key(k)) - 1
-        end do
-        first = 1
-        do while (first <= n)
-            k = order(first)
-            if (key(k) == 0) then
-                call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
-                                              value(k), d_x(k), d_half_length(k))
-                first = first + 1
-                cycle
-            end if
-            kind = (key(k) - 1)/n_rules + 1
-            last = first
-            sigma = xs(k)
-            do i = first + 1, min(first + lanes - 1, n)
-                if ((key(order(i)) - 1)/n_rules + 1 /= kind) exit
-                sigma = max(sigma, xs(order(i)))
-                if (kind >= near_thin .and. &
-                    sigma > near_last(key(order(i)) - (kind - 1)*n_rules)) exit
-                last = i
-            end do
-            rule = key(order(last)) - (kind - 1)*n_rules
-            do j = 1, lanes
-                k = order(min(first + j - 1, last))
-                members(j) = k
-                gx(j) = xs(k)
-                gl(j) = cl(k)
-                gr(j) = cr(k)
-            end do
-            i = rule_start(rule)
-            j = rule_start(rule) + rule_size(rule) - 1
-            if (kind == far_thin) then
-                call far_thin_sums(rule_size(rule), cosine(i:j), gx, gl, gr, m0, m1, m2)
-            else if (kind == far_wide) then
-                call far_wide_sums(rule_size(rule), cosine(i:j), gx, gl, gr, m0, m1, m2)
-            else if (kind == near_thin) then
-                call near_thin_sums(rule_size(rule), one_cosh(i:j), one_sinh(i:j), d_cosh(i:j), &
-                                    d_sinh(i:j), gx, gl, gr, m0, m1, m2)
-            else
-                call near_wide_sums(rule_size(rule), one_cosh(i:j), one_sinh(i:j), d_cosh(i:j), &
-                                    d_sinh(i:j), gx, gl, gr, m0, m1, m2)
-            end if
-            do j = 1, last - first + 1
-                k = members(j)
-                value(k) = half_length*m0(j)
-                d_x(k) = sign(1.0_wp, x(k))*m1(j)
-                d_half_length(k) = m2(j)
-            end do
-            first = last + 1
-        end do
-    end subroutine chunk_gradient
-
-    !> Trapezium rule in theta, u = cos(theta).
-    pure subroutine far_wide_sums(n, u, x, cl, cr, m0, m1, m2)
+    !> Trapezium rule in theta, u = cos(theta), for thin strips.
+    pure subroutine far_thin_sums(n, u, x, cl, cr, m)
         integer, intent(in) :: n
-        real(wp), intent(in) :: u(n), x(lanes), cl(lanes), cr(lanes)
-        real(wp), intent(out) :: m0(lanes), m1(lanes), m2(lanes)
+        real(wp), intent(in) :: u(n), x, cl, cr
+        real(wp), intent(out) :: m(3)
 
-        real(wp), dimension(lanes) :: s0, s1, s2
-        real(wp) :: delta, sl, sr, z, y, ker
-        integer :: i, j
-
-        s0 = 0.0_wp
-        s1 = 0.0_wp
-        s2 = 0.0_wp
-        do j = 1, n
-            !$omp simd private(delta, sl, sr, z, y, ker)
-            do i = 1, lanes
-                delta = u(j) - x(i)
-                sl = sqrt(delta*delta + cl(i)*cl(i))
-                sr = sqrt(delta*delta + cr(i)*cr(i))
-                z = (cr(i) - cl(i))/(sr + sl)
-                y = z*z
-                ker = z*(a(0) + y*(a(1) + y*(a(2) + y*(a(3) + y*(a(4) + y*(a(5) + y*(a(6) &
-                      + y*(a(7) + y*(a(8) + y*(a(9) + y*(a(10) + y*(a(11) + y*(a(12) &
-                      + y*(a(13) + y*(a(14) + y*a(15))))))))))))))))
-                s0(i) = s0(i) + ker
-                ker = u(j)*ker
-                s1(i) = s1(i) - ker
-                s2(i) = s2(i) + u(j)*ker
-            end do
-        end do
-        m0 = 2.0_wp*pi/n*(s0 - s2)
-        m1 = 2.0_wp*pi/n*s1
-        m2 = 2.0_wp*pi/n*s2
-    end subroutine far_wide_sums
-
-    !> The same for thin strips.
-    pure subroutine far_thin_sums(n, u, x, cl, cr, m0, m1, m2)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: u(n), x(lanes), cl(lanes), cr(lanes)
-        real(wp), intent(out) :: m0(lanes), m1(lanes), m2(lanes)
-
-        real(wp), dimension(lanes) :: s0, s1, s2, middle
-        real(wp) :: c(lanes, 0:2*last_power), delta, r, y, ker
-        integer :: i, j
+        real(wp) :: c(0:2*last_power), middle, delta, r, y, y2, y4, ker, s0, s1, s2
+        integer :: j
 
         call expand_kernel(cl, cr, c)
         middle = (0.5_wp*(cl + cr))**2
         s0 = 0.0_wp
         s1 = 0.0_wp
         s2 = 0.0_wp
+        !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
         do j = 1, n
-            !$omp simd private(delta, r, y, ker)
-            do i = 1, lanes
-                delta = u(j) - x(i)
-                r = 1.0_wp/sqrt(delta*delta + middle(i))
-                y = middle(i)*(r*r)
-                ker = c(i, 0) + y*(c(i, 1) + y*(c(i, 2) + y*(c(i, 3) + y*(c(i, 4) + y*(c(i, 5) &
-                    + y*(c(i, 6) + y*(c(i, 7) + y*(c(i, 8) + y*(c(i, 9) + y*(c(i, 10) &
-                    + y*(c(i, 11) + y*(c(i, 12) + y*(c(i, 13) + y*(c(i, 14) + y*(c(i, 15) &
-                    + y*c(i, 16))))))))))))))))
-                ker = r*ker
-                s0(i) = s0(i) + ker
-                ker = u(j)*ker
-                s1(i) = s1(i) - ker
-                s2(i) = s2(i) + u(j)*ker
-            end do
+            delta = u(j) - x
+            r = 1.0_wp/sqrt(delta*delta + middle)
+            y = middle*(r*r)
+            y2 = y*y
+            y4 = y2*y2
+            ker = (c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                  + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                        + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) &
+                              + y4*(((c(12) + y*c(13)) + y2*(c(14) + y*c(15))) + y4*c(16))))
+            ker = r*ker
+            s0 = s0 + ker
+            s1 = s1 + u(j)*ker
+            s2 = s2 + u(j)*u(j)*ker
         end do
-        m0 = pi/n*(cr - cl)*(s0 - s2)
-        m1 = pi/n*(cr - cl)*s1
-        m2 = pi/n*(cr - cl)*s2
+        m = pi/n*(cr - cl)*[s0 - s2, -s1, s2]
     end subroutine far_thin_sums
 
-    !> The C_m of thin strips.
-    pure subroutine expand_kernel(cl, cr, c)
-        real(wp), intent(in) :: cl(lanes), cr(lanes)
-        real(wp), intent(out) :: c(lanes, 0:2*last_power)
-
-        real(wp) :: ratio(lanes), power(lanes)
-        integer :: j, k
-
-        ratio = ((cr - cl)/(cr + cl))**2
-        power = 1.0_wp
-        c = 0.0_wp
-        do k = 0, last_power
-            do j = 0, k
-                c(:, k + j) = c(:, k + j) + legendre(j, k)*power
-            end do
-            power = power*ratio
-        end do
-    end subroutine expand_kernel
-
-    !> Trapezium rule in phi, tau = H cos(phi); `rest` is 1 - u.
-    pure subroutine near_wide_sums(n, p, q, dp, dq, x, cl, cr, m0, m1, m2)
+    !> The same for strips that are not so thin.
+    pure subroutine far_wide_sums(n, u, x, cl, cr, m)
         integer, intent(in) :: n
-        real(wp), intent(in), dimension(n) :: p, q, dp, dq
-        real(wp), intent(in), dimension(lanes) :: x, cl, cr
-        real(wp), intent(out), dimension(lanes) :: m0, m1, m2
+        real(wp), intent(in) :: u(n), x, cl, cr
+        real(wp), intent(out) :: m(3)
 
-        real(wp), dimension(lanes) :: s0, s1, s2
-        real(wp) :: u, delta, rest, root, sl, sr, z, y, ker
-        integer :: i, j
+        real(wp) :: delta, sl, sr, z, y, y2, y4, ker, s0, s1, s2
+        integer :: j
 
         s0 = 0.0_wp
         s1 = 0.0_wp
         s2 = 0.0_wp
+        !$omp simd private(delta, sl, sr, z, y, y2, y4, ker) reduction(+:s0, s1, s2)
         do j = 1, n
-            !$omp simd private(u, delta, rest, root, sl, sr, z, y, ker)
-            do i = 1, lanes
-                rest = q(j) - x(i)*p(j)
-                u = 1.0_wp - rest
-                delta = (1.0_wp - x(i)) - rest
-                root = sqrt(rest*(2.0_wp - rest))
-                sl = sqrt(delta*delta + cl(i)*cl(i))
-                sr = sqrt(delta*delta + cr(i)*cr(i)) + sl
-                ker = 1.0_wp/(root*sr)
-                z = (cr(i) - cl(i))*root*ker
-                y = z*z
-                z = z*(a(0) + y*(a(1) + y*(a(2) + y*(a(3) + y*(a(4) + y*(a(5) + y*(a(6) &
-                    + y*(a(7) + y*(a(8) + y*(a(9) + y*(a(10) + y*(a(11) + y*(a(12) &
-                    + y*(a(13) + y*(a(14) + y*a(15))))))))))))))))
-                ker = z*(dq(j) - x(i)*dp(j))*(ker*sr)
-                s0(i) = s0(i) + root*root*ker
-                ker = u*ker
-                s1(i) = s1(i) - ker
-                s2(i) = s2(i) + u*ker
-            end do
+            delta = u(j) - x
+            sl = sqrt(delta*delta + cl*cl)
+            sr = sqrt(delta*delta + cr*cr)
+            z = (cr - cl)/(sr + sl)
+            y = z*z
+            y2 = y*y
+            y4 = y2*y2
+            ker = z*((a(0) + y*a(1)) + y2*(a(2) + y*a(3)) &
+                     + y4*(((a(4) + y*a(5)) + y2*(a(6) + y*a(7))) &
+                           + y4*(((a(8) + y*a(9)) + y2*(a(10) + y*a(11))) &
+                                 + y4*((a(12) + y*a(13)) + y2*(a(14) + y*a(15))))))
+            s0 = s0 + ker
+            s1 = s1 + u(j)*ker
+            s2 = s2 + u(j)*u(j)*ker
         end do
-        m0 = 2.0_wp*pi/n*s0
-        m1 = 2.0_wp*pi/n*s1
-        m2 = 2.0_wp*pi/n*s2
-    end subroutine near_wide_sums
+        m = 2.0_wp*pi/n*[s0 - s2, -s1, s2]
+    end subroutine far_wide_sums
 
-    !> The same for thin strips.
-    pure subroutine near_thin_sums(n, p, q, dp, dq, x, cl, cr, m0, m1, m2)
+    !> Trapezium rule in phi, tau = H cos(phi), for thin strips; `rest` is 1 - u.
+    pure subroutine near_thin_sums(n, p, q, dp, dq, x, cl, cr, m)
         integer, intent(in) :: n
         real(wp), intent(in), dimension(n) :: p, q, dp, dq
-        real(wp), intent(in), dimension(lanes) :: x, cl, cr
-        real(wp), intent(out), dimension(lanes) :: m0, m1, m2
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
 
-        real(wp), dimension(lanes) :: s0, s1, s2, middle
-        real(wp) :: c(lanes, 0:2*last_power), u, delta, rest, root2, r, y, ker
-        integer :: i, j
+        real(wp) :: c(0:2*last_power), middle, u, delta, rest, root2, r, y, y2, y4, ker, s0, s1, s2
+        integer :: j
 
         call expand_kernel(cl, cr, c)
         middle = (0.5_wp*(cl + cr))**2
         s0 = 0.0_wp
         s1 = 0.0_wp
         s2 = 0.0_wp
+        !$omp simd private(u, delta, rest, root2, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
         do j = 1, n
-            !$omp simd private(u, delta, rest, root2, r, y, ker)
-            do i = 1, lanes
-                rest = q(j) - x(i)*p(j)
-                u = 1.0_wp - rest
-                delta = (1.0_wp - x(i)) - rest
-                root2 = rest*(2.0_wp - rest)
-                r = 1.0_wp/sqrt(root2*(delta*delta + middle(i)))
-                y = middle(i)*root2*(r*r)
-                ker = c(i, 0) + y*(c(i, 1) + y*(c(i, 2) + y*(c(i, 3) + y*(c(i, 4) + y*(c(i, 5) &
-                    + y*(c(i, 6) + y*(c(i, 7) + y*(c(i, 8) + y*(c(i, 9) + y*(c(i, 10) &
-                    + y*(c(i, 11) + y*(c(i, 12) + y*(c(i, 13) + y*(c(i, 14) + y*(c(i, 15) &
-                    + y*c(i, 16))))))))))))))))
-                ker = r*ker*(dq(j) - x(i)*dp(j))
-                s0(i) = s0(i) + root2*ker
-                ker = u*ker
-                s1(i) = s1(i) - ker
-                s2(i) = s2(i) + u*ker
-            end do
+            rest = q(j) - x*p(j)
+            u = 1.0_wp - rest
+            delta = (1.0_wp - x) - rest
+            root2 = rest*(2.0_wp - rest)
+            r = 1.0_wp/sqrt(root2*(delta*delta + middle))
+            y = middle*root2*(r*r)
+            y2 = y*y
+            y4 = y2*y2
+            ker = (c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                  + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                        + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) &
+                              + y4*(((c(12) + y*c(13)) + y2*(c(14) + y*c(15))) + y4*c(16))))
+            ker = r*ker*(dq(j) - x*dp(j))
+            s0 = s0 + root2*ker
+            s1 = s1 + u*ker
+            s2 = s2 + u*u*ker
         end do
-        m0 = pi/n*(cr - cl)*s0
-        m1 = pi/n*(cr - cl)*s1
-        m2 = pi/n*(cr - cl)*s2
+        m = pi/n*(cr - cl)*[s0, -s1, s2]
     end subroutine near_thin_sums
+
+    !> The same for strips that are not so thin.
+    pure subroutine near_wide_sums(n, p, q, dp, dq, x, cl, cr, m)
+        integer, intent(in) :: n
+        real(wp), intent(in), dimension(n) :: p, q, dp, dq
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: u, delta, rest, root, s, z, y, y2, y4, ker, s0, s1, s2
+        integer :: j
+
+        s0 = 0.0_wp
+        s1 = 0.0_wp
+        s2 = 0.0_wp
+        !$omp simd private(u, delta, rest, root, s, z, y, y2, y4, ker) reduction(+:s0, s1, s2)
+        do j = 1, n
+            rest = q(j) - x*p(j)
+            u = 1.0_wp - rest
+            delta = (1.0_wp - x) - rest
+            root = sqrt(rest*(2.0_wp - rest))
+            s = sqrt(delta*delta + cl*cl) + sqrt(delta*delta + cr*cr)
+            ! 1/(root s) serves both divisions.
+            ker = 1.0_wp/(root*s)
+            z = (cr - cl)*root*ker
+            y = z*z
+            y2 = y*y
+            y4 = y2*y2
+            z = z*((a(0) + y*a(1)) + y2*(a(2) + y*a(3)) &
+                   + y4*(((a(4) + y*a(5)) + y2*(a(6) + y*a(7))) &
+                         + y4*(((a(8) + y*a(9)) + y2*(a(10) + y*a(11))) &
+                               + y4*((a(12) + y*a(13)) + y2*(a(14) + y*a(15))))))
+            ker = z*(dq(j) - x*dp(j))*(ker*s)
+            s0 = s0 + root*root*ker
+            s1 = s1 + u*ker
+            s2 = s2 + u*u*ker
+        end do
+        m = 2.0_wp*pi/n*[s0, -s1, s2]
+    end subroutine near_wide_sums
+
+    !> The C_m of thin strips: C_m = sum_k legendre(m - k, k) ratio^k, written out, for it is called
+    !> once for each field point.
+    pure subroutine expand_kernel(cl, cr, c)
+        real(wp), intent(in) :: cl, cr
+        real(wp), intent(out) :: c(0:2*last_power)
+
+        real(wp), parameter :: l(0:last_power, 0:last_power) = legendre
+        real(wp) :: t, t2, t3, t4, t5, t6, t7, t8
+
+        t = ((cr - cl)/(cr + cl))**2
+        t2 = t*t
+        t3 = t2*t
+        t4 = t2*t2
+        t5 = t3*t2
+        t6 = t3*t3
+        t7 = t4*t3
+        t8 = t4*t4
+        c(0) = l(0, 0)
+        c(1) = t*l(0, 1)
+        c(2) = t*(l(1, 1) + t*l(0, 2))
+        c(3) = t2*(l(1, 2) + t*l(0, 3))
+        c(4) = t2*(l(2, 2) + t*(l(1, 3) + t*l(0, 4)))
+        c(5) = t3*(l(2, 3) + t*(l(1, 4) + t*l(0, 5)))
+        c(6) = t3*(l(3, 3) + t*(l(2, 4) + t*(l(1, 5) + t*l(0, 6))))
+        c(7) = t4*(l(3, 4) + t*(l(2, 5) + t*(l(1, 6) + t*l(0, 7))))
+        c(8) = t4*(l(4, 4) + t*(l(3, 5) + t*(l(2, 6) + t*(l(1, 7) + t*l(0, 8)))))
+        c(9) = t5*(l(4, 5) + t*(l(3, 6) + t*(l(2, 7) + t*l(1, 8))))
+        c(10) = t5*(l(5, 5) + t*(l(4, 6) + t*(l(3, 7) + t*l(2, 8))))
+        c(11) = t6*(l(5, 6) + t*(l(4, 7) + t*l(3, 8)))
+        c(12) = t6*(l(6, 6) + t*(l(5, 7) + t*l(4, 8)))
+        c(13) = t7*(l(6, 7) + t*l(5, 8))
+        c(14) = t7*(l(7, 7) + t*l(6, 8))
+        c(15) = t8*l(7, 8)
+        c(16) = t8*l(8, 8)
+    end subroutine expand_kernel
 end module faststrip_influence_row
