@@ -12,6 +12,8 @@ module faststrip_numerics_gsl
     public :: gsl_function_t
     public :: gsl_set_error_handler_off, gsl_integration_workspace_alloc
     public :: gsl_integration_workspace_free, gsl_integration_qags
+    public :: gsl_integration_cquad_workspace_alloc, gsl_integration_cquad_workspace_free
+    public :: gsl_integration_cquad
 
     !> `gsl_function`: an integrand `real(c_double) function f(x, params) bind(c)` with both
     !> arguments by value, and what it is handed.
@@ -53,5 +55,31 @@ module faststrip_numerics_gsl
             real(c_double), intent(out) :: result_, abserr
             integer(c_int) :: code
         end function gsl_integration_qags
+
+        !> Room for n intervals of the doubly adaptive rule; null if there is none.
+        function gsl_integration_cquad_workspace_alloc(n) result(workspace) bind(c)
+            import :: c_ptr, c_size_t
+            integer(c_size_t), value :: n
+            type(c_ptr) :: workspace
+        end function gsl_integration_cquad_workspace_alloc
+
+        !> Give the room back.
+        subroutine gsl_integration_cquad_workspace_free(workspace) bind(c)
+            import :: c_ptr
+            type(c_ptr), value :: workspace
+        end subroutine gsl_integration_cquad_workspace_free
+
+        !> Doubly adaptive Clenshaw-Curtis rule on [a, b]. The first argument as in
+        !> `gsl_integration_qags`.
+        function gsl_integration_cquad(f, a, b, epsabs, epsrel, workspace, result_, abserr, &
+                                       evaluations) result(code) bind(c)
+            import :: c_double, c_int, c_ptr, c_size_t, gsl_function_t
+            type(gsl_function_t) :: f
+            real(c_double), value :: a, b, epsabs, epsrel
+            type(c_ptr), value :: workspace
+            real(c_double), intent(out) :: result_, abserr
+            integer(c_size_t), intent(out) :: evaluations
+            integer(c_int) :: code
+        end function gsl_integration_cquad
     end interface
 end module faststrip_numerics_gsl
