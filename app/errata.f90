@@ -292,7 +292,8 @@ contains
             kalker%points = points(i)
             call printed_march(strips, material, mu, creepage, kalker, total, status)
             call fail_on_error(status)
-            write (what, '(a, i0, a)') 'force with ', total%points, ' points along a strip, with 1000'
+            write (what, '(a, i0, a)') 'force with ', total%points, &
+                ' points along a strip, with 1000'
             call add(found, '(31)', what, 'N', hypot(total%tx, total%ty), force, &
                      'nx = Int(8a) with a in mm; 10 to 20 suffice')
         end do
@@ -319,7 +320,8 @@ contains
 
             call printed_march(strips, material, mu, creepage, reading, total, status)
             call fail_on_error(status)
-            call add(found, equation, what, '-', -c%c11*total%tx/(linear*creepage%cksi), c%c11, note)
+            call add(found, equation, what, '-', -c%c11*total%tx/(linear*creepage%cksi), c%c11, &
+                     note)
         end subroutine stiffness
     end subroutine compare_march
 

@@ -7,6 +7,7 @@ program faststrip_main
     use faststrip_app_batch, only: run_batch
     use faststrip_app_sweep, only: run_sweep
     use faststrip_app_table, only: run_table
+    use faststrip_app_bench, only: run_bench
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -16,6 +17,7 @@ program faststrip_main
     case ('batch'); call run_batch()
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
+    case ('bench'); call run_bench()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -45,6 +47,7 @@ contains
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
+        call say('  bench integral         what influence integrals cost, by each method')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

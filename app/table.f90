@@ -9,6 +9,7 @@ module faststrip_app_table
     use faststrip_app_console, only: fail_on_error, usage_error, progress
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
                                      option_integer
+    use faststrip_app_errata, only: run_errata
     use faststrip_app_table_audit, only: write_audit
     use faststrip_app_table_curves, only: write_curves, write_degrees
     use faststrip_app_table_distances, only: parse_distances
@@ -30,6 +31,10 @@ contains
         call parse_command(command, 0, n_optional=1)
         if (given(command, '--audit')) then
             call run_audit(command)
+            return
+        end if
+        if (given(command, '--errata')) then
+            call write_errata(command)
             return
         end if
         if (size(command%arguments) > 0) &
@@ -62,7 +67,8 @@ contains
             // line // '(index,a6,...,a0; index = 2n; the half), without FILE.csv the published' &
             // line // 'one: errors, residual against a fresh fit, the one coefficient whose' &
             // line // 'change explains it best, errors one decade outside. The summary goes to' &
-            // line // 'stdout with -o, else to stderr.' // line
+            // line // 'stdout with -o, else to stderr. --errata: what each erratum of the paper' &
+            // line // 'costs, literal and right reading; lines to read on stdout with -o.' // line
         command%options = [ &
             option_t('--degree', 'D', 'degree of the polynomials, 0 to 40 (default 6)'), &
             option_t('--n', 'LIST', 'strip distances: 0:20 (default), 3, 0,1,5, 0:3,10'), &
@@ -73,6 +79,7 @@ contains
             option_t('--format', 'NAME', 'csv (default), fortran, c or json'), &
             option_t('-o', 'FILE', 'write the table or the audit there (default stdout)'), &
             option_t('--audit', '', 'check a table against the exact integral'), &
+            option_t('--errata', '', 'the paper as printed and as it should be, side by side'), &
             option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3'), &
             option_t('--degrees', 'FILE', 'error of the fits for degrees 0 to 40')]
     end subroutine describe
@@ -80,8 +87,8 @@ contains
     subroutine run_audit(command)
         type(command_t), intent(in) :: command
 
-        character(len=10), parameter :: foreign(8) = [character(len=10) :: '--degree', '--n', &
-            '--range', '--basis', '--quantity', '--format', '--curves', '--degrees']
+        character(len=10), parameter :: foreign(9) = [character(len=10) :: '--degree', '--n', &
+            '--range', '--basis', '--quantity', '--format', '--errata', '--curves', '--degrees']
         character(len=:), allocatable :: file
         integer :: fit, i
 
@@ -95,6 +102,22 @@ contains
         if (size(command%arguments) > 0) file = command%arguments(1)%text
         call write_audit(file, fit, option_text(command, '-o', '-'))
     end subroutine run_audit
+
+    subroutine write_errata(command)
+        type(command_t), intent(in) :: command
+
+        integer :: i
+
+        do i = 1, size(command%options)
+            if (any(command%options(i)%name == [character(len=8) :: '--errata', '-o'])) cycle
+            if (command%options(i)%is_given) &
+                call usage_error('--errata goes without ' // trim(command%options(i)%name), &
+                                 command%name)
+        end do
+        if (size(command%arguments) > 0) &
+            call usage_error('--errata takes no file: ' // command%arguments(1)%text, command%name)
+        call run_errata(option_text(command, '-o', '-'))
+    end subroutine write_errata
 
     subroutine write_pictures(command, spec)
         type(command_t), intent(in) :: command

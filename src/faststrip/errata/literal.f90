@@ -137,7 +137,7 @@ contains
 
         real(wp), allocatable :: matrix(:, :), right(:, :)
         integer, allocatable :: pivot(:)
-        real(wp) :: y
+        real(wp) :: y, per_length
         integer :: n, k, s, info
 
         p0 = 0.0_wp
@@ -151,11 +151,12 @@ contains
         end if
         allocate (matrix(n, n), right(n, 1), pivot(n))
         do s = 1, n
+            per_length = 1.0_wp/strips%half_length(s)
             do k = 1, n
                 y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
                 matrix(k, s) = compliance*strips%half_length(s) &
-                               *strip_influence_edges((strips%y_left(s) - y)/strips%half_length(s), &
-                                                      (strips%y_right(s) - y)/strips%half_length(s))
+                               *strip_influence_edges((strips%y_left(s) - y)*per_length, &
+                                                      (strips%y_right(s) - y)*per_length)
             end do
         end do
         right(:, 1) = w(:n)
