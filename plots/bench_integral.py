@@ -34,8 +34,7 @@ def main(arguments=None):
                         help="picture to write")
     options = parser.parse_args(arguments)
     table = read_table(options.bench, ("method", "n", "b", "loop", "ns", "rel_err") + RUN)
-    for name in ("n", "b"):
-        table.numbers(name)
+    table.numbers("b")
     ns = table.numbers("ns")
     error = np.maximum(np.abs(table.numbers("rel_err")), FLOOR)
     for row in np.flatnonzero(ns <= 0.0):
@@ -63,14 +62,14 @@ def main(arguments=None):
     axes.set_ylabel("relative error")
     style.title(axes, "Influence integral: error against time")
     style.legend_above(figure, axes)
-    run = [table.words(name)[0] for name in RUN]
-    texts = (f"medians over n and b, bars from least to largest; error 0 drawn at {FLOOR:g}",
-             "; ".join(word for word in (run[1], run[0], run[2]) if word))
-    axes.set_title("\n".join(text for text in texts if text), loc="right", color=style.GREY,
-                   fontsize=style.SMALL - 1)
+    flags, compiler, cpu = (table.words(name)[0] for name in RUN)
+    flags = " ".join(word for word in flags.split() if word.startswith(("-O", "-m")))
+    axes.set_title("; ".join(word for word in (compiler, flags, cpu) if word), loc="right",
+                   color=style.GREY, fontsize=style.SMALL - 1)
     figure.draw_without_rendering()
     label(axes, dots, obstacles)
-    style.save(figure, options.output, [revision(table)])
+    style.save(figure, options.output, [revision(table)],
+               f"medians over n and b, bars from least to largest; error 0 drawn at {FLOOR:g}")
     print(options.output)
 
 
