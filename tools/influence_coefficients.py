@@ -5,13 +5,14 @@
          = c [A(x) - B(x) ln c],                x = c^2,    0 <= c <= 1
          = (pi/2) (ln 4c + 1/2) + w R(w),       w = 1/c^2,  c >= 0.7
 
-and of the kernel off the centre line, asinh(cr/d) - asinh(cl/d) = 2 atanh((cr - cl)/(s_r + s_l)):
+(A, B and R once more, with fewer terms, for c <= 0.6 and c >= 5/3), and of the kernel off the centre line, asinh(cr/d) - asinh(cl/d) = 2 atanh((cr - cl)/(s_r + s_l)):
 
     atanh(z) = z S(z^2),                            0 <= z <= 0.6
 
 A, B, R and S are analytic beyond their intervals, so interpolation at Chebyshev nodes is within a
 small factor of the best polynomial. It is done in 60-digit arithmetic and turned into powers of x
-(A, B), of z^2 (S) and of w - 1.025 (R; powers of w itself would lose a factor 30 of accuracy).
+(A, B), of z^2 (S) and of w - 1.025 (R; powers of w itself would lose a factor 30 of accuracy,
+though not on the short interval).
 
     python3 tools/influence_coefficients.py           write the Fortran module
     python3 tools/influence_coefficients.py --check   compare it with the committed one, byte for
@@ -35,6 +36,8 @@ C_SMALL = '1'     # the small-c form holds up to here
 C_LARGE = '0.7'   # the large-c form holds from here on
 W_TOP = '2.05'    # R is fitted on [0, W_TOP], a little beyond 1/0.7^2
 Z_TOP = '0.6'     # S is fitted on [0, Z_TOP^2]
+SHORT = '0.36'    # short forms: A and B on c^2 in [0, SHORT], R on w in the same
+DEGREE_SHORT = 11
 ALLOWED = 1e-16
 
 
@@ -118,9 +121,19 @@ def horner(coefficients, x):
     return total
 
 
-def check(a, b, r, s):
+def check(a, b, r, s, short):
     """Largest relative difference of the rounded tables from G at points off the nodes."""
     worst_small = worst_large = mp.mpf(0)
+    for j in range(1, 40):
+        c = mp.sqrt(mp.mpf(SHORT)) * j / 39
+        exact = primitive(c)
+        value = c * (horner(short[0], c**2) - horner(short[1], c**2) * mp.log(c))
+        worst_small = max(worst_small, abs(value / exact - 1))
+        c = 1 / c
+        exact = mp.pi / 2 * (mp.log(4 * c) + mp.mpf(1) / 2)
+        value = exact + horner(short[2], c**-2) / c**2
+        exact += r_factor(c**-2) / c**2
+        worst_large = max(worst_large, abs(value / exact - 1))
     for j in range(1, 60):
         c = mp.mpf(j) / 59
         exact = primitive(c)
@@ -156,7 +169,7 @@ def fortran_array(name, comment, coefficients):
     return lines
 
 
-def module_text(a, b, r, s):
+def module_text(a, b, r, s, short):
     lines = [
         '!> Coefficients of the influence primitive; made by tools/influence_coefficients.py.',
         'module faststrip_influence_closed_coefficients',
@@ -165,6 +178,7 @@ def module_text(a, b, r, s):
         '    private',
         '',
         '    public :: a_small, b_small, r_large, r_centre, atanh_series, atanh_last',
+        '    public :: a_short, b_short, r_short, short_last',
         '',
         '    !> Centre of the powers of `r_large`.',
         f'    real(wp), parameter :: r_centre = {mp.nstr(centre_of_r(), 20)}_wp',
@@ -173,6 +187,12 @@ def module_text(a, b, r, s):
     lines += fortran_array('b_small', 'B(x), powers of x = c^2, 0 <= x <= 1.', b) + ['']
     lines += fortran_array('r_large', 'R(w), powers of w - r_centre, w = 1/c^2, 0 <= w <= '
                            f'{W_TOP}.', r) + ['']
+    lines += ['    !> Largest argument of the short forms.',
+              f'    real(wp), parameter :: short_last = {SHORT}_wp', '']
+    lines += fortran_array('a_short', 'A(x) for 0 <= x <= short_last.', short[0]) + ['']
+    lines += fortran_array('b_short', 'B(x) for 0 <= x <= short_last.', short[1]) + ['']
+    lines += fortran_array('r_short', 'R(w), powers of w itself, 0 <= w <= short_last.',
+                           short[2]) + ['']
     lines += ['    !> Largest argument of `atanh_series`.',
               f'    real(wp), parameter :: atanh_last = {Z_TOP}_wp', '']
     lines += fortran_array('atanh_series', 'atanh(z)/z, powers of z^2, |z| <= atanh_last.', s)
@@ -192,13 +212,15 @@ def main():
     b = chebyshev_to_powers(b_factor, zero, top, DEGREE_B, zero)
     r = chebyshev_to_powers(r_factor, zero, mp.mpf(W_TOP), DEGREE_R, centre_of_r())
     s = chebyshev_to_powers(s_factor, zero, mp.mpf(Z_TOP)**2, DEGREE_S, zero)
-    small, large, kernel = check(a, b, r, s)
+    short = [chebyshev_to_powers(f, zero, mp.mpf(SHORT), DEGREE_SHORT, zero)
+             for f in (a_factor, b_factor, r_factor)]
+    small, large, kernel = check(a, b, r, s, short)
     print(f'relative difference from the exact primitive: {small:.1e} (c <= {C_SMALL}), '
           f'{large:.1e} (c >= {C_LARGE}); of atanh: {kernel:.1e}')
     if max(small, large, kernel) > ALLOWED:
         print(f'more than {ALLOWED:.0e}: refused', file=sys.stderr)
         return 1
-    text = module_text(a, b, r, s)
+    text = module_text(a, b, r, s, short)
     if not arguments.check:
         MODULE.write_text(text)
         print(f'{MODULE.name} written')

@@ -18,7 +18,8 @@ module faststrip_influence_closed
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
     use faststrip_kinds, only: wp, pi
-    use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre
+    use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &
+                                                       a_short, b_short, r_short, short_last
     use faststrip_numerics_elliptic, only: complete_elliptic_d
     implicit none
     private
@@ -30,12 +31,17 @@ module faststrip_influence_closed
     real(wp), parameter :: c_small = 1.0_wp
     real(wp), parameter :: c_large = 0.7_wp
     real(wp), parameter :: c_middle = 0.84_wp
+    ! Fewer terms serve up to c = 0.6 and from c = 5/3 on.
+    real(wp), parameter :: c_near = sqrt(short_last)
+    real(wp), parameter :: c_far = 1.0_wp/c_near + 1.0e-12_wp
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
-    ! 2n atanh(1/(2n)) in powers of 1/(4n^2), |n| >= 2.
-    real(wp), parameter :: distance_series(0:13) = [(1.0_wp/(2*k_ + 1), k_=0, 13)]
-    real(wp), parameter :: log_3 = 1.098612288668109691395245236922525704647_wp
+    ! 2n atanh(1/(2n)): a table, and beyond it powers of 1/(4n^2).
+    integer, parameter :: table_end = 64
+    real(wp), parameter :: distance_table(table_end) = &
+        [(2*k_*atanh(1.0_wp/(2*k_)), k_=1, table_end)]
+    real(wp), parameter :: distance_series(0:4) = [(1.0_wp/(2*k_ + 1), k_=0, 4)]
 
 contains
 
@@ -51,10 +57,19 @@ contains
             return
         else if (size > c_small) then
             w = (1.0_wp/size)**2
-            g = 0.5_wp*pi*(log(size) + (log_4 + 0.5_wp)) + w*polynomial(r_large, w - r_centre)
+            if (size > c_far) then
+                g = w*polynomial(r_short, w)
+            else
+                g = w*polynomial(r_large, w - r_centre)
+            end if
+            g = 0.5_wp*pi*(log(size) + (log_4 + 0.5_wp)) + g
         else if (size > 0.0_wp) then
             w = size*size
-            g = size*(polynomial(a_small, w) - polynomial(b_small, w)*log(size))
+            if (size <= c_near) then
+                g = size*(polynomial(a_short, w) - polynomial(b_short, w)*log(size))
+            else
+                g = size*(polynomial(a_small, w) - polynomial(b_small, w)*log(size))
+            end if
         else
             g = 0.0_wp
         end if
@@ -103,8 +118,8 @@ contains
             return
         end if
         distance = 2.0_wp*abs(real(n, wp))
-        if (distance < 3.0_wp) then
-            t = log_3
+        if (distance < 2.0_wp*table_end + 1.0_wp) then
+            t = distance_table(abs(n))
         else
             t = polynomial(distance_series, 1.0_wp/distance**2)
         end if
@@ -120,14 +135,23 @@ contains
             p = 4.0_wp*distance/((distance - 1.0_wp)*(distance + 1.0_wp))*wl*wr
             wl = wl*wl
             wr = wr*wr
-            q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+            if (cl >= c_far) then
+                q = divided_difference(r_short, wr, wl)
+            else
+                q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+            end if
             value = pi*t/distance - p*(q(1) + wr*q(2))
         else if (cr <= c_small) then
             xl = cl*cl
             xr = cr*cr
             p = 2.0_wp*distance*(distance + 1.0_wp)*b*b
-            q = divided_difference(a_small, xr, xl)
-            r = divided_difference(b_small, xr, xl)
+            if (cr <= c_near) then
+                q = divided_difference(a_short, xr, xl)
+                r = divided_difference(b_short, xr, xl)
+            else
+                q = divided_difference(a_small, xr, xl)
+                r = divided_difference(b_small, xr, xl)
+            end if
             value = 2.0_wp*b*(q(1) + p*q(2) - log(cr)*(r(1) + p*r(2)) &
                               - (1.0_wp - 1.0_wp/distance)*t*r(1))
         else
@@ -190,12 +214,21 @@ contains
         moment = 0.0_wp
         if (size > c_small) then
             w = (1.0_wp/size)**2
-            q = divided_difference(r_large, w - r_centre, w - r_centre)
+            if (size >= c_far) then
+                q = divided_difference(r_short, w, w)
+            else
+                q = divided_difference(r_large, w - r_centre, w - r_centre)
+            end if
             moment = 0.5_wp*pi - 2.0_wp*w*(q(1) + w*q(2))
         else if (size > 0.0_wp) then
             w = size*size
-            q = divided_difference(a_small, w, w)
-            r = divided_difference(b_small, w, w)
+            if (size <= c_near) then
+                q = divided_difference(a_short, w, w)
+                r = divided_difference(b_short, w, w)
+            else
+                q = divided_difference(a_small, w, w)
+                r = divided_difference(b_small, w, w)
+            end if
             moment = size*(q(1) + 2.0_wp*w*q(2) - r(1) - log(size)*(r(1) + 2.0_wp*w*r(2)))
         end if
         moment = sign(moment, c)
@@ -217,7 +250,11 @@ contains
         p = (cr - cl)*wl*(1.0_wp + cl*wr)*wl*wr
         wl = wl*wl
         wr = wr*wr
-        q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+        if (cl >= c_far) then
+            q = divided_difference(r_short, wr, wl)
+        else
+            q = divided_difference(r_large, wr - r_centre, wl - r_centre)
+        end if
         value = 0.5_wp*pi*log_ratio(cl, cr) - p*(q(1) + wr*q(2))
     end function far_difference
 
@@ -233,8 +270,13 @@ contains
         xl = cl*cl
         xr = cr*cr
         p = cr*(cr + cl)
-        q = divided_difference(a_small, xr, xl)
-        r = divided_difference(b_small, xr, xl)
+        if (cr <= c_near) then
+            q = divided_difference(a_short, xr, xl)
+            r = divided_difference(b_short, xr, xl)
+        else
+            q = divided_difference(a_small, xr, xl)
+            r = divided_difference(b_small, xr, xl)
+        end if
         value = width*(q(1) + p*q(2) - log(cr)*(r(1) + p*r(2)))
         if (cl > 0.0_wp) value = value - cl*log_ratio(cl, cr)*r(1)
     end function near_difference
@@ -256,32 +298,53 @@ contains
         end if
     end function log_ratio
 
-    !> p(x) by Horner's rule.
+    !> p(x) by Horner's rule on the even and the odd powers: two short chains are done before one
+    !> long one.
     pure real(wp) function polynomial(a, x) result(p)
         real(wp), intent(in) :: a(0:)
         real(wp), intent(in) :: x
 
-        integer :: k
+        real(wp) :: x2, odd
+        integer :: k, last
 
-        p = a(ubound(a, 1))
-        do k = ubound(a, 1) - 1, 0, -1
-            p = p*x + a(k)
+        last = ubound(a, 1) - mod(ubound(a, 1), 2)
+        x2 = x*x
+        p = a(last)
+        odd = 0.0_wp
+        if (last < ubound(a, 1)) odd = a(last + 1)
+        do k = last - 2, 0, -2
+            p = p*x2 + a(k)
+            odd = odd*x2 + a(k + 1)
         end do
+        p = p + x*odd
     end function polynomial
 
-    !> p(y) and the divided difference p[x,y] = (p(x) - p(y))/(x - y), together by Horner's rule.
+    !> p(y) and the divided difference p[x,y] = (p(x) - p(y))/(x - y), together by Horner's rule,
+    !> even and odd powers apart: with p(x) = e(x^2) + x o(x^2),
+    !> `p[x,y] = (x + y)(e[x^2,y^2] + x o[x^2,y^2]) + o(y^2)`.
     pure function divided_difference(a, x, y) result(q)
         real(wp), intent(in) :: a(0:)
         real(wp), intent(in) :: x, y
         real(wp) :: q(2)
 
-        integer :: k
+        real(wp) :: x2, y2, even, odd, d_even, d_odd
+        integer :: k, last
 
-        q(1) = a(ubound(a, 1))
-        q(2) = 0.0_wp
-        do k = ubound(a, 1) - 1, 0, -1
-            q(2) = q(2)*x + q(1)
-            q(1) = q(1)*y + a(k)
+        last = ubound(a, 1) - mod(ubound(a, 1), 2)
+        x2 = x*x
+        y2 = y*y
+        even = a(last)
+        odd = 0.0_wp
+        if (last < ubound(a, 1)) odd = a(last + 1)
+        d_even = 0.0_wp
+        d_odd = 0.0_wp
+        do k = last - 2, 0, -2
+            d_even = d_even*x2 + even
+            d_odd = d_odd*x2 + odd
+            even = even*y2 + a(k)
+            odd = odd*y2 + a(k + 1)
         end do
+        q(1) = even + y*odd
+        q(2) = (x + y)*(d_even + x*d_odd) + odd
     end function divided_difference
 end module faststrip_influence_closed

@@ -5,6 +5,7 @@ module faststrip_influence_closed_coefficients
     private
 
     public :: a_small, b_small, r_large, r_centre, atanh_series, atanh_last
+    public :: a_short, b_short, r_short, short_last
 
     !> Centre of the powers of `r_large`.
     real(wp), parameter :: r_centre = 1.025_wp
@@ -85,6 +86,54 @@ module faststrip_influence_closed_coefficients
         -4.3443159961257969543e-12_wp, &
         -4.5269898709372979155e-12_wp, &
         2.0362335897927460350e-12_wp]
+
+    !> Largest argument of the short forms.
+    real(wp), parameter :: short_last = 0.36_wp
+
+    !> A(x) for 0 <= x <= short_last.
+    real(wp), parameter :: a_short(0:11) = [ &
+        2.7725887222397812392e+0_wp, &
+        2.8660461574220275400e-1_wp, &
+        -1.4118019270833299113e-2_wp, &
+        2.7668424615018820389e-3_wp, &
+        -8.8111174980583526739e-4_wp, &
+        3.6342376001289760834e-4_wp, &
+        -1.7626165895378192004e-4_wp, &
+        9.5356812313552326161e-5_wp, &
+        -5.5041610387567745091e-5_wp, &
+        3.1342404713550921787e-5_wp, &
+        -1.4836297680436633290e-5_wp, &
+        4.0226139141680210312e-6_wp]
+
+    !> B(x) for 0 <= x <= short_last.
+    real(wp), parameter :: b_short(0:11) = [ &
+        2.0000000000000000111e+0_wp, &
+        1.6666666666665775822e-1_wp, &
+        -1.8749999998814757421e-2_wp, &
+        5.5803570808457313473e-3_wp, &
+        -2.3735877254990539628e-3_wp, &
+        1.2234502951479138864e-3_wp, &
+        -7.1145457490262486961e-4_wp, &
+        4.4811589189619730479e-4_wp, &
+        -2.9348313530299319747e-4_wp, &
+        1.8425937410980233224e-4_wp, &
+        -9.3259687927344903837e-5_wp, &
+        2.6352874851935710125e-5_wp]
+
+    !> R(w), powers of w itself, 0 <= w <= short_last.
+    real(wp), parameter :: r_short(0:11) = [ &
+        9.8174770424681026389e-2_wp, &
+        -1.8407769454617834475e-2_wp, &
+        6.3915866148781149431e-3_wp, &
+        -2.9361350331489316674e-3_wp, &
+        1.5855110893664240199e-3_wp, &
+        -9.5159226226236517858e-4_wp, &
+        6.1508817012131093170e-4_wp, &
+        -4.1854714510846034386e-4_wp, &
+        2.9018988778904014292e-4_wp, &
+        -1.8960583545588710084e-4_wp, &
+        9.8435824653009949756e-5_wp, &
+        -2.8235491594905243239e-5_wp]
 
     !> Largest argument of `atanh_series`.
     real(wp), parameter :: atanh_last = 0.6_wp
