@@ -266,7 +266,8 @@ class Audited(unittest.TestCase):
     def test_summary_on_stdout_when_the_csv_goes_to_a_file(self):
         result = table("--audit", "-o", self.path)
         self.assertEqual(result.returncode, 0)
-        self.assertEqual(result.stderr, "")
+        # A slow machine may see a line of progress.
+        self.assertRegex(result.stderr, r"^(faststrip: row \d+ of \d+\n)*$")
         self.assertIn("no misprint is demonstrable", result.stdout)
         self.assertEqual(len(rows_of(self.path.read_text())), 21)
 
