@@ -1,18 +1,22 @@
 #!/usr/bin/env python3
-"""Make reference/influence/reference_edges.csv: the strip influence and its derivatives.
+"""Make reference/influence/reference_edges.csv and reference_slopes.csv.
 
-Columns, all in half-lengths of the strip that carries the pressure:
+reference_edges.csv: the strip influence and its derivatives. Columns, all in half-lengths of the
+strip that carries the pressure:
     X, c_left, c_right   field point and edges, doubles to be read as they stand (17 digits)
     value                int_{-1}^{1} sqrt(1-u^2) [asinh(c_right/|u-X|) - asinh(c_left/|u-X|)] du
     d_x                  its derivative in X
     d_half_length        int_{-1}^{1} u^2/sqrt(1-u^2) [the same] du, the derivative of
                          I = xd value with respect to xd, field point and edges fixed in mm
+reference_slopes.csv: derivatives with respect to the edge and the width. Columns:
+    n, X, c, slope       n = -1: int_{-1}^{1} sqrt(1-u^2)/sqrt((u-X)^2 + c^2) du
+                         n >= 0: di_n/db at b = c, X = 0
 Tanh-sinh quadrature of the definition in 34 digits, u = sin t, cut at the field point and at
-distances in proportion to the edges; 20 digits written.
+distances in proportion to the edges; di_n/db by elliptic integrals in 150; 20 digits written.
 
-    python3 tools/influence_reference.py           write the file
-    python3 tools/influence_reference.py --check   compare it with the committed one; exit 1 if it
-                                                   differs
+    python3 tools/influence_reference.py           write the files
+    python3 tools/influence_reference.py --check   compare them with the committed ones; exit 1 if
+                                                   one differs
 """
 import argparse
 import pathlib
@@ -21,8 +25,7 @@ import sys
 
 import mpmath as mp
 
-TARGET = (pathlib.Path(__file__).resolve().parent.parent
-          / 'reference/influence/reference_edges.csv')
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / 'reference/influence'
 SEED = 20140
 
 
@@ -84,6 +87,48 @@ def places():
     return rows
 
 
+def edge_slope(x, c):
+    """dG/dc by quadrature of the definition."""
+    x, c = mp.mpf(x), mp.mpf(c)
+    places = {mp.mpf(-1), mp.mpf(1), x}
+    distance = max(c, abs(x - 1)) / 4
+    while distance < 4:
+        places.update((x - distance, x + distance, 1 - distance))
+        distance *= 4
+    distance = c / 4
+    while distance < 4:
+        places.update((x - distance, x + distance))
+        distance *= 8
+    cuts = [mp.asin(p) for p in sorted(p for p in places if -1 <= p <= 1)]
+    return mp.fsum(mp.quad(lambda t: mp.cos(t)**2 / mp.sqrt((mp.sin(t) - x)**2 + c * c),
+                           [left, right])
+                   for left, right in zip(cuts, cuts[1:]) if right - left > mp.mpf(10)**-30)
+
+
+def width_slope(n, b):
+    """di_n/db from G'(c) = 2 sqrt(1 + c^2) [K(m) - E(m)], m = 1/(1 + c^2)."""
+    def slope(c):
+        m = 1 / (1 + c * c)
+        return 2 * mp.sqrt(1 + c * c) * (mp.ellipk(m) - mp.ellipe(m))
+
+    with mp.workdps(150):
+        right, left = (2 * n + 1) * mp.mpf(b), (2 * n - 1) * mp.mpf(b)
+        if n == 0:
+            return 2 * slope(right)
+        return (2 * n + 1) * slope(right) - (2 * n - 1) * slope(left)
+
+
+def slope_lines():
+    lines = ['n,X,c,slope']
+    for x in (0.0, 1e-6, 0.3, 0.9, 0.999, 1.0 - 1e-6, 1.0, 1.0 + 1e-6, 1.001, 1.05, 1.3, 3.0, 1e3):
+        for c in (1e-12, 1e-8, 1e-4, 1e-2, 0.1, 0.4, 1.0, 3.0, 1e2, 1e6):
+            lines.append(f'-1,{x:.16e},{c:.16e},{digits(edge_slope(x, c))}')
+    for n in (0, 1, 2, 10, 100, 10000):
+        for b in (1e-8, 1e-4, 1e-2, 0.1, 0.3, 0.55, 1.0, 1.7, 1e1, 1e4, 1e8):
+            lines.append(f'{n},{0:.16e},{b:.16e},{digits(width_slope(n, b))}')
+    return lines
+
+
 def digits(value):
     return mp.nstr(value, 20, min_fixed=1, max_fixed=0, strip_zeros=False, show_zero_exponent=True)
 
@@ -91,25 +136,27 @@ def digits(value):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('--check', action='store_true',
-                        help='compare with the committed file instead of writing it')
+                        help='compare with the committed files instead of writing them')
     arguments = parser.parse_args()
     mp.mp.dps = 34
-    lines = ['X,c_left,c_right,value,d_x,d_half_length']
+    edges = ['X,c_left,c_right,value,d_x,d_half_length']
     for x, c_left, c_right in places():
         value, d_x, d_half_length = integrals(x, c_left, c_right)
         d_x = mp.mpf(0) if x == 0 else d_x
-        lines.append(f'{x:.16e},{c_left:.16e},{c_right:.16e},'
+        edges.append(f'{x:.16e},{c_left:.16e},{c_right:.16e},'
                      f'{digits(value)},{digits(d_x)},{digits(d_half_length)}')
-    text = '\n'.join(lines) + '\n'
-    if not arguments.check:
-        TARGET.write_text(text)
-        print(f'{TARGET.name}: {len(lines) - 1} rows written')
-        return 0
-    if TARGET.read_text() != text:
-        print(f'{TARGET.name} is not what this script makes', file=sys.stderr)
-        return 1
-    print(f'{TARGET.name} reproduced byte for byte')
-    return 0
+    code = 0
+    for name, lines in (('reference_edges.csv', edges), ('reference_slopes.csv', slope_lines())):
+        text = '\n'.join(lines) + '\n'
+        if not arguments.check:
+            (FOLDER / name).write_text(text)
+            print(f'{name}: {len(lines) - 1} rows written')
+        elif (FOLDER / name).read_text() != text:
+            print(f'{name} is not what this script makes', file=sys.stderr)
+            code = 1
+        else:
+            print(f'{name} reproduced byte for byte')
+    return code
 
 
 if __name__ == '__main__':

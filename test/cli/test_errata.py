@@ -16,7 +16,8 @@ class Errata(ProgramTest):
         for row in rows:
             if row["literal"]:
                 ratio = float(row["literal"]) / float(row["right"])
-                self.assertAlmostEqual(float(row["deviation"]) + 1.0, ratio, delta=1e-9 * abs(ratio) + 1e-15)
+                self.assertAlmostEqual(float(row["deviation"]) + 1.0, ratio,
+                                       delta=1e-9 * abs(ratio) + 1e-15)
 
     def test_the_figures_are_those_of_the_theory(self):
         rows = {(row["equation"], row["what"]): row for row in self.good("table", "--errata")}
@@ -30,7 +31,8 @@ class Errata(ProgramTest):
         self.assertAlmostEqual(deviation("(34)", "C11"), 0.178, delta=0.003)
         self.assertAlmostEqual(deviation("(41)", "C11") + 1.0, 16.5, delta=0.1)
         self.assertAlmostEqual(deviation("(22)-(24)", "i for n = 0, b = 0.01"), -0.401, delta=0.001)
-        self.assertAlmostEqual(deviation("(9)", "QAGS: i for n = 1000, b = 1.0"), 1.3e-3, delta=1e-4)
+        self.assertAlmostEqual(deviation("(9)", "QAGS: i for n = 1000, b = 1.0"), 1.3e-3,
+                               delta=1e-4)
 
     def test_a_file_leaves_lines_to_read(self):
         done = self.run_program("table", "--errata", "-o", "errata.csv")

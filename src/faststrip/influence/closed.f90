@@ -25,7 +25,8 @@ module faststrip_influence_closed
     private
 
     public :: influence_primitive, influence_primitive_slope
-    public :: strip_influence, strip_influence_edges, strip_influence_center_gradient
+    public :: strip_influence, strip_influence_slope
+    public :: strip_influence_edges, strip_influence_center_gradient
 
     ! The two forms of G overlap on [c_large, c_small].
     real(wp), parameter :: c_small = 1.0_wp
@@ -159,6 +160,34 @@ contains
         end if
     end function strip_influence
 
+    !> di_n/db, equal strips, `(2n + 1) G'((2n + 1)b) - (2n - 1) G'((2n - 1)b)`; 0 for b <= 0.
+    !> Relative error below 2e-15 (2n + 2): 4e-11 at n = 1e4.
+    elemental real(wp) function strip_influence_slope(n, b) result(slope)
+        integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
+        real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
+
+        real(wp), parameter :: b_huge = 1.0e100_wp
+        real(wp) :: distance, cl, cr
+
+        slope = 0.0_wp
+        if (.not. ieee_is_finite(b)) then
+            slope = ieee_value(slope, ieee_quiet_nan)
+        else if (b <= 0.0_wp .or. (n /= 0 .and. b > b_huge)) then
+            return
+        else if (n == 0) then
+            slope = 2.0_wp*influence_primitive_slope(b)
+        else
+            distance = 2.0_wp*abs(real(n, wp))
+            cl = (distance - 1.0_wp)*b
+            cr = (distance + 1.0_wp)*b
+            if (cl >= c_far) then
+                slope = (moment_deficit(cl) - moment_deficit(cr))/b
+            else
+                slope = (primitive_moment(cr) - primitive_moment(cl))/b
+            end if
+        end if
+    end function strip_influence_slope
+
     !> G(c_right) - G(c_left): influence of a strip of any width at any point of its centre line,
     !> inside it or outside; without cancellation, antisymmetric in its arguments.
     elemental real(wp) function strip_influence_edges(c_left, c_right) result(value)
@@ -233,6 +262,17 @@ contains
         end if
         moment = sign(moment, c)
     end function primitive_moment
+
+    !> pi/2 - c G'(c) for c >= c_far.
+    elemental real(wp) function moment_deficit(c) result(deficit)
+        real(wp), intent(in) :: c
+
+        real(wp) :: w, q(2)
+
+        w = (1.0_wp/c)**2
+        q = divided_difference(r_short, w, w)
+        deficit = 2.0_wp*w*(q(1) + w*q(2))
+    end function moment_deficit
 
     !> G(cr) - G(cl) for c_large <= cl <= cr.
     elemental real(wp) function far_difference(cl, cr) result(value)
