@@ -5,7 +5,8 @@
          = c [A(x) - B(x) ln c],                x = c^2,    0 <= c <= 1
          = (pi/2) (ln 4c + 1/2) + w R(w),       w = 1/c^2,  c >= 0.7
 
-(A, B and R once more, with fewer terms, for c <= 0.6 and c >= 5/3), and of the kernel off the centre line, asinh(cr/d) - asinh(cl/d) = 2 atanh((cr - cl)/(s_r + s_l)):
+(A, B and R once more, with fewer terms, for c <= 0.6 and c >= 5/3), and of the kernel off the
+centre line, asinh(cr/d) - asinh(cl/d) = 2 atanh((cr - cl)/(s_r + s_l)):
 
     atanh(z) = z S(z^2),                            0 <= z <= 0.6
 

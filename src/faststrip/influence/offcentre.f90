@@ -172,8 +172,8 @@ contains
 
     !> dG(X,c)/dc = int sqrt(1 - u^2)/sqrt((u - X)^2 + c^2) du: the derivative of a strip's
     !> influence (mm) with respect to its right edge (mm), and less that with respect to its left
-    !> edge. Even in both arguments; +Inf for c = 0 inside the strip, NaN for what is not finite. Relative error
-    !> 1e-13.
+    !> edge. Even in both arguments; +Inf for c = 0 inside the strip, NaN for what is not finite.
+    !> Relative error 1e-13.
     !>
     !> Elliptic; with `u = X + c sinh(t)` it is `int sqrt(1 - u^2) dt`, which the rules of the far
     !> and of the near field integrate as they stand, without the cancellation that Legendre's
