@@ -20,6 +20,7 @@ module faststrip_normal_strip
                                               share_strips, only_match, nearest_patch, &
                                               take_in, sort_patches, join_met_patches, &
                                               cut_leaving_strips
+    use faststrip_normal_strip_profile, only: profile_integral, profile_peak
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton, solve_strips, &
                                              newton_converged, newton_strips_leave
@@ -37,6 +38,7 @@ module faststrip_normal_strip
     real(wp), parameter :: damping = 0.6_wp
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
+    real(wp), parameter :: end_grading = 0.7_wp  ! 0: even strips; 1: as the sine
     real(wp), parameter :: forget = 0.05_wp ! how fast "too far" is forgotten, widths a pass
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
     real(wp), parameter :: start_level = 0.55_wp   ! of the penetration: virtual penetration
@@ -281,7 +283,9 @@ contains
 
     !> Cut the patches into strips and start them from the previous pass.
     !>
-    !> The edges are graded towards the ends, where the strip lengths change fastest.
+    !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
+    !> ends, the largest pressure and the penetration of the 20 contacts of the paper's section 5
+    !> come out best.
     pure subroutine place_strips(workspace, patches, compliance, n)
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
@@ -331,11 +335,11 @@ contains
         end do
     end subroutine place_strips
 
-    !> Edge gradings of a patch: strips grow narrower towards its ends; -1, 0, 1 stay in place.
+    !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
     pure real(wp) function graded(t)
         real(wp), intent(in) :: t
 
-        graded = 0.5_wp*(t + sin(0.5_wp*pi*t))
+        graded = (1.0_wp - end_grading)*t + end_grading*sin(0.5_wp*pi*t)
     end function graded
 
     !> Keep a solution as the start of the next pass: pressures and lengths over the ellipse
@@ -556,9 +560,6 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
-        ! The rectangles 2 xd w over-count a rounded end: shares of the last two strips that do
-        ! not belong to an ellipse cut and graded in this way.
-        real(wp), parameter :: end_excess(2) = [0.057_wp, 0.0047_wp]
         integer :: p, first, last
 
         strips%n = n
@@ -568,39 +569,25 @@ contains
         strips%p0(:n) = workspace%p0(:n)
         strips%half_length(:n) = workspace%half_length(:n)
         result%area = 0.0_wp
+        result%pmax = 0.0_wp
+        result%x_max = 0.0_wp
         last = 0
         do p = 1, patches%n
             first = last + 1
             last = last + patches%at(p)%n_strips
             strips%patch(first:last) = p
-            result%area = result%area + sum(rectangle(first, last)) &
-                          - sum(end_excess*(rectangle(first, first + 1) &
-                                            + rectangle(last, last - 1)))
+            associate (left => workspace%y_left(first:last), right => workspace%y_right(first:last))
+                result%area = result%area + 2.0_wp*profile_integral( &
+                    left, right, workspace%half_length(first:last))
+                result%pmax = max(result%pmax, profile_peak(left, right, workspace%p0(first:last)))
+                result%x_max = max(result%x_max, &
+                                   profile_peak(left, right, workspace%half_length(first:last)))
+            end associate
         end do
         result%penetration = penetration + workspace%curve%h_lowest
-        result%pmax = maxval(workspace%p0(:n))
-        result%x_max = maxval(workspace%half_length(:n))
         result%y_min = patches%at(1)%y_from
         result%y_max = patches%at(patches%n)%y_to
         result%n_patches = patches%n
-
-    contains
-
-        !> Areas of the rectangles of strips i to j, in that order, mm2.
-        pure function rectangle(i, j) result(areas)
-            integer, intent(in) :: i, j
-            real(wp) :: areas(abs(j - i) + 1)
-
-            integer :: k, step
-
-            step = sign(1, j - i)
-            do k = 1, size(areas)
-                associate (s => i + (k - 1)*step)
-                    areas(k) = 2.0_wp*workspace%half_length(s) &
-                               *(workspace%y_right(s) - workspace%y_left(s))
-                end associate
-            end do
-        end function rectangle
     end subroutine record
 
     !> Does the contact run to an end of the gap's points?

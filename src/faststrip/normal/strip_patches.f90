@@ -14,7 +14,7 @@ module faststrip_normal_strip_patches
     !> Fewest strips a patch can be cut into: its ends are carried on from three.
     integer, parameter :: fewest_strips = 3
     ! A second patch gets fewer strips than the largest, in proportion to its width, but these.
-    integer, parameter :: fewest_strips_small_patch = 5
+    integer, parameter :: fewest_strips_small_patch = 9
 
     !> One patch while its ends are sought.
     type :: patch_t

@@ -1,0 +1,95 @@
+!> Between the strips of a patch: lengths and pressures as curves over y.
+!>
+!> The squares of the half-lengths and of the centre pressures are smooth up to the ends of a
+!> patch, where they vanish (they are parabolas on an ellipse). Through them goes a parabola at
+!> each strip: its own middle and the two neighbours', the end of the patch standing in for the
+!> neighbour an end strip lacks.
+module faststrip_normal_strip_profile
+    use faststrip_kinds, only: wp
+    implicit none
+    private
+
+    public :: profile_integral, profile_peak
+
+contains
+
+    !> Integral over y of a quantity known at the middles of a patch's strips.
+    pure real(wp) function profile_integral(left, right, value) result(integral)
+        real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
+        real(wp), intent(in) :: right(:) !! right edges, (n), mm
+        real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
+
+        ! Gauss-Legendre with five points on [0, 1].
+        real(wp), parameter :: t(5) = [0.046910077030668_wp, 0.230765344947158_wp, 0.5_wp, &
+                                       0.769234655052842_wp, 0.953089922969332_wp]
+        real(wp), parameter :: weight(5) = [0.118463442528095_wp, 0.239314335249683_wp, &
+                                            0.284444444444444_wp, 0.239314335249683_wp, &
+                                            0.118463442528095_wp]
+        real(wp) :: width, q0, slope, bend, s(5), jacobian(5)
+        integer :: k, n
+
+        n = size(value)
+        integral = 0.0_wp
+        do k = 1, n
+            call parabola(left, right, value, k, q0, slope, bend)
+            width = right(k) - left(k)
+            ! A square root at the end of the patch is no matter in the root of the distance.
+            if (k == 1 .and. n > 1) then
+                s = (t**2 - 0.5_wp)*width
+                jacobian = 2.0_wp*t*width
+            else if (k == n .and. n > 1) then
+                s = (0.5_wp - t**2)*width
+                jacobian = 2.0_wp*t*width
+            else
+                s = (t - 0.5_wp)*width
+                jacobian = width
+            end if
+            integral = integral + sum(weight*jacobian &
+                                      *sqrt(max(q0 + s*(slope + s*bend), 0.0_wp)))
+        end do
+    end function profile_integral
+
+    !> Largest value of a quantity known at the middles of a patch's strips.
+    pure real(wp) function profile_peak(left, right, value) result(peak)
+        real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
+        real(wp), intent(in) :: right(:) !! right edges, (n), mm
+        real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
+
+        real(wp) :: q0, slope, bend
+        integer :: k
+
+        k = maxloc(value, dim=1)
+        peak = value(k)
+        call parabola(left, right, value, k, q0, slope, bend)
+        if (bend < 0.0_wp) peak = sqrt(q0 - slope**2/(4.0_wp*bend))
+    end function profile_peak
+
+    !> The parabola `q0 + slope s + bend s^2` of a square about the middle of strip k.
+    pure subroutine parabola(left, right, value, k, q0, slope, bend)
+        real(wp), intent(in) :: left(:), right(:), value(:)
+        integer, intent(in) :: k
+        real(wp), intent(out) :: q0, slope, bend
+
+        real(wp) :: middle, before, after, q_before, q_after
+        integer :: n
+
+        n = size(value)
+        middle = 0.5_wp*(left(k) + right(k))
+        q0 = value(k)**2
+        before = left(1) - middle
+        q_before = 0.0_wp
+        if (k > 1) then
+            before = 0.5_wp*(left(k - 1) + right(k - 1)) - middle
+            q_before = value(k - 1)**2
+        end if
+        after = right(n) - middle
+        q_after = 0.0_wp
+        if (k < n) then
+            after = 0.5_wp*(left(k + 1) + right(k + 1)) - middle
+            q_after = value(k + 1)**2
+        end if
+        slope = (q_after - q0)/after
+        bend = (slope - (q_before - q0)/before)/(after - before)
+        slope = slope - bend*after
+    end subroutine parabola
+end module faststrip_normal_strip_profile
