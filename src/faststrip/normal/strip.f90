@@ -16,7 +16,8 @@ module faststrip_normal_strip
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at, &
                                            level_intervals
-    use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, &
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               share_strips, only_match, nearest_patch, &
                                               take_in, sort_patches, join_met_patches, &
                                               cut_leaving_strips
@@ -41,8 +42,7 @@ module faststrip_normal_strip
     real(wp), parameter :: end_grading = 0.7_wp  ! 0: even strips; 1: as the sine
     real(wp), parameter :: forget = 0.05_wp ! how fast "too far" is forgotten, widths a pass
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
-    real(wp), parameter :: start_level = 0.55_wp   ! of the penetration: virtual penetration
-    real(wp), parameter :: start_factor = 0.6_wp   ! of the plane-strain pressure
+    real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
     real(wp), parameter :: flattest = 1.0e-9_wp    ! smallest A = 1/(2R) used, 1/mm
 
     !> What the user chooses.
@@ -142,7 +142,7 @@ contains
         splits = 0
         workspace%old%n = 0
         do pass = 1, max_passes
-            call place_strips(workspace, patches, compliance, n)
+            call place_strips(workspace, patches, n)
             if (n > workspace%max_strips .or. n > size(strips%p0)) then
                 call set_status(status, st_workspace_too_small, &
                                 'the patches need more strips than there is room for')
@@ -218,8 +218,11 @@ contains
         end if
     end subroutine check_input
 
-    !> First penetration and patches: pressure 0.6 of the plane-strain one where the gap is below
-    !> 0.55 D; the load is then (0.6/H) times the integral of 0.55 D - h.
+    !> First penetration and patches: those of the Hertz ellipse that fits the gap's width.
+    !>
+    !> Below a level c the gap is W wide, as is that of the parabola with B = 4 c/W^2. The level is
+    !> the one at which the Hertz ellipse of A and B is W wide too; on a Hertzian gap this is the
+    !> solution itself.
     pure subroutine start(curve, compliance, load, options, patches, penetration)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, load
@@ -227,69 +230,71 @@ contains
         type(patches_t), intent(out) :: patches
         real(wp), intent(out) :: penetration
 
-        real(wp) :: y_from(max_patches), y_to(max_patches), low, high
+        real(wp), parameter :: factor = 4.0_wp, close_enough = 1.05_wp
+        real(wp) :: low, high, level, y_from(max_patches), y_to(max_patches)
+        type(hertz_t) :: hertz
+        logical :: wider
         integer :: i
 
-        y_from = 0.0_wp
-        y_to = 0.0_wp
         high = 1.0e-2_wp
-        do i = 1, 200
-            if (start_load(curve, compliance, high) >= load) exit
-            high = 4.0_wp*high
+        do i = 1, 100
+            call fit_ellipse(curve, compliance, load, high, y_from, y_to, patches%n, hertz, wider)
+            if (.not. wider) exit
+            high = factor*high
         end do
-        low = 0.25_wp*high
-        do i = 1, 200
-            if (start_load(curve, compliance, low) < load) exit
+        low = high/factor
+        do i = 1, 100
+            call fit_ellipse(curve, compliance, load, low, y_from, y_to, patches%n, hertz, wider)
+            if (wider) exit
             high = low
-            low = 0.25_wp*low
+            low = high/factor
         end do
-        do i = 1, 6
-            penetration = sqrt(low*high)
-            if (start_load(curve, compliance, penetration) < load) then
-                low = penetration
+        do while (high > close_enough*low)
+            level = sqrt(low*high)
+            call fit_ellipse(curve, compliance, load, level, y_from, y_to, patches%n, hertz, wider)
+            if (wider) then
+                low = level
             else
-                high = penetration
+                high = level
             end if
         end do
-        penetration = sqrt(low*high)
-        call level_intervals(curve, curve%h_lowest + start_level*penetration, y_from, y_to, &
-                             patches%n)
-        patches%at%y_from = y_from
-        patches%at%y_to = y_to
-        patches%at%seed_depth = start_level*penetration
+        level = sqrt(low*high)
+        call fit_ellipse(curve, compliance, load, level, y_from, y_to, patches%n, hertz, wider)
+        penetration = hertz%penetration
+        do i = 1, patches%n
+            patches%at(i) = patch_t(y_from(i), y_to(i), seed_level=level, seed_length=hertz%a, &
+                                    seed_pressure=hertz%pmax)
+        end do
         call share_strips(options%strips_per_patch, patches)
     end subroutine start
 
-    pure real(wp) function start_load(curve, compliance, penetration) result(load)
+    !> The parabola as wide as the gap at a level, and its Hertz ellipse: is that wider than both?
+    pure subroutine fit_ellipse(curve, compliance, load, level, y_from, y_to, n, hertz, wider)
         type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, penetration
+        real(wp), intent(in) :: compliance, load, level ! the level from the lowest point
+        real(wp), intent(inout) :: y_from(:), y_to(:)
+        integer, intent(out) :: n
+        type(hertz_t), intent(out) :: hertz
+        logical, intent(out) :: wider
 
-        integer, parameter :: n_points = 16
-        real(wp) :: y_from(max_patches), y_to(max_patches), h, inv2r, level, width
-        integer :: i, j, n
+        type(status_t) :: status
+        real(wp) :: h, inv2r, half_width
 
-        level = curve%h_lowest + start_level*penetration
-        call level_intervals(curve, level, y_from, y_to, n)
-        load = 0.0_wp
-        do i = 1, n
-            width = (y_to(i) - y_from(i))/n_points
-            do j = 1, n_points
-                call gap_at(curve, y_from(i) + (j - 0.5_wp)*width, h, inv2r)
-                load = load + max(level - h, 0.0_wp)*width
-            end do
-        end do
-        load = start_factor/compliance*load
-    end function start_load
+        call level_intervals(curve, curve%h_lowest + level, y_from, y_to, n)
+        half_width = max(0.5_wp*sum(y_to(:n) - y_from(:n)), tiny(1.0_wp)**0.25_wp)
+        call gap_at(curve, curve%y_lowest, h, inv2r)
+        call hertz_solve(compliance, max(inv2r, flattest), level/half_width**2, load, hertz, status)
+        wider = hertz%b > half_width
+    end subroutine fit_ellipse
 
     !> Cut the patches into strips and start them from the previous pass.
     !>
     !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
     !> ends, the largest pressure and the penetration of the 20 contacts of the paper's section 5
     !> come out best.
-    pure subroutine place_strips(workspace, patches, compliance, n)
+    pure subroutine place_strips(workspace, patches, n)
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
-        real(wp), intent(in) :: compliance
         integer, intent(out) :: n ! number of strips; beyond the room there is, nothing is placed
 
         real(wp) :: middle, half, y, eta, h, a, ratio
@@ -316,12 +321,12 @@ contains
                 workspace%height(i) = h - workspace%curve%h_lowest
                 workspace%inv2r(i) = max(a, flattest)
                 eta = (y - middle)/half
-                if (patches%at(p)%seed_depth > 0.0_wp) then
+                if (patches%at(p)%seed_length > 0.0_wp) then
                     ratio = sqrt(1.0_wp - eta**2)
-                    workspace%half_length(i) = ratio*sqrt(patches%at(p)%seed_depth &
-                                                          /workspace%inv2r(i))
-                    workspace%p0(i) = start_factor*2.0_wp/(pi*compliance)*workspace%inv2r(i) &
-                                      *workspace%half_length(i)
+                    if (workspace%height(i) < patches%at(p)%seed_level) &
+                        ratio = sqrt(1.0_wp - workspace%height(i)/patches%at(p)%seed_level)
+                    workspace%half_length(i) = patches%at(p)%seed_length*ratio
+                    workspace%p0(i) = patches%at(p)%seed_pressure*ratio
                 else if (q > 0) then
                     call start_from_old(workspace, q, eta, eta, i)
                 else
@@ -364,7 +369,7 @@ contains
                 workspace%old_half_length(i) = workspace%half_length(i)/ellipse
             end do
         end do
-        patches%at%seed_depth = 0.0_wp
+        patches%at%seed_length = 0.0_wp
         workspace%old = patches
     end subroutine remember
 
@@ -507,8 +512,9 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(inout) :: changed
 
-        real(wp) :: y, dy, depth, deepest
+        real(wp) :: y, dy, depth, deepest, h, inv2r
         integer :: j, m, from
+        type(patch_t) :: seed
 
         m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
         dy = (high - low)/m
@@ -524,8 +530,13 @@ contains
                 if (from == 0) from = j
                 deepest = max(deepest, depth)
             else if (from > 0) then
-                call take_in(low + (from - 1)*dy, low + (j - 1)*dy, low, high, dy, deepest, &
-                             patches, changed)
+                call gap_at(workspace%curve, low + 0.5_wp*(from + j - 2)*dy, h, inv2r)
+                inv2r = max(inv2r, flattest)
+                seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
+                seed%seed_length = sqrt(deepest/inv2r)
+                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
+                                     /(pi*compliance)
+                call take_in(seed, low, high, dy, patches, changed)
                 from = 0
                 deepest = 0.0_wp
             end if

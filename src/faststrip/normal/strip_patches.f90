@@ -20,7 +20,9 @@ module faststrip_normal_strip_patches
     type :: patch_t
         real(wp) :: y_from = 0.0_wp, y_to = 0.0_wp ! ends, mm
         integer :: n_strips = 0
-        real(wp) :: seed_depth = 0.0_wp ! overlap that made it appear, mm; 0 once it was solved
+        ! How it starts, until it was solved once: length and pressure in its middle, falling off
+        ! with the gap up to a level, or to its ends where that is zero; mm, MPa, mm.
+        real(wp) :: seed_length = 0.0_wp, seed_pressure = 0.0_wp, seed_level = 0.0_wp
         ! Ends at which strips left: the true ends lie further in.
         real(wp) :: too_far_from = -huge(1.0_wp), too_far_to = huge(1.0_wp)
     end type patch_t
@@ -92,40 +94,40 @@ contains
     end function nearest_patch
 
     !> Add a stretch of overlap to the patches: to the neighbour it touches, or as a patch.
-    pure subroutine take_in(y_from, y_to, low, high, dy, depth, patches, changed)
-        real(wp), intent(in) :: y_from, y_to ! the stretch that overlaps, mm
-        real(wp), intent(in) :: low, high    ! the stretch that was scanned, mm
-        real(wp), intent(in) :: dy, depth
-        type(patches_t), intent(inout) :: patches
-        logical, intent(inout) :: changed
+    pure subroutine take_in(seed, low, high, dy, patches, changed)
+        type(patch_t), intent(in) :: seed    !! the stretch that overlaps, ready to be a patch
+        real(wp), intent(in) :: low, high    !! the stretch that was scanned, mm
+        real(wp), intent(in) :: dy           !! spacing of the scan, mm
+        type(patches_t), intent(inout) :: patches !! extended, or with one more at the end
+        logical, intent(inout) :: changed    !! set if there is anything to solve anew
 
         integer :: p
         logical :: touches
 
         touches = .false.
         do p = 1, patches%n
-            if (y_from < low + 0.5_wp*dy .and. patches%at(p)%y_from < low &
-                .and. patches%at(p)%y_to > low - dy .and. patches%at(p)%y_to < y_to) then
+            if (seed%y_from < low + 0.5_wp*dy .and. patches%at(p)%y_from < low &
+                .and. patches%at(p)%y_to > low - dy .and. patches%at(p)%y_to < seed%y_to) then
                 touches = .true.
-                if (y_to - y_from > 1.5_wp*dy) then
-                    patches%at(p)%y_to = y_to
+                if (seed%y_to - seed%y_from > 1.5_wp*dy) then
+                    patches%at(p)%y_to = seed%y_to
                     changed = .true.
                 end if
-            else if (y_to > high - 0.5_wp*dy .and. patches%at(p)%y_to > high &
-                     .and. patches%at(p)%y_from < high + dy .and. patches%at(p)%y_from > y_from) then
+            else if (seed%y_to > high - 0.5_wp*dy .and. patches%at(p)%y_to > high &
+                     .and. patches%at(p)%y_from < high + dy .and. patches%at(p)%y_from > seed%y_from) then
                 touches = .true.
-                if (y_to - y_from > 1.5_wp*dy) then
-                    patches%at(p)%y_from = y_from
+                if (seed%y_to - seed%y_from > 1.5_wp*dy) then
+                    patches%at(p)%y_from = seed%y_from
                     changed = .true.
                 end if
-            else if (patches%at(p)%y_to >= y_from .and. patches%at(p)%y_from <= y_to) then
+            else if (patches%at(p)%y_to >= seed%y_from .and. patches%at(p)%y_from <= seed%y_to) then
                 touches = .true.
             end if
         end do
         if (touches .or. patches%n == max_patches) return
         changed = .true.
         patches%n = patches%n + 1
-        patches%at(patches%n) = patch_t(y_from, y_to, fewest_strips, depth)
+        patches%at(patches%n) = seed
     end subroutine take_in
 
     !> Put the patches in the order of y.
