@@ -62,14 +62,15 @@ contains
     end subroutine reserve_newton
 
     !> Pressures, half-lengths and penetration of strips with given edges under a given load.
-    subroutine solve_strips(y_left, y_right, height, inv2r, compliance, load, tolerance, &
-                            p0, half_length, penetration, leaves, iterations, outcome, workspace)
+    subroutine solve_strips(y_left, y_right, height, inv2r, compliance, by_load, load, &
+                            tolerance, p0, half_length, penetration, leaves, iterations, outcome, workspace)
         real(wp), intent(in) :: y_left(:)        !! left edges, (n), mm
         real(wp), intent(in) :: y_right(:)       !! right edges, (n), mm
         real(wp), intent(in) :: height(:)        !! h on the centre lines, above the lowest, (n), mm
         real(wp), intent(in) :: inv2r(:)         !! A on the centre lines, positive, (n), 1/mm
         real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: load             !! Q, N
+        logical, intent(in) :: by_load           !! is the load given? else the penetration
+        real(wp), intent(in) :: load             !! Q, N; without meaning for given penetration
         real(wp), intent(in) :: tolerance        !! relative size of the last step
         real(wp), intent(inout) :: p0(:)         !! start and result, (n), MPa
         real(wp), intent(inout) :: half_length(:) !! start and result, (n), mm
@@ -88,9 +89,9 @@ contains
         do iteration = 1, max_iterations
             iterations = iterations + 1
             p_scale = maxval(abs(p0))
-            call assemble(y_left, y_right, height, inv2r, compliance, load, p0, half_length, &
-                          penetration, p_scale, workspace%jacobian, workspace%step(:, 1), &
-                          workspace%y, workspace%influence)
+            call assemble(y_left, y_right, height, inv2r, compliance, by_load, load, p0, &
+                          half_length, penetration, p_scale, workspace%jacobian, &
+                          workspace%step(:, 1), workspace%y, workspace%influence)
             call dgetrf(2*n + 1, 2*n + 1, workspace%jacobian, size(workspace%jacobian, 1), &
                         workspace%pivot, info)
             if (info /= 0) return
@@ -106,7 +107,7 @@ contains
                 p0 = p0 + limit*p_scale*step(:n)
                 half_length = half_length*exp(limit*step(n + 1:2*n))
                 penetration = penetration*(1.0_wp + limit*step(2*n + 1))
-                if (iteration >= 2) then
+                if (iteration >= 2 .or. maxval(abs(step)) <= tolerance) then
                     call mark_leaving_strips(y_left, y_right, p0, half_length, leaves)
                     if (any(leaves)) then
                         outcome = newton_strips_leave
@@ -122,9 +123,10 @@ contains
     end subroutine solve_strips
 
     !> Negative residual and Jacobian in scaled unknowns (p0/p_scale, ln xd, D/penetration).
-    subroutine assemble(y_left, y_right, height, inv2r, compliance, load, p0, half_length, &
-                        penetration, p_scale, jacobian, rhs, y, influence)
+    subroutine assemble(y_left, y_right, height, inv2r, compliance, by_load, load, p0, &
+                        half_length, penetration, p_scale, jacobian, rhs, y, influence)
         real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:), compliance, load
+        logical, intent(in) :: by_load
         real(wp), intent(in) :: p0(:), half_length(:), penetration, p_scale
         real(wp), intent(inout) :: jacobian(:, :), rhs(:), y(:), influence(:, :)
 
@@ -167,6 +169,12 @@ contains
                                          + scale*p0(s)*half_length(k)*influence(k, 2)
             end do
         end do
+        if (.not. by_load) then
+            rhs(2*n + 1) = 0.0_wp
+            jacobian(2*n + 1, :2*n) = 0.0_wp
+            jacobian(2*n + 1, 2*n + 1) = 1.0_wp
+            return
+        end if
         rhs(2*n + 1) = 1.0_wp
         jacobian(2*n + 1, 2*n + 1) = 0.0_wp
         do s = 1, n

@@ -7,7 +7,7 @@ module faststrip_normal_strip_patches
 
     public :: patch_t, patches_t, max_patches, fewest_strips
     public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
-    public :: cut_leaving_strips
+    public :: cut_leaving_strips, free_ends
 
     !> Most patches a contact may have at a time.
     integer, parameter :: max_patches = 16
@@ -15,6 +15,9 @@ module faststrip_normal_strip_patches
     integer, parameter :: fewest_strips = 3
     ! A second patch gets fewer strips than the largest, in proportion to its width, but these.
     integer, parameter :: fewest_strips_small_patch = 9
+
+    ! An end position beyond all data, mm.
+    real(wp), parameter :: far = 1.0e100_wp
 
     !> One patch while its ends are sought.
     type :: patch_t
@@ -24,7 +27,8 @@ module faststrip_normal_strip_patches
         ! with the gap up to a level, or to its ends where that is zero; mm, MPa, mm.
         real(wp) :: seed_length = 0.0_wp, seed_pressure = 0.0_wp, seed_level = 0.0_wp
         ! Ends at which strips left: the true ends lie further in.
-        real(wp) :: too_far_from = -huge(1.0_wp), too_far_to = huge(1.0_wp)
+        real(wp) :: too_far_from = -far, too_far_to = far
+        integer :: pushes_from = 0, pushes_to = 0
     end type patch_t
 
     !> The patches of one pass, in the order of y.
@@ -160,6 +164,7 @@ contains
             if (patches%at(p)%y_from - patches%at(n)%y_to < clearance .and. may_merge) then
                 patches%at(n)%y_to = max(patches%at(n)%y_to, patches%at(p)%y_to)
                 patches%at(n)%too_far_to = patches%at(p)%too_far_to
+                patches%at(n)%pushes_to = patches%at(p)%pushes_to
                 patches%at(n)%n_strips = patches%at(n)%n_strips + patches%at(p)%n_strips
                 changed = .true.
             else
@@ -208,12 +213,28 @@ contains
                     cut%at(cut%n)%y_from = y_left(from)
                     cut%at(cut%n)%y_to = y_right(i - 1)
                     cut%at(cut%n)%n_strips = i - from
-                    if (from > first) cut%at(cut%n)%too_far_from = patches%at(p)%y_from
-                    if (i <= last) cut%at(cut%n)%too_far_to = patches%at(p)%y_to
+                    if (from > first) then
+                        cut%at(cut%n)%too_far_from = patches%at(p)%y_from
+                        cut%at(cut%n)%pushes_from = 0
+                    end if
+                    if (i <= last) then
+                        cut%at(cut%n)%too_far_to = patches%at(p)%y_to
+                        cut%at(cut%n)%pushes_to = 0
+                    end if
                 end if
                 from = 0
             end do
         end do
         patches = cut
     end subroutine cut_leaving_strips
+
+    !> Forget how far out ends were too far: everything else has changed.
+    pure subroutine free_ends(patches)
+        type(patches_t), intent(inout) :: patches !! their ends may move anywhere
+
+        patches%at%too_far_from = -far
+        patches%at%too_far_to = far
+        patches%at%pushes_from = 0
+        patches%at%pushes_to = 0
+    end subroutine free_ends
 end module faststrip_normal_strip_patches

@@ -1,0 +1,216 @@
+!> Where the patches of a strip solution end: ends move to where the strips run out, and places
+!> that the deformed surfaces have closed join in.
+module faststrip_normal_strip_ends
+    use faststrip_kinds, only: wp, pi
+    use faststrip_influence_closed, only: strip_influence_edges
+    use faststrip_profile_gap_curve, only: gap_at, level_intervals
+    use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
+                                              take_in, sort_patches, join_met_patches
+    use faststrip_normal_strip_state, only: strip_workspace_t, flattest
+    implicit none
+    private
+
+    public :: move_ends, close_overlaps
+
+    integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
+    integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
+    real(wp), parameter :: damping = 0.6_wp
+    real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
+    real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
+    real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
+    integer, parameter :: fine_patch = 24    ! from so many strips on an end is carried on from
+                                             ! strips further apart
+
+contains
+
+    !> Move the ends of all patches to where the squared strip length vanishes.
+    pure subroutine move_ends(workspace, pass, patches, move)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: pass
+        type(patches_t), intent(inout) :: patches
+        real(wp), intent(out) :: move !! largest move, in units of `end_width`
+
+        real(wp) :: factor, step, width, y_low, y_high
+        integer :: p, first, last, stride
+
+        factor = 1.0_wp
+        if (pass >= damped_pass) factor = damping
+        y_low = workspace%curve%y(1)
+        y_high = workspace%curve%y(workspace%curve%n)
+        move = 0.0_wp
+        last = 0
+        do p = 1, patches%n
+            first = last + 1
+            last = last + patches%at(p)%n_strips
+            associate (patch => patches%at(p))
+                stride = max(1, patch%n_strips/fine_patch)
+                width = end_width(workspace, first, stride)
+                step = min(factor*end_step(workspace, first, 1, stride)*width, &
+                           patch%y_from - y_low)
+                call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, step)
+                patch%y_from = patch%y_from - step
+                move = max(move, abs(step)/width)
+                width = end_width(workspace, last, stride)
+                step = min(factor*end_step(workspace, last, -1, stride)*width, &
+                           y_high - patch%y_to)
+                call hold_back(width, patch%too_far_to - patch%y_to, patch%pushes_to, step)
+                patch%y_to = patch%y_to + step
+                move = max(move, abs(step)/width)
+            end associate
+        end do
+    end subroutine move_ends
+
+    !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
+    !> the less the place counts: everything else may have moved since.
+    pure subroutine hold_back(width, room, pushes, step)
+        real(wp), intent(in) :: width    ! of the end strip, mm
+        real(wp), intent(in) :: room     ! from the end to the place that was too far, mm
+        integer, intent(inout) :: pushes ! how often the end has pushed against it
+        real(wp), intent(inout) :: step  ! how far the end moves out, mm
+
+        real(wp) :: most
+
+        most = 0.5_wp*room + forget*width*(2.0_wp**pushes - 1.0_wp)
+        if (step <= most) return
+        step = most
+        pushes = min(pushes + 1, 20)
+    end subroutine hold_back
+
+    !> The measure of an end's moves, mm: the width of the end strip, of several in a fine patch.
+    pure real(wp) function end_width(workspace, k, stride) result(width)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: k, stride
+
+        width = stride*(workspace%y_right(k) - workspace%y_left(k))
+    end function end_width
+
+    !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
+    pure real(wp) function end_step(workspace, k, inward, stride) result(step)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: k      ! the end strip
+        integer, intent(in) :: inward ! 1 at a left end, -1 at a right end
+        integer, intent(in) :: stride ! strips from one of the three strips to the next
+
+        real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
+        real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s
+        integer :: j
+
+        width = end_width(workspace, k, stride)
+        do j = 1, 3
+            associate (i => k + (j - 1)*stride*inward)
+                y(j) = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))/width
+                q(j) = (workspace%half_length(i)/workspace%half_length(k))**2
+            end associate
+        end do
+        ! q(s) = 1 + b s + bend s^2 with s from the end strip's middle outwards.
+        d2 = abs(y(2) - y(1))
+        d3 = abs(y(3) - y(1))
+        slope = (q(1) - q(2))/d2
+        bend = (slope - (q(2) - q(3))/(d3 - d2))/d3
+        b = slope + bend*d2
+        discriminant = b*b - 4.0_wp*bend
+        s = 0.5_wp/stride + farthest_out
+        if (discriminant >= 0.0_wp .and. b < 0.0_wp) then
+            s = 2.0_wp/(sqrt(discriminant) - b)
+        else if (bend < 0.0_wp) then
+            s = -(b + sqrt(discriminant))/(2.0_wp*bend)
+        else if (q(2) > 1.0_wp) then
+            ! A long tail, as between two patches about to meet: xd itself runs out evenly. Both
+            ! rules agree where the quadratic has a double root.
+            s = d2/(sqrt(q(2)) - 1.0_wp)
+        end if
+        step = max(farthest_in, min(farthest_out, s - 0.5_wp/stride))
+    end function end_step
+
+    !> Find places outside the patches where the deformed surfaces would overlap, and patches that
+    !> have met: add, extend or merge patches.
+    pure subroutine close_overlaps(workspace, compliance, penetration, may_merge, patches, changed)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration
+        logical, intent(in) :: may_merge
+        type(patches_t), intent(inout) :: patches
+        logical, intent(out) :: changed
+
+        real(wp) :: y_from(4*max_patches), y_to(4*max_patches), low, high, width
+        integer :: i, n, p
+        type(patches_t) :: solved
+
+        changed = .false.
+        solved = patches
+        width = maxval((patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from) &
+                       /patches%at(:patches%n)%n_strips)
+        call level_intervals(workspace%curve, workspace%curve%h_lowest + penetration, y_from, &
+                             y_to, n)
+        do i = 1, n
+            low = y_from(i)
+            do p = 1, solved%n
+                if (solved%at(p)%y_to <= low .or. solved%at(p)%y_from >= y_to(i)) cycle
+                high = solved%at(p)%y_from
+                if (high > low) call scan(workspace, compliance, penetration, low, high, width, &
+                                          patches, changed)
+                low = max(low, solved%at(p)%y_to)
+            end do
+            if (y_to(i) > low) call scan(workspace, compliance, penetration, low, y_to(i), &
+                                         width, patches, changed)
+        end do
+        call sort_patches(patches)
+        call join_met_patches(may_merge, patches, changed)
+    end subroutine close_overlaps
+
+    !> Scan one stretch outside the patches for overlap.
+    pure subroutine scan(workspace, compliance, penetration, low, high, width, patches, changed)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, low, high, width
+        type(patches_t), intent(inout) :: patches
+        logical, intent(inout) :: changed
+
+        real(wp) :: y, dy, depth, deepest, h, inv2r
+        integer :: j, m, from
+        type(patch_t) :: seed
+
+        m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
+        dy = (high - low)/m
+        from = 0
+        deepest = 0.0_wp
+        do j = 1, m + 1
+            depth = 0.0_wp
+            if (j <= m) then
+                y = low + (j - 0.5_wp)*dy
+                depth = overlap_depth(workspace, compliance, penetration, y)
+            end if
+            if (depth > overlap_tolerance*penetration) then
+                if (from == 0) from = j
+                deepest = max(deepest, depth)
+            else if (from > 0) then
+                call gap_at(workspace%curve, low + 0.5_wp*(from + j - 2)*dy, h, inv2r)
+                inv2r = max(inv2r, flattest)
+                seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
+                seed%seed_length = sqrt(deepest/inv2r)
+                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
+                                     /(pi*compliance)
+                call take_in(seed, low, high, dy, patches, changed)
+                from = 0
+                deepest = 0.0_wp
+            end if
+        end do
+    end subroutine scan
+
+    !> By how much the deformed surfaces overlap at a point outside the patches, mm.
+    pure real(wp) function overlap_depth(workspace, compliance, penetration, y) result(depth)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, y
+
+        real(wp) :: h, inv2r, displacement
+        integer :: s
+
+        call gap_at(workspace%curve, y, h, inv2r)
+        displacement = 0.0_wp
+        do s = 1, sum(workspace%old%at(:workspace%old%n)%n_strips)
+            displacement = displacement + compliance*workspace%p0(s)*workspace%half_length(s) &
+                           *strip_influence_edges( &
+                           (workspace%y_left(s) - y)/workspace%half_length(s), &
+                           (workspace%y_right(s) - y)/workspace%half_length(s))
+        end do
+        depth = penetration - (h - workspace%curve%h_lowest) - displacement
+    end function overlap_depth
+end module faststrip_normal_strip_ends

@@ -1,0 +1,180 @@
+!> What a strip solution works on: the gap, the strips of the pass, and what the last pass left.
+module faststrip_normal_strip_state
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_profile_gap, only: gap_t
+    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
+    use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
+    use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch
+    implicit none
+    private
+
+    public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
+    public :: place_strips, remember, flattest
+
+    !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
+    real(wp), parameter :: flattest = 1.0e-9_wp
+
+    real(wp), parameter :: end_grading = 0.7_wp ! of the strip edges; 0: even, 1: as the sine
+
+    !> Everything a solution needs besides its input; owned by the caller, one per thread.
+    type :: strip_workspace_t
+        type(gap_curve_t) :: curve
+        type(newton_workspace_t) :: newton
+        type(patches_t) :: old      !! the last patches that were solved
+        real(wp) :: old_load = 0.0_wp        !! the load they carried, N
+        real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
+        integer :: max_strips = 0   !! room, all patches together
+        real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:) ! of the strips
+        real(wp), allocatable :: p0(:), half_length(:)
+        real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
+        logical, allocatable :: leaves(:)
+    end type strip_workspace_t
+
+contains
+
+    !> Make room; the only allocation, to be done before the first solution.
+    subroutine reserve_strip_workspace(workspace, max_strips, max_points, status)
+        type(strip_workspace_t), intent(inout) :: workspace !! sized
+        integer, intent(in) :: max_strips     !! strips of all patches together, >= 3
+        integer, intent(in) :: max_points     !! points of a gap, >= 5
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
+        if (max_strips < fewest_strips) then
+            call set_status(status, st_bad_argument, 'room for fewer than 3 strips asked')
+            return
+        end if
+        call reserve_gap_curve(workspace%curve, max_points, status)
+        if (is_error(status)) return
+        call reserve_newton(workspace%newton, max_strips)
+        if (workspace%max_strips >= max_strips) return
+        if (allocated(workspace%p0)) deallocate ( &
+            workspace%y_left, workspace%y_right, workspace%height, workspace%inv2r, workspace%p0, &
+            workspace%half_length, workspace%old_eta, workspace%old_p0, workspace%old_half_length, &
+            workspace%leaves)
+        allocate (workspace%y_left(max_strips), workspace%y_right(max_strips), &
+                  workspace%height(max_strips), workspace%inv2r(max_strips), &
+                  workspace%p0(max_strips), workspace%half_length(max_strips), &
+                  workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
+                  workspace%old_half_length(max_strips), source=0.0_wp)
+        allocate (workspace%leaves(max_strips), source=.false.)
+        workspace%max_strips = max_strips
+    end subroutine reserve_strip_workspace
+
+    !> Hand over the gap that the next solutions are for.
+    subroutine set_strip_gap(workspace, gap, status)
+        type(strip_workspace_t), intent(inout) :: workspace !! reserved beforehand
+        type(gap_t), intent(in) :: gap        !! undeformed gap, mm
+        type(status_t), intent(out) :: status !! those of `check_gap`, `st_workspace_too_small`
+
+        call set_gap_curve(workspace%curve, gap, status)
+    end subroutine set_strip_gap
+
+    !> Cut the patches into strips and start them from the previous pass.
+    !>
+    !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
+    !> ends, the largest pressure and the penetration of the 20 contacts of the paper's section 5
+    !> come out best.
+    pure subroutine place_strips(workspace, patches, n)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(patches_t), intent(in) :: patches
+        integer, intent(out) :: n ! number of strips; beyond the room there is, nothing is placed
+
+        real(wp) :: middle, half, y, eta, h, a, ratio
+        integer :: p, k, i, q
+
+        n = sum(patches%at(:patches%n)%n_strips)
+        if (n > workspace%max_strips) return
+        i = 0
+        do p = 1, patches%n
+            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+            q = only_match(workspace%old, patches, p)
+            do k = 1, patches%at(p)%n_strips
+                i = i + 1
+                if (k == 1) then
+                    workspace%y_left(i) = patches%at(p)%y_from
+                else
+                    workspace%y_left(i) = workspace%y_right(i - 1)
+                end if
+                workspace%y_right(i) = middle &
+                                       + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
+                y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
+                call gap_at(workspace%curve, y, h, a)
+                workspace%height(i) = h - workspace%curve%h_lowest
+                workspace%inv2r(i) = max(a, flattest)
+                eta = (y - middle)/half
+                if (patches%at(p)%seed_length > 0.0_wp) then
+                    ratio = sqrt(1.0_wp - eta**2)
+                    if (workspace%height(i) < patches%at(p)%seed_level) &
+                        ratio = sqrt(1.0_wp - workspace%height(i)/patches%at(p)%seed_level)
+                    workspace%half_length(i) = patches%at(p)%seed_length*ratio
+                    workspace%p0(i) = patches%at(p)%seed_pressure*ratio
+                else if (q > 0) then
+                    call start_from_old(workspace, q, eta, eta, i)
+                else
+                    q = nearest_patch(workspace%old, y)
+                    ratio = (2.0_wp*y - workspace%old%at(q)%y_from - workspace%old%at(q)%y_to) &
+                            /(workspace%old%at(q)%y_to - workspace%old%at(q)%y_from)
+                    call start_from_old(workspace, q, max(-0.95_wp, min(0.95_wp, ratio)), eta, i)
+                    q = 0
+                end if
+            end do
+        end do
+    end subroutine place_strips
+
+    !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
+    pure real(wp) function graded(t)
+        real(wp), intent(in) :: t
+
+        graded = (1.0_wp - end_grading)*t + end_grading*sin(0.5_wp*pi*t)
+    end function graded
+
+    !> Keep a solution as the start of the next pass: pressures and lengths over the ellipse
+    !> factor sqrt(1 - eta^2), which makes them smooth up to the ends.
+    pure subroutine remember(workspace, patches)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(patches_t), intent(inout) :: patches
+
+        real(wp) :: middle, half, ellipse
+        integer :: p, k, i
+
+        i = 0
+        do p = 1, patches%n
+            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+            do k = 1, patches%at(p)%n_strips
+                i = i + 1
+                workspace%old_eta(i) = (0.5_wp*(workspace%y_left(i) + workspace%y_right(i)) &
+                                        - middle)/half
+                ellipse = sqrt(1.0_wp - workspace%old_eta(i)**2)
+                workspace%old_p0(i) = workspace%p0(i)/ellipse
+                workspace%old_half_length(i) = workspace%half_length(i)/ellipse
+            end do
+        end do
+        patches%at%seed_length = 0.0_wp
+        workspace%old = patches
+    end subroutine remember
+
+    !> Start strip i, at `eta` of its patch, from old patch q at `eta_old`.
+    pure subroutine start_from_old(workspace, q, eta_old, eta, i)
+        type(strip_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: q, i
+        real(wp), intent(in) :: eta_old, eta
+
+        integer :: first, last, k
+        real(wp) :: t, ellipse
+
+        first = 1 + sum(workspace%old%at(:q - 1)%n_strips)
+        last = first + workspace%old%at(q)%n_strips - 1
+        do k = first, last - 2
+            if (workspace%old_eta(k + 1) >= eta_old) exit
+        end do
+        t = (eta_old - workspace%old_eta(k))/(workspace%old_eta(k + 1) - workspace%old_eta(k))
+        t = max(0.0_wp, min(1.0_wp, t))
+        ellipse = sqrt(1.0_wp - eta**2)
+        workspace%p0(i) = ellipse*((1.0_wp - t)*workspace%old_p0(k) + t*workspace%old_p0(k + 1))
+        workspace%half_length(i) = ellipse*((1.0_wp - t)*workspace%old_half_length(k) &
+                                            + t*workspace%old_half_length(k + 1))
+    end subroutine start_from_old
+end module faststrip_normal_strip_state
