@@ -46,7 +46,7 @@ module faststrip_normal_strip
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
     ! Newton's tolerance while the ends still move by more than the loose tolerance, and by more
     ! than the other: what is left then is far below what the ends' moves change.
-    real(wp), parameter :: far_tolerance = 1.0e-2_wp, near_tolerance = 1.0e-3_wp
+    real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
 
     !> What the user chooses.
     type :: strip_options_t

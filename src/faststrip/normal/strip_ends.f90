@@ -45,14 +45,14 @@ contains
             associate (patch => patches%at(p))
                 stride = max(1, patch%n_strips/fine_patch)
                 width = end_width(workspace, first, stride)
-                step = min(factor*end_step(workspace, first, 1, stride)*width, &
-                           patch%y_from - y_low)
+                step = factor*end_step(workspace, first, 1, stride)*width
+                step = min(step, patch%y_from - y_low)
                 call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, step)
                 patch%y_from = patch%y_from - step
                 move = max(move, abs(step)/width)
                 width = end_width(workspace, last, stride)
-                step = min(factor*end_step(workspace, last, -1, stride)*width, &
-                           y_high - patch%y_to)
+                step = factor*end_step(workspace, last, -1, stride)*width
+                step = min(step, y_high - patch%y_to)
                 call hold_back(width, patch%too_far_to - patch%y_to, patch%pushes_to, step)
                 patch%y_to = patch%y_to + step
                 move = max(move, abs(step)/width)

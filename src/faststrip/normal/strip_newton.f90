@@ -26,6 +26,7 @@ module faststrip_normal_strip_newton
     integer, parameter :: newton_failed = 2       !! no convergence or a singular system
 
     integer, parameter :: max_iterations = 40
+    integer, parameter :: damped_iteration = 12
     real(wp), parameter :: max_log_length_step = 0.7_wp
     real(wp), parameter :: max_penetration_step = 0.5_wp
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
@@ -104,6 +105,8 @@ contains
                 if (largest > max_log_length_step) limit = max_log_length_step/largest
                 if (abs(step(2*n + 1)) > max_penetration_step) &
                     limit = min(limit, max_penetration_step/abs(step(2*n + 1)))
+                ! Steps that go back and forth between two states settle at half the length.
+                if (iteration > damped_iteration) limit = 0.5_wp*limit
                 p0 = p0 + limit*p_scale*step(:n)
                 half_length = half_length*exp(limit*step(n + 1:2*n))
                 penetration = penetration*(1.0_wp + limit*step(2*n + 1))

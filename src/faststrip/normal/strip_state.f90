@@ -99,6 +99,7 @@ contains
                 end if
                 workspace%y_right(i) = middle &
                                        + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
+                if (k == patches%at(p)%n_strips) workspace%y_right(i) = patches%at(p)%y_to
                 y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
                 call gap_at(workspace%curve, y, h, a)
                 workspace%height(i) = h - workspace%curve%h_lowest
