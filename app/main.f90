@@ -8,6 +8,7 @@ program faststrip_main
     use faststrip_app_sweep, only: run_sweep
     use faststrip_app_table, only: run_table
     use faststrip_app_bench, only: run_bench
+    use faststrip_app_fuzz, only: run_fuzz
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -18,6 +19,7 @@ program faststrip_main
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
     case ('bench'); call run_bench()
+    case ('fuzz'); call run_fuzz()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -48,6 +50,7 @@ contains
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  bench integral         what influence integrals cost, by each method')
+        call say('  fuzz                   for developers: random gaps, checked')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

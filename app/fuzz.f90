@@ -1,0 +1,395 @@
+!> `faststrip fuzz`: the normal solution tried on many random gaps.
+module faststrip_app_fuzz
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_get_flag, ieee_set_flag, &
+                                             ieee_invalid, ieee_divide_by_zero, ieee_overflow
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error, status_word, st_bad_argument
+    use faststrip_text, only: integer_text
+    use faststrip_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, end_row, &
+                             close_csv
+    use faststrip_material, only: material_t, normal_compliance
+    use faststrip_influence_closed, only: strip_influence_edges
+    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strips_load
+    use faststrip_app_console, only: say, fail, fail_on_error, usage_error, progress, put_origin, &
+                                     exit_bad_input
+    use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
+                                     option_integer
+    use faststrip_app_fuzz_gaps, only: fuzz_case_t, make_fuzz_case, family_names
+    implicit none
+    private
+
+    public :: run_fuzz
+
+    real(wp), parameter :: load_tolerance = 1.0e-6_wp
+    real(wp), parameter :: overlap_tolerance = 0.02_wp ! of the penetration
+
+    !> What came of one case.
+    type :: verdict_t
+        type(status_t) :: status
+        type(normal_result_t) :: result
+        integer :: strips = 0
+        real(wp) :: load_error = 0.0_wp !! Q/Q0 - 1
+        real(wp) :: overlap = 0.0_wp    !! largest outside the patches, over the penetration
+        real(wp) :: overlap_y = 0.0_wp  !! where, mm
+        real(wp) :: time_us = 0.0_wp
+        character(len=24) :: violation = ''
+    end type verdict_t
+
+    !> One line of the table: how often a family ended with a status.
+    type :: tally_t
+        integer :: family = 0
+        integer :: code = 0
+        integer :: n = 0
+    end type tally_t
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_fuzz()
+        type(command_t) :: command
+        integer :: seed, first, cases, number, n_violations
+        type(fuzz_case_t) :: fuzz_case
+        type(verdict_t), allocatable :: verdicts(:)
+        integer, allocatable :: family(:)
+        type(strip_workspace_t) :: workspace
+        type(contact_strips_t) :: strips
+        type(gap_curve_t) :: curve
+        type(csv_writer_t) :: writer
+        type(status_t) :: written
+
+        command%name = 'fuzz'
+        command%usage = ''
+        command%about = &
+            'For developers: solve the normal problem of many random gaps by strips and check the' &
+            // new_line('a') // 'answers. A case is the same wherever the run starts. Exit code' &
+            // ' 1 if one fails a check.' // new_line('a')
+        command%options = [ &
+            option_t('--cases', 'INTEGER', 'number of cases (default 1000)'), &
+            option_t('--seed', 'INTEGER', 'which series of cases (default 1)'), &
+            option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
+            option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
+            option_t('-o', 'FILE', 'write one CSV row per case there')]
+        call parse_command(command, 0)
+        cases = option_integer(command, '--cases', 1000)
+        seed = option_integer(command, '--seed', 1)
+        first = option_integer(command, '--first', 1)
+        if (seed < 0) call usage_error('--seed is negative: ' // integer_text(seed), command%name)
+        if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
+        if (cases < 1 .or. cases > huge(cases) - first) &
+            call usage_error('--cases is below 1 or too large: ' // integer_text(cases), command%name)
+        if (given(command, '--gap-of')) then
+            number = option_integer(command, '--gap-of', 1)
+            if (number < 1) &
+                call usage_error('--gap-of is below 1: ' // integer_text(number), command%name)
+            call make_fuzz_case(seed, number, fuzz_case)
+            call write_gap(option_text(command, '-o', '-'), seed, fuzz_case)
+            return
+        end if
+        if (given(command, '-o')) then
+            call open_csv(writer, option_text(command, '-o', ''), written)
+            call fail_on_error(written)
+            call put_origin(writer)
+            call put_fuzz_header(writer)
+        end if
+        allocate (verdicts(cases), family(cases))
+        n_violations = 0
+        do number = first, first + cases - 1
+            associate (verdict => verdicts(number - first + 1))
+                call make_fuzz_case(seed, number, fuzz_case)
+                family(number - first + 1) = fuzz_case%family
+                call try_case(fuzz_case, workspace, curve, strips, verdict)
+                if (given(command, '-o')) call put_fuzz_row(writer, fuzz_case, verdict)
+                if (verdict%violation /= '') then
+                    n_violations = n_violations + 1
+                    call say('case ' // integer_text(number) // ' (' &
+                             // trim(family_names(fuzz_case%family)) // '): ' &
+                             // trim(verdict%violation) // ' ' // trim(verdict%status%message))
+                end if
+            end associate
+            call progress('case', number - first + 1, cases)
+        end do
+        if (given(command, '-o')) then
+            call close_csv(writer, written)
+            call fail_on_error(written)
+        end if
+        call print_table(family, verdicts)
+        call print_times(first, verdicts)
+        if (n_violations > 0) &
+            call fail(exit_bad_input, integer_text(n_violations) // ' of ' &
+                      // integer_text(cases) // ' cases failed a check; again with ' &
+                      // 'faststrip fuzz --seed ' // integer_text(seed) &
+                      // ' --cases 1 --first CASE')
+    end subroutine run_fuzz
+
+    !> Solve a case and judge the answer.
+    subroutine try_case(fuzz_case, workspace, curve, strips, verdict)
+        type(fuzz_case_t), intent(in) :: fuzz_case
+        type(strip_workspace_t), intent(inout) :: workspace ! grown as needed
+        type(gap_curve_t), intent(inout) :: curve
+        type(contact_strips_t), intent(inout) :: strips
+        type(verdict_t), intent(inout) :: verdict
+
+        integer(int64) :: before, after, rate
+        integer :: room
+
+        room = 3*fuzz_case%strips + 150
+        call reserve_strips(strips, room, verdict%status)
+        call reserve_strip_workspace(workspace, room, size(fuzz_case%gap%y), verdict%status)
+        call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
+        call system_clock(before, rate)
+        call set_strip_gap(workspace, fuzz_case%gap, verdict%status)
+        if (.not. is_error(verdict%status)) &
+            call strip_solve(workspace, normal_compliance(material_t()), fuzz_case%load, &
+                             strip_options_t(strips_per_patch=fuzz_case%strips), strips, &
+                             verdict%result, verdict%status)
+        call system_clock(after)
+        verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
+        if (exception_raised()) verdict%violation = 'floating exception'
+        if (fuzz_case%refused) then
+            if (verdict%status%code /= st_bad_argument) verdict%violation = 'not refused'
+        else if (is_error(verdict%status)) then
+            if (verdict%status%message == '') verdict%violation = 'no message'
+        else
+            call judge(fuzz_case, curve, strips, verdict)
+        end if
+    end subroutine try_case
+
+    logical function exception_raised()
+        logical :: invalid, by_zero, overflow
+
+        call ieee_get_flag(ieee_invalid, invalid)
+        call ieee_get_flag(ieee_divide_by_zero, by_zero)
+        call ieee_get_flag(ieee_overflow, overflow)
+        exception_raised = invalid .or. by_zero .or. overflow
+    end function exception_raised
+
+    !> Check the strips of an answer.
+    subroutine judge(fuzz_case, curve, strips, verdict)
+        type(fuzz_case_t), intent(in) :: fuzz_case
+        type(gap_curve_t), intent(inout) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        type(verdict_t), intent(inout) :: verdict
+
+        type(status_t) :: status
+        integer :: n, i
+
+        n = strips%n
+        verdict%strips = n
+        if (n < 1) then
+            verdict%violation = 'no strips'
+            return
+        end if
+        associate (left => strips%y_left(:n), right => strips%y_right(:n), p0 => strips%p0(:n), &
+                   half_length => strips%half_length(:n), result => verdict%result)
+            do i = 1, n
+                if (.not. (ieee_is_finite(left(i)) .and. ieee_is_finite(right(i)) &
+                           .and. ieee_is_finite(p0(i)) .and. ieee_is_finite(half_length(i)))) &
+                    verdict%violation = 'strip not finite'
+            end do
+            if (.not. (ieee_is_finite(result%penetration) .and. ieee_is_finite(result%area) &
+                       .and. ieee_is_finite(result%pmax) .and. ieee_is_finite(result%y_min) &
+                       .and. ieee_is_finite(result%y_max) .and. ieee_is_finite(result%x_max))) &
+                verdict%violation = 'result not finite'
+            if (verdict%violation /= '') return
+            if (any(p0 <= 0.0_wp)) verdict%violation = 'pressure not positive'
+            if (any(half_length <= 0.0_wp)) verdict%violation = 'length not positive'
+            if (any(right <= left) .or. any(left(2:) < right(:n - 1))) &
+                verdict%violation = 'edges out of order'
+            if (left(1) < fuzz_case%gap%y(1) .or. right(n) > fuzz_case%gap%y(size(fuzz_case%gap%y))) &
+                verdict%violation = 'edges outside the data'
+            if (result%area <= 0.0_wp .or. result%pmax <= 0.0_wp) &
+                verdict%violation = 'area or pmax'
+            if (verdict%violation /= '') return
+        end associate
+        verdict%load_error = strips_load(strips)/fuzz_case%load - 1.0_wp
+        if (abs(verdict%load_error) > load_tolerance) verdict%violation = 'wrong load'
+        call reserve_gap_curve(curve, size(fuzz_case%gap%y), status)
+        call set_gap_curve(curve, fuzz_case%gap, status)
+        call scan_for_overlap(curve, strips, verdict)
+        if (verdict%overlap > overlap_tolerance) verdict%violation = 'overlap outside'
+    end subroutine judge
+
+    !> Largest overlap of the deformed surfaces on the line x = 0, more than half an end strip
+    !> away from the patches: what is nearer belongs to where the ends are.
+    subroutine scan_for_overlap(curve, strips, verdict)
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        type(verdict_t), intent(inout) :: verdict
+
+        integer, parameter :: n_places = 2000
+        real(wp) :: y, h, inv2r, displacement, depth, compliance
+        integer :: i, s, next
+
+        compliance = normal_compliance(material_t())
+        associate (n => strips%n, result => verdict%result, left => strips%y_left, &
+                   right => strips%y_right)
+            next = 1
+            do i = 0, n_places
+                y = curve%y(1) + (curve%y(curve%n) - curve%y(1))*real(i, wp)/n_places
+                call gap_at(curve, y, h, inv2r)
+                if (h >= result%penetration) cycle
+                do while (next <= n)
+                    if (right(next) + 0.5_wp*(right(next) - left(next)) >= y) exit
+                    next = next + 1
+                end do
+                if (next <= n) then
+                    if (left(next) - 0.5_wp*(right(next) - left(next)) <= y) cycle
+                end if
+                displacement = 0.0_wp
+                do s = 1, n
+                    displacement = displacement + compliance*strips%p0(s)*strips%half_length(s) &
+                                   *strip_influence_edges((left(s) - y)/strips%half_length(s), &
+                                                          (right(s) - y)/strips%half_length(s))
+                end do
+                depth = (result%penetration - h - displacement) &
+                        /(result%penetration - curve%h_lowest)
+                if (depth <= verdict%overlap) cycle
+                verdict%overlap = depth
+                verdict%overlap_y = y
+            end do
+        end associate
+    end subroutine scan_for_overlap
+
+    !> Family by family, how the cases ended.
+    subroutine print_table(family, verdicts)
+        integer, intent(in) :: family(:)
+        type(verdict_t), intent(in) :: verdicts(:)
+
+        type(tally_t), allocatable :: tally(:)
+        integer :: i, j, f, n
+        character(len=80) :: line
+
+        allocate (tally(0))
+        do i = 1, size(verdicts)
+            do j = 1, size(tally)
+                if (tally(j)%family == family(i) &
+                    .and. tally(j)%code == verdicts(i)%status%code) exit
+            end do
+            if (j > size(tally)) tally = [tally, tally_t(family(i), verdicts(i)%status%code, 0)]
+            tally(j)%n = tally(j)%n + 1
+        end do
+        call say('family        status                    cases    share   failed checks')
+        do f = 0, size(family_names)
+            do j = 0, maxval(tally%code)
+                if (f == 0) then
+                    n = sum(tally%n, tally%code == j)
+                else
+                    n = sum(tally%n, tally%code == j .and. tally%family == f)
+                end if
+                if (n == 0) cycle
+                if (f == 0) then
+                    write (line, '(2a, i9, f8.2, a, i9)') 'all           ', status_word(j), n, &
+                        100.0_wp*n/size(verdicts), ' %', &
+                        count(verdicts%status%code == j .and. verdicts%violation /= '')
+                else
+                    write (line, '(a, 2x, a, i9, f8.2, a, i9)') family_names(f), status_word(j), &
+                        n, 100.0_wp*n/count(family == f), ' %', &
+                        count(verdicts%status%code == j .and. verdicts%violation /= '' &
+                              .and. family == f)
+                end if
+                call say(trim(line))
+            end do
+        end do
+    end subroutine print_table
+
+    subroutine print_times(first, verdicts)
+        integer, intent(in) :: first
+        type(verdict_t), intent(in) :: verdicts(:)
+
+        character(len=120) :: line
+        real(wp) :: low, high, middle
+        integer :: i
+
+        ! The median by halving: half of the times lie below it.
+        low = 0.0_wp
+        high = maxval(verdicts%time_us)
+        do i = 1, 60
+            middle = 0.5_wp*(low + high)
+            if (2*count(verdicts%time_us <= middle) < size(verdicts)) then
+                low = middle
+            else
+                high = middle
+            end if
+        end do
+        write (line, '(a, f0.3, a, f0.1, 2a)') 'time per case: median ', 1.0e-3_wp*high, &
+            ' ms, longest ', 1.0e-3_wp*maxval(verdicts%time_us), ' ms, case ', &
+            integer_text(first - 1 + maxloc(verdicts%time_us, dim=1))
+        call say(trim(line))
+        write (line, '(a, es8.1, a, f0.4)') 'largest load error ', &
+            maxval(abs(verdicts%load_error)), ', overlap outside over penetration ', &
+            maxval(verdicts%overlap)
+        call say(trim(line))
+    end subroutine print_times
+
+    subroutine put_fuzz_header(writer)
+        type(csv_writer_t), intent(inout) :: writer
+
+        call put_header(writer, [character(len=16) :: 'case', 'family', 'load_N', &
+                                 'strips_asked', 'points', 'status', 'violation', 'message', &
+                                 'strips', 'patches', 'penetration_mm', 'area_mm2', 'pmax_MPa', &
+                                 'ymin_mm', 'ymax_mm', 'load_error', 'overlap', 'overlap_y_mm', &
+                                 'passes', 'iterations', 'time_us'])
+    end subroutine put_fuzz_header
+
+    subroutine put_fuzz_row(writer, fuzz_case, verdict)
+        type(csv_writer_t), intent(inout) :: writer
+        type(fuzz_case_t), intent(in) :: fuzz_case
+        type(verdict_t), intent(in) :: verdict
+
+        call put_cell(writer, fuzz_case%number)
+        call put_cell(writer, trim(family_names(fuzz_case%family)))
+        call put_cell(writer, fuzz_case%load)
+        call put_cell(writer, fuzz_case%strips)
+        call put_cell(writer, size(fuzz_case%gap%y))
+        call put_cell(writer, trim(status_word(verdict%status%code)))
+        call put_cell(writer, trim(verdict%violation))
+        call put_cell(writer, trim(verdict%status%message))
+        call put_cell(writer, verdict%strips)
+        call put_cell(writer, verdict%result%n_patches)
+        call put_cell(writer, verdict%result%penetration)
+        call put_cell(writer, verdict%result%area)
+        call put_cell(writer, verdict%result%pmax)
+        call put_cell(writer, verdict%result%y_min)
+        call put_cell(writer, verdict%result%y_max)
+        call put_cell(writer, verdict%load_error)
+        call put_cell(writer, verdict%overlap)
+        call put_cell(writer, verdict%overlap_y)
+        call put_cell(writer, verdict%result%passes)
+        call put_cell(writer, verdict%result%iterations)
+        call put_cell(writer, verdict%time_us)
+        call end_row(writer)
+    end subroutine put_fuzz_row
+
+    !> Write a case's gap so that a case file can name it.
+    subroutine write_gap(path, seed, fuzz_case)
+        character(len=*), intent(in) :: path
+        integer, intent(in) :: seed
+        type(fuzz_case_t), intent(in) :: fuzz_case
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        character(len=24) :: load
+        integer :: i
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        write (load, '(es23.16)') fuzz_case%load
+        call put_comment(writer, 'random gap ' // integer_text(fuzz_case%number) // ' of seed ' &
+                         // integer_text(seed) // ': ' // trim(family_names(fuzz_case%family)) &
+                         // ', load ' // trim(adjustl(load)) // ' N, ' &
+                         // integer_text(fuzz_case%strips) // ' strips')
+        call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
+        do i = 1, size(fuzz_case%gap%y)
+            call put_cell(writer, fuzz_case%gap%y(i))
+            call put_cell(writer, fuzz_case%gap%h(i))
+            call put_cell(writer, fuzz_case%gap%inv2r(i))
+            call end_row(writer)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_gap
+end module faststrip_app_fuzz
