@@ -13,6 +13,7 @@ module faststrip_app_fuzz
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strips_load
     use faststrip_app_console, only: say, fail, fail_on_error, usage_error, progress, put_origin, &
                                      exit_bad_input
@@ -26,6 +27,15 @@ module faststrip_app_fuzz
 
     real(wp), parameter :: load_tolerance = 1.0e-6_wp
     real(wp), parameter :: overlap_tolerance = 0.02_wp ! of the penetration
+
+    !> What the solvers work in.
+    type :: room_t
+        character(len=:), allocatable :: solver !! 'strip' or 'lattice'
+        type(strip_workspace_t) :: strip
+        type(lattice_workspace_t) :: lattice
+        type(gap_curve_t) :: curve
+        type(contact_strips_t) :: strips
+    end type room_t
 
     !> What came of one case.
     type :: verdict_t
@@ -55,9 +65,7 @@ contains
         type(fuzz_case_t) :: fuzz_case
         type(verdict_t), allocatable :: verdicts(:)
         integer, allocatable :: family(:)
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
-        type(gap_curve_t) :: curve
+        type(room_t) :: room
         type(csv_writer_t) :: writer
         type(status_t) :: written
 
@@ -71,6 +79,7 @@ contains
             option_t('--cases', 'INTEGER', 'number of cases (default 1000)'), &
             option_t('--seed', 'INTEGER', 'which series of cases (default 1)'), &
             option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
+            option_t('--solver', 'NAME', 'strip (default) or lattice'), &
             option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
             option_t('-o', 'FILE', 'write one CSV row per case there')]
         call parse_command(command, 0)
@@ -81,6 +90,9 @@ contains
         if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
         if (cases < 1 .or. cases > huge(cases) - first) &
             call usage_error('--cases is below 1 or too large: ' // integer_text(cases), command%name)
+        room%solver = option_text(command, '--solver', 'strip')
+        if (room%solver /= 'strip' .and. room%solver /= 'lattice') &
+            call usage_error('unknown solver: ' // room%solver, command%name)
         if (given(command, '--gap-of')) then
             number = option_integer(command, '--gap-of', 1)
             if (number < 1) &
@@ -101,7 +113,7 @@ contains
             associate (verdict => verdicts(number - first + 1))
                 call make_fuzz_case(seed, number, fuzz_case)
                 family(number - first + 1) = fuzz_case%family
-                call try_case(fuzz_case, workspace, curve, strips, verdict)
+                call try_case(fuzz_case, room, verdict)
                 if (given(command, '-o')) call put_fuzz_row(writer, fuzz_case, verdict)
                 if (verdict%violation /= '') then
                     n_violations = n_violations + 1
@@ -126,26 +138,34 @@ contains
     end subroutine run_fuzz
 
     !> Solve a case and judge the answer.
-    subroutine try_case(fuzz_case, workspace, curve, strips, verdict)
+    subroutine try_case(fuzz_case, room, verdict)
         type(fuzz_case_t), intent(in) :: fuzz_case
-        type(strip_workspace_t), intent(inout) :: workspace ! grown as needed
-        type(gap_curve_t), intent(inout) :: curve
-        type(contact_strips_t), intent(inout) :: strips
+        type(room_t), intent(inout) :: room ! grown as needed
         type(verdict_t), intent(inout) :: verdict
 
         integer(int64) :: before, after, rate
-        integer :: room
+        integer :: max_strips
 
-        room = 3*fuzz_case%strips + 150
-        call reserve_strips(strips, room, verdict%status)
-        call reserve_strip_workspace(workspace, room, size(fuzz_case%gap%y), verdict%status)
+        max_strips = 3*fuzz_case%strips + 150
+        call reserve_strips(room%strips, max_strips, verdict%status)
+        call reserve_gap_curve(room%curve, size(fuzz_case%gap%y), verdict%status)
+        if (room%solver == 'lattice') then
+            call reserve_lattice(room%lattice, max_strips, verdict%status)
+        else
+            call reserve_strip_workspace(room%strip, max_strips, size(fuzz_case%gap%y), &
+                                         verdict%status)
+        end if
         call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
         call system_clock(before, rate)
-        call set_strip_gap(workspace, fuzz_case%gap, verdict%status)
-        if (.not. is_error(verdict%status)) &
-            call strip_solve(workspace, normal_compliance(material_t()), fuzz_case%load, &
-                             strip_options_t(strips_per_patch=fuzz_case%strips), strips, &
-                             verdict%result, verdict%status)
+        if (room%solver == 'lattice') then
+            call solve_by_lattice(fuzz_case, room, verdict)
+        else
+            call set_strip_gap(room%strip, fuzz_case%gap, verdict%status)
+            if (.not. is_error(verdict%status)) &
+                call strip_solve(room%strip, normal_compliance(material_t()), fuzz_case%load, &
+                                 strip_options_t(strips_per_patch=fuzz_case%strips), &
+                                 room%strips, verdict%result, verdict%status)
+        end if
         call system_clock(after)
         verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
         if (exception_raised()) verdict%violation = 'floating exception'
@@ -154,9 +174,31 @@ contains
         else if (is_error(verdict%status)) then
             if (verdict%status%message == '') verdict%violation = 'no message'
         else
-            call judge(fuzz_case, curve, strips, verdict)
+            call judge(fuzz_case, room%curve, room%strips, verdict)
         end if
     end subroutine try_case
+
+    subroutine solve_by_lattice(fuzz_case, room, verdict)
+        type(fuzz_case_t), intent(in) :: fuzz_case
+        type(room_t), intent(inout) :: room
+        type(verdict_t), intent(inout) :: verdict
+
+        call set_gap_curve(room%curve, fuzz_case%gap, verdict%status)
+        if (is_error(verdict%status)) return
+        call lattice_solve(room%lattice, room%curve, normal_compliance(material_t()), &
+                           fuzz_case%load, fuzz_case%strips, room%strips, &
+                           verdict%result%penetration, verdict%status)
+        if (is_error(verdict%status)) return
+        associate (n => room%strips%n, strips => room%strips)
+            verdict%result%area = 2.0_wp*sum(strips%half_length(:n) &
+                                             *(strips%y_right(:n) - strips%y_left(:n)))
+            verdict%result%pmax = maxval(strips%p0(:n))
+            verdict%result%x_max = maxval(strips%half_length(:n))
+            verdict%result%y_min = strips%y_left(1)
+            verdict%result%y_max = strips%y_right(n)
+            verdict%result%n_patches = strips%n_patches
+        end associate
+    end subroutine solve_by_lattice
 
     logical function exception_raised()
         logical :: invalid, by_zero, overflow
@@ -207,7 +249,6 @@ contains
         end associate
         verdict%load_error = strips_load(strips)/fuzz_case%load - 1.0_wp
         if (abs(verdict%load_error) > load_tolerance) verdict%violation = 'wrong load'
-        call reserve_gap_curve(curve, size(fuzz_case%gap%y), status)
         call set_gap_curve(curve, fuzz_case%gap, status)
         call scan_for_overlap(curve, strips, verdict)
         if (verdict%overlap > overlap_tolerance) verdict%violation = 'overlap outside'

@@ -1,0 +1,748 @@
+!> Normal contact by strips on a lattice with an active set: slower to settle and coarser at the
+!> ends of a patch than `faststrip_normal_strip`, but with an answer for every gap.
+!>
+!> A patch is divided into even cells. For given strip lengths the pressures are the solution of
+!> a linear complementarity problem on the centre lines: a strip either presses and its gap is
+!> closed, or it carries nothing and its gap is open. It is solved by an active set that turns to
+!> only dropping strips when it takes too long; the load makes sure that one is left. The lengths
+!> move towards closing the gap at the exact tip,
+!>
+!>     A_k xd_k^2 = D - h_k - H sum_s p0_s I_ks(xd_k),
+!>
+!> each strip by a step of its own that shrinks when it turns around. Whenever this is stopped,
+!> the pressures are positive and carry the load. The lattice is then laid anew over the patches
+!> found, and over places where the deformed surfaces overlap between and beyond them.
+module faststrip_normal_lattice
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
+                                st_no_contact, st_out_of_range, st_edge_of_data, &
+                                st_linear_algebra, st_workspace_too_small
+    use faststrip_influence_closed, only: strip_influence_edges
+    use faststrip_influence_offcentre, only: strip_influence_at
+    use faststrip_numerics_lapack, only: dgetrf, dgetrs
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    implicit none
+    private
+
+    public :: lattice_workspace_t, reserve_lattice, lattice_solve, lattice_solve_penetration
+    public :: most_lattice_strips
+
+    !> More strips across the largest patch are not used, however many are asked for.
+    integer, parameter :: most_lattice_strips = 101
+
+    integer, parameter :: fewest_cells = 5       ! across a patch, if there is room
+    integer, parameter :: max_ranges = 64
+    integer, parameter :: max_layings = 20
+    integer, parameter :: max_length_steps = 60
+    real(wp), parameter :: length_tolerance = 1.0e-6_wp ! of ln xd
+    real(wp), parameter :: largest_length_step = 0.7_wp ! of ln xd
+    real(wp), parameter :: shortest_ratio = 0.1_wp   ! of a strip to its longer neighbour
+    real(wp), parameter :: end_tolerance = 0.02_wp   ! of a cell
+    real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
+    real(wp), parameter :: start_level = 0.55_wp     ! of the penetration: virtual penetration
+    real(wp), parameter :: start_factor = 0.6_wp     ! of the plane-strain pressure
+    real(wp), parameter :: flattest = 1.0e-9_wp      ! smallest A = 1/(2R) used, 1/mm
+    real(wp), parameter :: smallest_penetration = 1.0e-60_wp, largest_penetration = 1.0e60_wp
+
+    !> Everything a solution needs besides its input; owned by the caller, one per thread.
+    type :: lattice_workspace_t
+        private
+        integer :: max_strips = 0
+        integer :: n = 0           ! cells
+        integer :: n_ranges = 0    ! ranges of y, each divided into even cells
+        real(wp) :: y_from(max_ranges) = 0.0_wp, y_to(max_ranges) = 0.0_wp ! mm
+        integer :: cells(max_ranges) = 0
+        real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:), p0(:)
+        real(wp), allocatable :: half_length(:), factor(:), last_step(:)
+        real(wp), allocatable :: old_y(:), old_half_length(:)
+        real(wp), allocatable :: influence(:, :), matrix(:, :), column(:, :)
+        integer, allocatable :: pivot(:), at(:)
+        logical, allocatable :: presses(:)
+    end type lattice_workspace_t
+
+contains
+
+    !> Make room; the only allocation, to be done before the first solution.
+    subroutine reserve_lattice(workspace, max_strips, status)
+        type(lattice_workspace_t), intent(inout) :: workspace !! sized
+        integer, intent(in) :: max_strips     !! strips of all patches together, >= 3
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
+        call clear_status(status)
+        if (max_strips < 3) then
+            call set_status(status, st_bad_argument, 'room for fewer than 3 strips asked')
+            return
+        end if
+        if (workspace%max_strips >= max_strips) return
+        if (allocated(workspace%p0)) deallocate ( &
+            workspace%y_left, workspace%y_right, workspace%height, workspace%inv2r, workspace%p0, &
+            workspace%half_length, workspace%factor, workspace%last_step, workspace%old_y, &
+            workspace%old_half_length, workspace%influence, workspace%matrix, workspace%column, &
+            workspace%pivot, workspace%at, workspace%presses)
+        associate (m => max_strips)
+            allocate (workspace%y_left(m), workspace%y_right(m), workspace%height(m), &
+                      workspace%inv2r(m), workspace%p0(m), workspace%half_length(m), &
+                      workspace%factor(m), workspace%last_step(m), workspace%old_y(m), &
+                      workspace%old_half_length(m), source=0.0_wp)
+            allocate (workspace%influence(m, m), workspace%matrix(m, m), workspace%column(m, 2), &
+                      source=0.0_wp)
+            allocate (workspace%pivot(m), workspace%at(m), source=0)
+            allocate (workspace%presses(m), source=.false.)
+        end associate
+        workspace%max_strips = max_strips
+    end subroutine reserve_lattice
+
+    !> Strips that carry a load.
+    !>
+    !> The strips carry the load to rounding, whether the ends of the patches settled or not.
+    subroutine lattice_solve(workspace, curve, compliance, load, n_strips, strips, penetration, &
+                             status)
+        type(lattice_workspace_t), intent(inout) :: workspace !! reserved beforehand
+        type(gap_curve_t), intent(in) :: curve      !! a gap that was set
+        real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: load                !! normal force Q, N
+        integer, intent(in) :: n_strips             !! across the largest patch, >= 3
+        type(contact_strips_t), intent(inout) :: strips !! reserved; those that press
+        real(wp), intent(out) :: penetration        !! approach D of the bodies, from h = 0, mm
+        type(status_t), intent(out) :: status
+            !! `st_not_finite`, `st_bad_load`, `st_bad_material`, `st_bad_argument` (n_strips),
+            !! `st_workspace_too_small`, `st_out_of_range` (a contact beyond all proportion),
+            !! `st_linear_algebra`; `st_edge_of_data`: the contact runs to the end of the points
+
+        real(wp) :: depth
+
+        penetration = 0.0_wp
+        strips%n = 0
+        strips%n_patches = 0
+        call check_input(workspace, curve, compliance, load, n_strips, strips, status)
+        if (is_error(status)) return
+        if (load <= 0.0_wp) then
+            call set_status(status, st_bad_load, &
+                            'the load is not positive: ' // trim(number_text(load)) // ' N')
+            return
+        end if
+        call start_depth(curve, compliance, load, depth)
+        call solve(workspace, curve, compliance, load, .true., n_strips, strips, depth, status)
+        if (.not. is_error(status)) penetration = depth + curve%h_lowest
+    end subroutine lattice_solve
+
+    !> Strips at a given approach of the bodies; `strips_load` tells what they carry.
+    subroutine lattice_solve_penetration(workspace, curve, compliance, penetration, n_strips, &
+                                         strips, status)
+        type(lattice_workspace_t), intent(inout) :: workspace !! reserved beforehand
+        type(gap_curve_t), intent(in) :: curve      !! a gap that was set
+        real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: penetration         !! approach D of the bodies, from h = 0, mm
+        integer, intent(in) :: n_strips             !! across the largest patch, >= 3
+        type(contact_strips_t), intent(inout) :: strips !! reserved; those that press
+        type(status_t), intent(out) :: status       !! as `lattice_solve`; `st_no_contact`
+
+        real(wp) :: depth
+
+        strips%n = 0
+        strips%n_patches = 0
+        call check_input(workspace, curve, compliance, penetration, n_strips, strips, status)
+        if (is_error(status)) return
+        depth = penetration - curve%h_lowest
+        if (depth <= 0.0_wp) then
+            call set_status(status, st_no_contact, 'the bodies do not meet: penetration ' // &
+                            trim(number_text(penetration)) // ' mm, lowest gap ' // &
+                            trim(number_text(curve%h_lowest)) // ' mm')
+            return
+        end if
+        call solve(workspace, curve, compliance, depth, .false., n_strips, strips, depth, status)
+    end subroutine lattice_solve_penetration
+
+    subroutine check_input(workspace, curve, compliance, target, n_strips, strips, status)
+        type(lattice_workspace_t), intent(in) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, target
+        integer, intent(in) :: n_strips
+        type(contact_strips_t), intent(in) :: strips
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (.not. ieee_is_finite(target)) then
+            call set_status(status, st_not_finite, &
+                            'load or penetration is not a finite number: ' // number_text(target))
+        else if (.not. ieee_is_finite(compliance)) then
+            call set_status(status, st_not_finite, &
+                            'the compliance is not a finite number: ' // number_text(compliance))
+        else if (compliance <= 0.0_wp) then
+            call set_status(status, st_bad_material, &
+                            'the compliance is not positive: ' // number_text(compliance))
+        else if (n_strips < 3) then
+            call set_status(status, st_bad_argument, 'fewer than 3 strips per patch asked')
+        else if (curve%n == 0) then
+            call set_status(status, st_workspace_too_small, 'no gap was set')
+        else if (.not. allocated(strips%p0)) then
+            call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
+        else if (min(workspace%max_strips, size(strips%p0)) < min(n_strips, most_lattice_strips)) then
+            call set_status(status, st_workspace_too_small, &
+                            'the patch needs more strips than there is room for')
+        end if
+    end subroutine check_input
+
+    !> Penetration, above the lowest height, at which pressures of 0.6 of the plane-strain one
+    !> where the gap is below 0.55 D carry the load.
+    pure subroutine start_depth(curve, compliance, load, depth)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, load
+        real(wp), intent(out) :: depth
+
+        real(wp) :: low, high
+        integer :: i
+
+        low = smallest_penetration
+        high = largest_penetration
+        do i = 1, 60
+            depth = sqrt(low)*sqrt(high)
+            if (start_load(curve, compliance, depth) < load) then
+                low = depth
+            else
+                high = depth
+            end if
+            if (high < 1.2_wp*low) exit
+        end do
+    end subroutine start_depth
+
+    pure real(wp) function start_load(curve, compliance, depth) result(load)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth
+
+        integer, parameter :: n_points = 8
+        real(wp) :: y_from(max_ranges), y_to(max_ranges), h, inv2r, level, width
+        integer :: i, j, n
+
+        level = curve%h_lowest + start_level*depth
+        call level_intervals(curve, level, y_from, y_to, n)
+        load = 0.0_wp
+        do i = 1, n
+            width = (y_to(i) - y_from(i))/n_points
+            do j = 1, n_points
+                call gap_at(curve, y_from(i) + (j - 0.5_wp)*width, h, inv2r)
+                load = load + max(level - h, 0.0_wp)*width
+            end do
+        end do
+        load = start_factor*(load/compliance)
+    end function start_load
+
+    !> Lay lattices until the ends of the patches settle; keep the best.
+    subroutine solve(workspace, curve, compliance, target, by_load, n_strips, strips, depth, status)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance
+        real(wp), intent(in) :: target  ! load, N, or penetration above the lowest height, mm
+        logical, intent(in) :: by_load
+        integer, intent(in) :: n_strips
+        type(contact_strips_t), intent(inout) :: strips
+        real(wp), intent(inout) :: depth ! penetration above the lowest height: first guess, result
+        type(status_t), intent(out) :: status
+
+        real(wp) :: move, overlap, worth, best_worth, best_depth, residual
+        integer :: laying, room, wanted
+        logical :: done
+
+        call clear_status(status)
+        if (depth <= 2.0_wp*smallest_penetration .or. depth >= 0.5_wp*largest_penetration) then
+            call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
+                            'penetration ' // trim(number_text(depth)) // ' mm')
+            return
+        end if
+        room = min(workspace%max_strips, size(strips%p0))
+        wanted = min(n_strips, most_lattice_strips)
+        call first_ranges(workspace, curve, depth)
+        workspace%n = 0
+        best_worth = huge(1.0_wp)
+        best_depth = depth
+        do laying = 1, max_layings
+            call lay(workspace, curve, wanted, room, depth)
+            call settle_lengths(workspace, compliance, target, by_load, depth, residual, done)
+            if (.not. done) exit
+            call next_ranges(workspace, curve, compliance, depth, move, overlap)
+            worth = max(move, 10.0_wp*overlap, residual)
+            if (worth < best_worth) then
+                best_worth = worth
+                best_depth = depth
+                call record(workspace, strips)
+            end if
+            if (move < end_tolerance .and. overlap < overlap_tolerance) exit
+        end do
+        depth = best_depth
+        if (strips%n == 0) then
+            call set_status(status, st_linear_algebra, &
+                            'the influence numbers of the lattice are singular')
+        else if (strips%y_left(1) <= curve%y(1) &
+                 .or. strips%y_right(strips%n) >= curve%y(curve%n)) then
+            call set_status(status, st_edge_of_data, &
+                            'the contact runs to the end of the gap data')
+        end if
+    end subroutine solve
+
+    !> The first ranges are where the gap is below 0.55 D; one range from the first to the last
+    !> if there are too many.
+    pure subroutine first_ranges(workspace, curve, depth)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: depth
+
+        real(wp) :: level
+        integer :: n, j
+
+        level = curve%h_lowest + start_level*depth
+        call level_intervals(curve, level, workspace%y_from, workspace%y_to, n)
+        if (n == max_ranges) then
+            do j = curve%n_pieces + 1, 2, -1
+                if (curve%h_node(j) < level) exit
+            end do
+            n = 1
+            workspace%y_to(1) = curve%y_node(min(j + 1, curve%n_pieces + 1))
+        end if
+        workspace%n_ranges = n
+    end subroutine first_ranges
+
+    !> Divide the ranges into even cells, with lengths from the last lattice.
+    pure subroutine lay(workspace, curve, wanted, room, depth)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: wanted, room
+        real(wp), intent(in) :: depth
+
+        real(wp) :: widest, width, h, a, y
+        integer :: r, k, i, n_old, fewest, share, near
+
+        n_old = 0
+        do k = 1, workspace%n
+            if (.not. workspace%presses(k)) cycle
+            n_old = n_old + 1
+            workspace%old_y(n_old) = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
+            workspace%old_half_length(n_old) = workspace%half_length(k)
+        end do
+        associate (from => workspace%y_from, to => workspace%y_to, cells => workspace%cells, &
+                   m => workspace%n_ranges)
+            widest = maxval(to(:m) - from(:m))
+            fewest = min(fewest_cells, wanted)
+            do share = wanted, 1, -1
+                fewest = min(fewest, share)
+                do r = 1, m
+                    cells(r) = max(fewest, nint(share*((to(r) - from(r))/widest)))
+                end do
+                if (sum(cells(:m)) <= room) exit
+            end do
+            m = min(m, room)
+            i = 0
+            do r = 1, m
+                width = (to(r) - from(r))/cells(r)
+                do k = 1, cells(r)
+                    i = i + 1
+                    workspace%y_left(i) = from(r) + (k - 1)*width
+                    workspace%y_right(i) = from(r) + k*width
+                    if (k == cells(r)) workspace%y_right(i) = to(r)
+                    if (k > 1) workspace%y_right(i - 1) = workspace%y_left(i)
+                    y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
+                    call gap_at(curve, y, h, a)
+                    workspace%height(i) = h - curve%h_lowest
+                    workspace%inv2r(i) = max(a, flattest)
+                    if (n_old > 0) then
+                        near = minloc(abs(workspace%old_y(:n_old) - y), dim=1)
+                        workspace%half_length(i) = workspace%old_half_length(near)
+                    else
+                        h = max(start_level*depth - workspace%height(i), 0.01_wp*depth)
+                        workspace%half_length(i) = sqrt(h/workspace%inv2r(i))
+                    end if
+                end do
+            end do
+        end associate
+        workspace%n = i
+        workspace%presses(:i) = .true.
+    end subroutine lay
+
+    !> Alternate between pressures for given lengths and steps of the lengths.
+    subroutine settle_lengths(workspace, compliance, target, by_load, depth, residual, done)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance, target
+        logical, intent(in) :: by_load
+        real(wp), intent(inout) :: depth
+        real(wp), intent(out) :: residual ! last change of a length, relative
+        logical, intent(out) :: done
+
+        real(wp) :: step, y, tip, shortest
+        integer :: i, k, s, n
+
+        n = workspace%n
+        workspace%factor(:n) = 1.0_wp
+        workspace%last_step(:n) = 0.0_wp
+        residual = huge(1.0_wp)
+        do i = 1, max_length_steps
+            do s = 1, n
+                do k = 1, n
+                    y = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
+                    workspace%influence(k, s) = compliance*workspace%half_length(s) &
+                        *strip_influence_edges((workspace%y_left(s) - y)/workspace%half_length(s), &
+                                               (workspace%y_right(s) - y)/workspace%half_length(s))
+                end do
+            end do
+            call find_pressures(workspace, target, by_load, depth, done)
+            if (.not. done) return
+            residual = 0.0_wp
+            do k = 1, n
+                if (.not. workspace%presses(k)) cycle
+                y = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
+                tip = depth - workspace%height(k)
+                do s = 1, n
+                    if (.not. workspace%presses(s)) cycle
+                    tip = tip - compliance*workspace%p0(s)*workspace%half_length(s) &
+                          *strip_influence_at(workspace%half_length(k)/workspace%half_length(s), &
+                                              (workspace%y_left(s) - y)/workspace%half_length(s), &
+                                              (workspace%y_right(s) - y)/workspace%half_length(s))
+                end do
+                step = tip/(workspace%inv2r(k)*workspace%half_length(k)**2)
+                step = 0.5_wp*log(max(step, 0.2_wp))
+                residual = max(residual, abs(step))
+                if (step*workspace%last_step(k) < 0.0_wp) then
+                    workspace%factor(k) = max(0.5_wp*workspace%factor(k), 0.05_wp)
+                else
+                    workspace%factor(k) = min(1.2_wp*workspace%factor(k), 2.0_wp)
+                end if
+                workspace%last_step(k) = step
+            end do
+            if (residual < length_tolerance .or. i == max_length_steps) exit
+            do k = 1, n
+                if (.not. workspace%presses(k)) cycle
+                step = workspace%factor(k)*workspace%last_step(k)
+                step = max(-largest_length_step, min(largest_length_step, step))
+                workspace%half_length(k) = workspace%half_length(k)*exp(step)
+            end do
+            do k = 1, n
+                shortest = 0.0_wp
+                if (k > 1) shortest = max(shortest, workspace%half_length(k - 1))
+                if (k < n) shortest = max(shortest, workspace%half_length(k + 1))
+                workspace%half_length(k) = max(workspace%half_length(k), shortest_ratio*shortest)
+            end do
+        end do
+    end subroutine settle_lengths
+
+    !> Pressures for given lengths: closed gap where a strip presses, open gap where not.
+    subroutine find_pressures(workspace, target, by_load, depth, done)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: target
+        logical, intent(in) :: by_load
+        real(wp), intent(inout) :: depth
+        logical, intent(out) :: done
+
+        real(wp) :: force, load_per_depth, load_of_heights, overlap, deepest
+        integer :: round, n, m, i, j, k, info, add
+        logical :: changed
+
+        n = workspace%n
+        done = .false.
+        do round = 1, 5*n + 20
+            m = 0
+            do k = 1, n
+                if (.not. workspace%presses(k)) cycle
+                m = m + 1
+                workspace%at(m) = k
+            end do
+            do j = 1, m
+                do i = 1, m
+                    workspace%matrix(i, j) = workspace%influence(workspace%at(i), workspace%at(j))
+                end do
+                workspace%column(j, 1) = 1.0_wp
+                workspace%column(j, 2) = workspace%height(workspace%at(j))/depth
+            end do
+            call dgetrf(m, m, workspace%matrix, size(workspace%matrix, 1), workspace%pivot, info)
+            if (info /= 0) return
+            call dgetrs('N', m, 2, workspace%matrix, size(workspace%matrix, 1), workspace%pivot, &
+                        workspace%column, size(workspace%column, 1), info)
+            load_per_depth = 0.0_wp
+            load_of_heights = 0.0_wp
+            do i = 1, m
+                k = workspace%at(i)
+                force = strip_load(1.0_wp, workspace%half_length(k), &
+                                   workspace%y_right(k) - workspace%y_left(k))
+                load_per_depth = load_per_depth + force*workspace%column(i, 1)
+                load_of_heights = load_of_heights + force*workspace%column(i, 2)*depth
+            end do
+            workspace%column(:m, 2) = workspace%column(:m, 2)*depth
+            if (by_load) then
+                if (load_per_depth <= 0.0_wp) return
+                depth = (target + load_of_heights)/load_per_depth
+            else
+                depth = target
+            end if
+            workspace%p0(:n) = 0.0_wp
+            do i = 1, m
+                workspace%p0(workspace%at(i)) = depth*workspace%column(i, 1) - workspace%column(i, 2)
+            end do
+            changed = .false.
+            if (m > 1) then
+                do i = 1, m
+                    k = workspace%at(i)
+                    if (workspace%p0(k) > 0.0_wp) cycle
+                    workspace%presses(k) = .false.
+                    changed = .true.
+                end do
+            else if (workspace%p0(workspace%at(1)) <= 0.0_wp) then
+                return
+            end if
+            if (changed) then
+                if (.not. any(workspace%presses(:n))) return
+                cycle
+            end if
+            if (round > 3*n + 10) exit
+            ! Where a strip that carries nothing overlaps most, it has to press.
+            add = 0
+            deepest = 1.0e-9_wp*depth
+            do k = 1, n
+                if (workspace%presses(k)) cycle
+                overlap = depth - workspace%height(k) &
+                          - dot_product(workspace%influence(k, :n), workspace%p0(:n))
+                if (overlap <= deepest) cycle
+                deepest = overlap
+                add = k
+            end do
+            if (add == 0) exit
+            workspace%presses(add) = .true.
+        end do
+        done = all(workspace%p0(:n) > 0.0_wp .eqv. workspace%presses(:n))
+    end subroutine find_pressures
+
+    !> The ranges of the next lattice: the patches found, with their ends carried on, and places
+    !> where the surfaces overlap.
+    pure subroutine next_ranges(workspace, curve, compliance, depth, move, overlap)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth
+        real(wp), intent(out) :: move    ! largest move of an end, in cells
+        real(wp), intent(out) :: overlap ! deepest outside the patches, of the penetration
+
+        real(wp) :: from(2*max_ranges), to(2*max_ranges), finest, widest
+        integer :: first, last, k, m
+
+        m = 0
+        move = 0.0_wp
+        last = 0
+        do
+            first = last + 1
+            do while (first <= workspace%n)
+                if (workspace%presses(first)) exit
+                first = first + 1
+            end do
+            if (first > workspace%n) exit
+            last = first
+            do while (last < workspace%n)
+                if (.not. workspace%presses(last + 1) &
+                    .or. workspace%y_left(last + 1) > workspace%y_right(last)) exit
+                last = last + 1
+            end do
+            if (m == max_ranges) exit
+            m = m + 1
+            call carry_on(workspace, first, last, 1, from(m), move)
+            call carry_on(workspace, last, first, -1, to(m), move)
+            from(m) = max(from(m), curve%y(1))
+            to(m) = min(to(m), curve%y(curve%n))
+        end do
+        call add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
+        ! In the order of y, joined where they meet.
+        do k = 2, m
+            first = k
+            do while (first > 1)
+                if (from(first - 1) <= from(first)) exit
+                from(first - 1:first) = from([first, first - 1])
+                to(first - 1:first) = to([first, first - 1])
+                first = first - 1
+            end do
+        end do
+        widest = maxval(to(:m) - from(:m))
+        finest = 1.0e-3_wp*widest
+        workspace%n_ranges = 0
+        do k = 1, m
+            last = workspace%n_ranges
+            if (last > 0) then
+                if (from(k) - workspace%y_to(last) < finest .or. last == max_ranges) then
+                    workspace%y_to(last) = max(workspace%y_to(last), to(k))
+                    cycle
+                end if
+            end if
+            workspace%n_ranges = last + 1
+            workspace%y_from(last + 1) = from(k)
+            workspace%y_to(last + 1) = to(k)
+        end do
+    end subroutine next_ranges
+
+    !> Where the squared length, carried on from the strips at an end of a patch, vanishes.
+    pure subroutine carry_on(workspace, outer, inner, inward, y_end, move)
+        type(lattice_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: outer, inner ! the strips at this end and at the other
+        integer, intent(in) :: inward       ! 1 at a left end, -1 at a right one
+        real(wp), intent(out) :: y_end
+        real(wp), intent(inout) :: move
+
+        real(wp) :: width, q2, q3, bend, slope, discriminant, s
+        integer :: n
+
+        n = abs(inner - outer) + 1
+        width = workspace%y_right(outer) - workspace%y_left(outer)
+        s = 0.5_wp
+        if (n >= 2) then
+            ! q = 1 + slope s + bend s^2, s in cells outwards from the middle of the outer strip
+            q2 = (workspace%half_length(outer + inward)/workspace%half_length(outer))**2
+            slope = 1.0_wp - q2
+            bend = 0.0_wp
+            if (n >= 3) then
+                q3 = (workspace%half_length(outer + 2*inward)/workspace%half_length(outer))**2
+                bend = 0.5_wp*(1.0_wp - 2.0_wp*q2 + q3)
+                slope = slope + bend
+            end if
+            discriminant = slope**2 - 4.0_wp*bend
+            s = 2.0_wp
+            if (discriminant >= 0.0_wp .and. slope < 0.0_wp) then
+                s = 2.0_wp/(sqrt(discriminant) - slope)
+            else if (bend < 0.0_wp) then
+                s = 2.0_wp/(sqrt(discriminant) - slope)
+            end if
+            s = max(0.0_wp, min(2.0_wp, s))
+        end if
+        move = max(move, abs(s - 0.5_wp))
+        y_end = 0.5_wp*(workspace%y_left(outer) + workspace%y_right(outer)) - inward*s*width
+    end subroutine carry_on
+
+    !> Add a range around the deepest overlap of each stretch outside the strips that press.
+    pure subroutine add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
+        type(lattice_workspace_t), intent(in) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth
+        real(wp), intent(inout) :: from(:), to(:)
+        integer, intent(inout) :: m
+        real(wp), intent(out) :: overlap
+
+        integer :: r, n_solved
+        real(wp) :: low, high, solved_from(size(from)), solved_to(size(to))
+
+        overlap = 0.0_wp
+        n_solved = m
+        solved_from(:m) = from(:m)
+        solved_to(:m) = to(:m)
+        low = curve%y(1)
+        do r = 1, n_solved + 1
+            high = curve%y(curve%n)
+            if (r <= n_solved) high = solved_from(r)
+            if (high > low .and. m < size(from)) &
+                call add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, overlap)
+            if (r <= n_solved) low = max(low, solved_to(r))
+        end do
+    end subroutine add_overlaps
+
+    pure subroutine add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, overlap)
+        type(lattice_workspace_t), intent(in) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth, low, high
+        real(wp), intent(inout) :: from(:), to(:)
+        integer, intent(inout) :: m
+        real(wp), intent(inout) :: overlap
+
+        integer, parameter :: n_places = 32
+        real(wp) :: y, deepest, y_deepest, here
+        integer :: j, first, last, middle
+
+        deepest = overlap_tolerance*depth
+        y_deepest = low
+        ! Nodes of the curve in the stretch, its minima among them
+        first = 1
+        last = curve%n_pieces + 1
+        do while (last - first > 1)
+            middle = (first + last)/2
+            if (curve%y_node(middle) <= low) then
+                first = middle
+            else
+                last = middle
+            end if
+        end do
+        do j = first, curve%n_pieces + 1
+            if (curve%y_node(j) >= high) exit
+            if (curve%y_node(j) <= low) cycle
+            if (curve%h_node(j) - curve%h_lowest >= depth - deepest) cycle
+            here = overlap_at(workspace, curve, compliance, depth, curve%y_node(j))
+            if (here <= deepest) cycle
+            deepest = here
+            y_deepest = curve%y_node(j)
+        end do
+        do j = 1, n_places
+            y = low + (high - low)*(j - 0.5_wp)/n_places
+            here = overlap_at(workspace, curve, compliance, depth, y)
+            if (here <= deepest) cycle
+            deepest = here
+            y_deepest = y
+        end do
+        if (y_deepest <= low) return
+        overlap = max(overlap, deepest/depth)
+        m = m + 1
+        from(m) = edge_of_overlap(-1.0_wp)
+        to(m) = edge_of_overlap(1.0_wp)
+
+    contains
+
+        !> Where the overlap ends, found within a factor of two.
+        pure real(wp) function edge_of_overlap(direction) result(y_edge)
+            real(wp), intent(in) :: direction
+
+            real(wp) :: reach
+            integer :: i
+
+            reach = max(high - y_deepest, y_deepest - low)
+            do i = 1, 40
+                y_edge = min(max(y_deepest + direction*reach, low), high)
+                if (overlap_at(workspace, curve, compliance, depth, y_edge) > 0.0_wp) exit
+                reach = 0.5_wp*reach
+            end do
+        end function edge_of_overlap
+    end subroutine add_overlap
+
+    !> By how much the deformed surfaces overlap, mm; less than zero: the gap.
+    pure real(wp) function overlap_at(workspace, curve, compliance, depth, y) result(overlap)
+        type(lattice_workspace_t), intent(in) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth, y
+
+        real(wp) :: h, inv2r
+        integer :: s
+
+        call gap_at(curve, y, h, inv2r)
+        overlap = depth - (h - curve%h_lowest)
+        do s = 1, workspace%n
+            if (.not. workspace%presses(s) .or. overlap <= 0.0_wp) cycle
+            overlap = overlap - compliance*workspace%p0(s)*workspace%half_length(s) &
+                      *strip_influence_edges((workspace%y_left(s) - y)/workspace%half_length(s), &
+                                             (workspace%y_right(s) - y)/workspace%half_length(s))
+        end do
+    end function overlap_at
+
+    !> Hand over the strips that press.
+    pure subroutine record(workspace, strips)
+        type(lattice_workspace_t), intent(in) :: workspace
+        type(contact_strips_t), intent(inout) :: strips
+
+        integer :: k, n
+
+        n = 0
+        strips%n_patches = 0
+        do k = 1, workspace%n
+            if (.not. workspace%presses(k)) cycle
+            n = n + 1
+            strips%y_left(n) = workspace%y_left(k)
+            strips%y_right(n) = workspace%y_right(k)
+            strips%half_length(n) = workspace%half_length(k)
+            strips%p0(n) = workspace%p0(k)
+            if (n == 1) then
+                strips%n_patches = 1
+            else if (strips%y_left(n) > strips%y_right(n - 1)) then
+                strips%n_patches = strips%n_patches + 1
+            end if
+            strips%patch(n) = strips%n_patches
+        end do
+        strips%n = n
+    end subroutine record
+end module faststrip_normal_lattice
