@@ -37,7 +37,8 @@ module faststrip_normal_lattice
     integer, parameter :: max_ranges = 64
     integer, parameter :: max_layings = 20
     integer, parameter :: max_length_steps = 60
-    real(wp), parameter :: length_tolerance = 1.0e-6_wp ! of ln xd
+    integer, parameter :: max_block_rounds = 8
+    real(wp), parameter :: loose_tolerance = 1.0e-3_wp, tight_tolerance = 1.0e-6_wp ! of ln xd
     real(wp), parameter :: largest_length_step = 0.7_wp ! of ln xd
     real(wp), parameter :: shortest_ratio = 0.1_wp   ! of a strip to its longer neighbour
     real(wp), parameter :: end_tolerance = 0.02_wp   ! of a cell
@@ -242,7 +243,7 @@ contains
         real(wp), intent(inout) :: depth ! penetration above the lowest height: first guess, result
         type(status_t), intent(out) :: status
 
-        real(wp) :: move, overlap, worth, best_worth, best_depth, residual
+        real(wp) :: move, overlap, worth, best_worth, best_depth, residual, tolerance
         integer :: laying, room, wanted
         logical :: done
 
@@ -258,9 +259,11 @@ contains
         workspace%n = 0
         best_worth = huge(1.0_wp)
         best_depth = depth
+        tolerance = loose_tolerance
         do laying = 1, max_layings
             call lay(workspace, curve, wanted, room, depth)
-            call settle_lengths(workspace, compliance, target, by_load, depth, residual, done)
+            call settle_lengths(workspace, compliance, target, by_load, tolerance, depth, residual, &
+                                done)
             if (.not. done) exit
             call next_ranges(workspace, curve, compliance, depth, move, overlap)
             worth = max(move, 10.0_wp*overlap, residual)
@@ -269,7 +272,10 @@ contains
                 best_depth = depth
                 call record(workspace, strips)
             end if
-            if (move < end_tolerance .and. overlap < overlap_tolerance) exit
+            if (move < end_tolerance .and. overlap < overlap_tolerance) then
+                if (tolerance <= tight_tolerance) exit
+                tolerance = tight_tolerance
+            end if
         end do
         depth = best_depth
         if (strips%n == 0) then
@@ -361,10 +367,12 @@ contains
     end subroutine lay
 
     !> Alternate between pressures for given lengths and steps of the lengths.
-    subroutine settle_lengths(workspace, compliance, target, by_load, depth, residual, done)
+    subroutine settle_lengths(workspace, compliance, target, by_load, tolerance, depth, residual, &
+                              done)
         type(lattice_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, target
         logical, intent(in) :: by_load
+        real(wp), intent(in) :: tolerance
         real(wp), intent(inout) :: depth
         real(wp), intent(out) :: residual ! last change of a length, relative
         logical, intent(out) :: done
@@ -409,7 +417,7 @@ contains
                 end if
                 workspace%last_step(k) = step
             end do
-            if (residual < length_tolerance .or. i == max_length_steps) exit
+            if (residual < tolerance .or. i == max_length_steps) exit
             do k = 1, n
                 if (.not. workspace%presses(k)) cycle
                 step = workspace%factor(k)*workspace%last_step(k)
@@ -493,7 +501,8 @@ contains
                 cycle
             end if
             if (round > 3*n + 10) exit
-            ! Where a strip that carries nothing overlaps most, it has to press.
+            ! Strips that carry nothing have to press where they overlap: all of them at first,
+            ! later only the one that overlaps most.
             add = 0
             deepest = 1.0e-9_wp*depth
             do k = 1, n
@@ -501,8 +510,12 @@ contains
                 overlap = depth - workspace%height(k) &
                           - dot_product(workspace%influence(k, :n), workspace%p0(:n))
                 if (overlap <= deepest) cycle
-                deepest = overlap
                 add = k
+                if (round > max_block_rounds) then
+                    deepest = overlap
+                else
+                    workspace%presses(k) = .true.
+                end if
             end do
             if (add == 0) exit
             workspace%presses(add) = .true.
@@ -540,10 +553,8 @@ contains
             end do
             if (m == max_ranges) exit
             m = m + 1
-            call carry_on(workspace, first, last, 1, from(m), move)
-            call carry_on(workspace, last, first, -1, to(m), move)
-            from(m) = max(from(m), curve%y(1))
-            to(m) = min(to(m), curve%y(curve%n))
+            call carry_on(workspace, curve, first, last, 1, from(m), move)
+            call carry_on(workspace, curve, last, first, -1, to(m), move)
         end do
         call add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
         ! In the order of y, joined where they meet.
@@ -574,8 +585,9 @@ contains
     end subroutine next_ranges
 
     !> Where the squared length, carried on from the strips at an end of a patch, vanishes.
-    pure subroutine carry_on(workspace, outer, inner, inward, y_end, move)
+    pure subroutine carry_on(workspace, curve, outer, inner, inward, y_end, move)
         type(lattice_workspace_t), intent(in) :: workspace
+        type(gap_curve_t), intent(in) :: curve
         integer, intent(in) :: outer, inner ! the strips at this end and at the other
         integer, intent(in) :: inward       ! 1 at a left end, -1 at a right one
         real(wp), intent(out) :: y_end
@@ -606,8 +618,14 @@ contains
             end if
             s = max(0.0_wp, min(2.0_wp, s))
         end if
-        move = max(move, abs(s - 0.5_wp))
         y_end = 0.5_wp*(workspace%y_left(outer) + workspace%y_right(outer)) - inward*s*width
+        y_end = max(curve%y(1), min(curve%y(curve%n), y_end))
+        if (inward > 0) then
+            move = max(move, abs(y_end - workspace%y_left(outer))/width)
+        else
+            move = max(move, abs(y_end - workspace%y_right(outer))/width)
+        end if
+        if (n < 3) move = max(move, 1.0_wp) ! such a patch needs a finer lattice
     end subroutine carry_on
 
     !> Add a range around the deepest overlap of each stretch outside the strips that press.
