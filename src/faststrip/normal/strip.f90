@@ -8,15 +8,17 @@
 !> surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
 !>
-!> Many strips are reached in two levels: 15 find the patches, the asked number refines them.
+!> Many strips are reached in two levels: 15 find the patches, the asked number refines them. A gap
+!> whose ends do not settle gets the answer of `faststrip_normal_lattice`.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
-                                st_no_contact, st_no_convergence, st_edge_of_data, &
-                                st_fewer_strips, st_workspace_too_small
+                                st_no_contact, st_edge_of_data, st_fewer_strips, &
+                                st_fallback_used, st_workspace_too_small
     use faststrip_profile_gap_curve, only: gap_curve_t
+    use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
@@ -74,8 +76,10 @@ contains
     !> Solve the normal problem of the gap in the workspace under a load.
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
-    !> `st_workspace_too_small` (no gap set, room for too few strips), `st_no_convergence`.
+    !> `st_workspace_too_small` (no gap set, room for too few strips), `st_out_of_range` and
+    !> `st_linear_algebra` (a contact beyond all proportion).
     !> Named limitations: `st_edge_of_data`, the contact runs to the end of the gap's points;
+    !> `st_fallback_used`, the ends did not settle and `faststrip_normal_lattice` gave the answer;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -187,8 +191,7 @@ contains
         end do
         if (n_settled == 0) then
             workspace%old%n = 0
-            call set_status(status, st_no_convergence, &
-                            'the ends of the contact patches did not settle')
+            call fall_back(workspace, compliance, goal, maxval(levels), strips, result, status)
             return
         end if
         workspace%old_load = result%load
@@ -202,6 +205,32 @@ contains
                             'fewer strips than asked: more did not settle')
         end if
     end subroutine solve
+
+    !> The answer of a fixed lattice, for a gap whose ends did not settle.
+    subroutine fall_back(workspace, compliance, goal, strips_per_patch, strips, result, status)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(goal_t), intent(in) :: goal
+        integer, intent(in) :: strips_per_patch
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: penetration
+
+        if (goal%by_load) then
+            call lattice_solve(workspace%lattice, workspace%curve, compliance, goal%load, &
+                               strips_per_patch, strips, penetration, status)
+        else
+            penetration = goal%penetration + workspace%curve%h_lowest
+            call lattice_solve_penetration(workspace%lattice, workspace%curve, compliance, &
+                                           penetration, strips_per_patch, strips, status)
+        end if
+        if (is_error(status)) return
+        call summarize(strips, penetration, result)
+        call set_status(status, st_fallback_used, &
+                        'the ends of the contact patches did not settle: fixed lattice used')
+    end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.
     subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, warm, patches, &
@@ -258,7 +287,8 @@ contains
                 end if
                 if (pass_tolerance <= tolerance .and. move < best_move) then
                     best_move = move
-                    call record(workspace, patches, penetration, n, strips, result)
+                    call hand_over(workspace, patches, n, strips)
+                    call summarize(strips, penetration + workspace%curve%h_lowest, result)
                 end if
                 if (pass_tolerance <= tolerance .and. (at_rest .or. move < end_tolerance)) exit
                 at_rest = move < end_tolerance
@@ -308,16 +338,14 @@ contains
         end if
     end subroutine check_input
 
-    !> Write a converged pass into the result.
-    pure subroutine record(workspace, patches, penetration, n, strips, result)
+    !> Hand a converged pass over as strips.
+    pure subroutine hand_over(workspace, patches, n, strips)
         type(strip_workspace_t), intent(in) :: workspace
         type(patches_t), intent(in) :: patches
-        real(wp), intent(in) :: penetration
         integer, intent(in) :: n
         type(contact_strips_t), intent(inout) :: strips
-        type(normal_result_t), intent(inout) :: result
 
-        integer :: p, first, last
+        integer :: p, last
 
         strips%n = n
         strips%n_patches = patches%n
@@ -325,28 +353,41 @@ contains
         strips%y_right(:n) = workspace%y_right(:n)
         strips%p0(:n) = workspace%p0(:n)
         strips%half_length(:n) = workspace%half_length(:n)
+        last = 0
+        do p = 1, patches%n
+            strips%patch(last + 1:last + patches%at(p)%n_strips) = p
+            last = last + patches%at(p)%n_strips
+        end do
+    end subroutine hand_over
+
+    !> The figures of a solution.
+    pure subroutine summarize(strips, penetration, result)
+        type(contact_strips_t), intent(in) :: strips
+        real(wp), intent(in) :: penetration ! from h = 0, mm
+        type(normal_result_t), intent(inout) :: result
+
+        integer :: p, first, last
+
+        result%load = strips_load(strips)
+        result%penetration = penetration
         result%area = 0.0_wp
         result%pmax = 0.0_wp
         result%x_max = 0.0_wp
         last = 0
-        do p = 1, patches%n
+        do p = 1, strips%n_patches
             first = last + 1
-            last = last + patches%at(p)%n_strips
-            strips%patch(first:last) = p
-            associate (left => workspace%y_left(first:last), right => workspace%y_right(first:last))
-                result%area = result%area + 2.0_wp*profile_integral( &
-                    left, right, workspace%half_length(first:last))
-                result%pmax = max(result%pmax, profile_peak(left, right, workspace%p0(first:last)))
-                result%x_max = max(result%x_max, &
-                                   profile_peak(left, right, workspace%half_length(first:last)))
+            last = last + count(strips%patch(:strips%n) == p)
+            associate (left => strips%y_left(first:last), right => strips%y_right(first:last), &
+                       half_length => strips%half_length(first:last))
+                result%area = result%area + 2.0_wp*profile_integral(left, right, half_length)
+                result%pmax = max(result%pmax, profile_peak(left, right, strips%p0(first:last)))
+                result%x_max = max(result%x_max, profile_peak(left, right, half_length))
             end associate
         end do
-        result%load = strips_load(strips)
-        result%penetration = penetration + workspace%curve%h_lowest
-        result%y_min = patches%at(1)%y_from
-        result%y_max = patches%at(patches%n)%y_to
-        result%n_patches = patches%n
-    end subroutine record
+        result%y_min = strips%y_left(1)
+        result%y_max = strips%y_right(strips%n)
+        result%n_patches = strips%n_patches
+    end subroutine summarize
 
     !> Does the contact run to an end of the gap's points?
     pure logical function reaches_edge(curve, result)

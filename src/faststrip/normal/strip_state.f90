@@ -4,6 +4,7 @@ module faststrip_normal_strip_state
     use faststrip_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
+    use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch
     implicit none
@@ -21,6 +22,7 @@ module faststrip_normal_strip_state
     type :: strip_workspace_t
         type(gap_curve_t) :: curve
         type(newton_workspace_t) :: newton
+        type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
         real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
@@ -45,6 +47,8 @@ contains
             return
         end if
         call reserve_gap_curve(workspace%curve, max_points, status)
+        if (is_error(status)) return
+        call reserve_lattice(workspace%lattice, max_strips, status)
         if (is_error(status)) return
         call reserve_newton(workspace%newton, max_strips)
         if (workspace%max_strips >= max_strips) return
