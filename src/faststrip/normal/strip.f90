@@ -42,6 +42,7 @@ module faststrip_normal_strip
     integer, parameter :: auto_levels(3) = [15, 27, 41]
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
 
+    integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
     integer, parameter :: max_passes = 40    ! in one level
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
@@ -191,7 +192,8 @@ contains
         end do
         if (n_settled == 0) then
             workspace%old%n = 0
-            call fall_back(workspace, compliance, goal, maxval(levels), strips, result, status)
+            call fall_back(workspace, compliance, goal, min(maxval(levels), most_fallback_strips), &
+                           strips, result, status)
             return
         end if
         workspace%old_load = result%load
