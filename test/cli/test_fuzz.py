@@ -1,0 +1,55 @@
+"""`faststrip fuzz`: random gaps, a few of the cases of `./run fuzz`."""
+
+from cli_program import ProgramTest, rows_of
+
+FAMILIES = {"hertz", "several", "merging", "small_second", "kinks", "flat_top", "wavy",
+            "conformal", "concave", "varying_a", "negative_a", "measured", "edge", "mixed"}
+
+
+class Fuzz(ProgramTest):
+    def test_no_case_fails_a_check(self):
+        for solver in ("strip", "lattice"):
+            with self.subTest(solver):
+                done = self.run_program("fuzz", "--cases", 80, "--first", 2001, "--solver", solver,
+                                        "-o", "cases.csv")
+                self.assertEqual(done.returncode, 0, done.stdout)
+                rows = self.read("cases.csv")
+                self.assertEqual([int(row["case"]) for row in rows], list(range(2001, 2081)))
+                self.assertLessEqual({row["family"] for row in rows}, FAMILIES)
+                for row in rows:
+                    if row["status"] == "bad_argument":
+                        self.assertEqual(row["family"], "negative_a", row)
+                        self.assertIn("negative", row["message"], row)
+                        continue
+                    self.assertNotEqual(row["status"], "no_convergence", row)
+                    self.assertLess(abs(float(row["load_error"])), 1e-6, row)
+                    self.assertGreater(float(row["pmax_MPa"]), 0.0, row)
+
+    def test_a_case_is_the_same_wherever_the_run_starts(self):
+        for words, name in ((("--first", 11, "--cases", 20), "many.csv"),
+                            (("--first", 30, "--cases", 1), "one.csv")):
+            self.assertEqual(self.run_program("fuzz", *words, "-o", name).returncode, 0)
+        many, one = self.read("many.csv")[-1], self.read("one.csv")[0]
+        for name in many:
+            if name != "time_us":
+                self.assertEqual(many[name], one[name], name)
+
+    def test_gap_of_a_case_can_be_solved_alone(self):
+        self.assertEqual(self.run_program("fuzz", "--first", 30, "--cases", 1, "-o",
+                                          "one.csv").returncode, 0)
+        done = self.run_program("fuzz", "--gap-of", 30, "-o", "gap.csv")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        text = (self.folder / "gap.csv").read_text(encoding="utf-8")
+        rows = rows_of(text)
+        self.assertEqual(len(rows), int(self.read("one.csv")[0]["points"]))
+        self.assertEqual(list(rows[0]), ["y_mm", "h_mm", "inv2R_per_mm"])
+        self.assertRegex(text, r"\A# random gap 30 of seed 1: ")
+        other = self.run_program("fuzz", "--gap-of", 30, "--seed", 2).stdout
+        self.assertNotEqual(rows_of(other)[0], rows[0])
+
+    def test_usage_errors(self):
+        for words, says in ((["--cases", "0"], "0"), (["--first", "0"], "0"),
+                            (["--seed", "-1"], "-1"), (["--gap-of", "0"], "0"),
+                            (["--solver", "newton"], "newton")):
+            with self.subTest(words):
+                self.refused(2, "fuzz", *words, says=[says])
