@@ -89,7 +89,8 @@ contains
         if (seed < 0) call usage_error('--seed is negative: ' // integer_text(seed), command%name)
         if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
         if (cases < 1 .or. cases > huge(cases) - first) &
-            call usage_error('--cases is below 1 or too large: ' // integer_text(cases), command%name)
+            call usage_error('--cases is below 1 or too large: ' // integer_text(cases), &
+                             command%name)
         room%solver = option_text(command, '--solver', 'strip')
         if (room%solver /= 'strip' .and. room%solver /= 'lattice') &
             call usage_error('unknown solver: ' // room%solver, command%name)
@@ -241,7 +242,8 @@ contains
             if (any(half_length <= 0.0_wp)) verdict%violation = 'length not positive'
             if (any(right <= left) .or. any(left(2:) < right(:n - 1))) &
                 verdict%violation = 'edges out of order'
-            if (left(1) < fuzz_case%gap%y(1) .or. right(n) > fuzz_case%gap%y(size(fuzz_case%gap%y))) &
+            if (left(1) < fuzz_case%gap%y(1) &
+                .or. right(n) > fuzz_case%gap%y(size(fuzz_case%gap%y))) &
                 verdict%violation = 'edges outside the data'
             if (result%area <= 0.0_wp .or. result%pmax <= 0.0_wp) &
                 verdict%violation = 'area or pmax'
@@ -301,8 +303,7 @@ contains
         type(verdict_t), intent(in) :: verdicts(:)
 
         type(tally_t), allocatable :: tally(:)
-        integer :: i, j, f, n
-        character(len=80) :: line
+        integer :: i, j, f
 
         allocate (tally(0))
         do i = 1, size(verdicts)
@@ -314,28 +315,33 @@ contains
             tally(j)%n = tally(j)%n + 1
         end do
         call say('family        status                    cases    share   failed checks')
-        do f = 0, size(family_names)
-            do j = 0, maxval(tally%code)
-                if (f == 0) then
-                    n = sum(tally%n, tally%code == j)
-                else
-                    n = sum(tally%n, tally%code == j .and. tally%family == f)
-                end if
-                if (n == 0) cycle
-                if (f == 0) then
-                    write (line, '(2a, i9, f8.2, a, i9)') 'all           ', status_word(j), n, &
-                        100.0_wp*n/size(verdicts), ' %', &
-                        count(verdicts%status%code == j .and. verdicts%violation /= '')
-                else
-                    write (line, '(a, 2x, a, i9, f8.2, a, i9)') family_names(f), status_word(j), &
-                        n, 100.0_wp*n/count(family == f), ' %', &
-                        count(verdicts%status%code == j .and. verdicts%violation /= '' &
-                              .and. family == f)
-                end if
-                call say(trim(line))
-            end do
+        call print_rows('all', tally, verdicts, [(.true., i=1, size(verdicts))])
+        do f = 1, size(family_names)
+            call print_rows(family_names(f), pack(tally, tally%family == f), verdicts, family == f)
         end do
     end subroutine print_table
+
+    !> The lines of one family, or of all.
+    subroutine print_rows(name, tally, verdicts, counts)
+        character(len=*), intent(in) :: name
+        type(tally_t), intent(in) :: tally(:)
+        type(verdict_t), intent(in) :: verdicts(:)
+        logical, intent(in) :: counts(:) ! which cases are of the family
+
+        character(len=80) :: line
+        character(len=12) :: family_name
+        integer :: code, n
+
+        family_name = name
+        do code = 0, maxval(tally%code)
+            n = sum(tally%n, tally%code == code)
+            if (n == 0) cycle
+            write (line, '(a, 2x, a, i9, f8.2, a, i9)') family_name, status_word(code), n, &
+                100.0_wp*n/count(counts), ' %', &
+                count(counts .and. verdicts%status%code == code .and. verdicts%violation /= '')
+            call say(trim(line))
+        end do
+    end subroutine print_rows
 
     subroutine print_times(first, verdicts)
         integer, intent(in) :: first

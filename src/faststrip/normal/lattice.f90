@@ -195,7 +195,8 @@ contains
             call set_status(status, st_workspace_too_small, 'no gap was set')
         else if (.not. allocated(strips%p0)) then
             call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
-        else if (min(workspace%max_strips, size(strips%p0)) < min(n_strips, most_lattice_strips)) then
+        else if (min(workspace%max_strips, size(strips%p0)) &
+                 < min(n_strips, most_lattice_strips)) then
             call set_status(status, st_workspace_too_small, &
                             'the patch needs more strips than there is room for')
         end if
@@ -246,7 +247,8 @@ contains
     end function start_load
 
     !> Lay lattices until the ends of the patches settle; keep the best.
-    subroutine solve(workspace, curve, compliance, target, by_load, n_strips, strips, depth, status)
+    subroutine solve(workspace, curve, compliance, target, by_load, n_strips, strips, depth, &
+                     status)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance
@@ -262,7 +264,8 @@ contains
         logical :: done
 
         call clear_status(status)
-        if (depth <= 2.0_wp*smallest_penetration .or. depth >= 0.5_wp*largest_penetration) then
+        if (depth <= 2.0_wp*smallest_penetration &
+            .or. depth >= 0.5_wp*largest_penetration) then
             call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
                             'penetration ' // trim(number_text(depth)) // ' mm')
             return
@@ -277,8 +280,8 @@ contains
         tolerance = loose_tolerance
         do laying = 1, max_layings
             call lay(workspace, curve, wanted, room, depth)
-            call settle_lengths(workspace, compliance, target, by_load, tolerance, depth, residual, &
-                                done)
+            call settle_lengths(workspace, compliance, target, by_load, tolerance, depth, &
+                                residual, done)
             if (.not. done) exit
             call next_ranges(workspace, curve, compliance, depth, move, overlap)
             worth = max(move, 10.0_wp*overlap, residual)
@@ -383,8 +386,8 @@ contains
     end subroutine lay
 
     !> Alternate between pressures for given lengths and steps of the lengths.
-    subroutine settle_lengths(workspace, compliance, target, by_load, tolerance, depth, residual, &
-                              done)
+    subroutine settle_lengths(workspace, compliance, target, by_load, tolerance, depth, &
+                              residual, done)
         type(lattice_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, target
         logical, intent(in) :: by_load
@@ -502,7 +505,8 @@ contains
             end if
             workspace%p0(:n) = 0.0_wp
             do i = 1, m
-                workspace%p0(workspace%at(i)) = depth*workspace%column(i, 1) - workspace%column(i, 2)
+                workspace%p0(workspace%at(i)) = depth*workspace%column(i, 1) &
+                                                - workspace%column(i, 2)
             end do
             changed = .false.
             if (m > 1) then
@@ -668,12 +672,14 @@ contains
             high = curve%y(curve%n)
             if (r <= n_solved) high = solved_from(r)
             if (high > low .and. m < size(from)) &
-                call add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, overlap)
+                call add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, &
+                                 overlap)
             if (r <= n_solved) low = max(low, solved_to(r))
         end do
     end subroutine add_overlaps
 
-    pure subroutine add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, overlap)
+    pure subroutine add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, &
+                                overlap)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, low, high
