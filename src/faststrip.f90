@@ -6,7 +6,7 @@
 module faststrip
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, status_word, st_ok, first_error, &
-                                st_fallback_used, st_edge_of_data, st_fewer_strips, &
+                                st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left, &
                                 st_bad_argument, st_not_finite, st_not_increasing, &
                                 st_too_few_points, st_bad_material, st_bad_load, st_no_contact, &
                                 st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
@@ -30,7 +30,8 @@ module faststrip
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
+                                      strip_solve_penetration, strips_auto
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           state_adhesion, state_slip
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients

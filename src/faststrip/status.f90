@@ -12,7 +12,7 @@ module faststrip_status
     public :: status_t, set_status, clear_status, is_error, status_word, number_text
     public :: message_length, first_error
     public :: st_ok
-    public :: st_fallback_used, st_edge_of_data, st_fewer_strips
+    public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
     public :: st_bad_argument, st_not_finite, st_not_increasing, st_too_few_points, st_bad_material
     public :: st_bad_load, st_no_contact, st_no_hertz_ellipse, st_no_convergence, st_out_of_range
     public :: st_workspace_too_small, st_linear_algebra, st_quadrature
@@ -27,6 +27,7 @@ module faststrip_status
     integer, parameter :: st_fallback_used = 1
     integer, parameter :: st_edge_of_data = 2
     integer, parameter :: st_fewer_strips = 3
+    integer, parameter :: st_overlap_left = 4
 
     !> The lowest code that means "no result".
     integer, parameter :: first_error = 100
@@ -89,6 +90,7 @@ contains
         case (st_fallback_used); word = 'fallback_used'
         case (st_edge_of_data); word = 'edge_of_data'
         case (st_fewer_strips); word = 'fewer_strips'
+        case (st_overlap_left); word = 'overlap_left'
         case (st_bad_argument); word = 'bad_argument'
         case (st_not_finite); word = 'not_finite'
         case (st_not_increasing); word = 'not_increasing'

@@ -16,18 +16,20 @@ module faststrip_normal_strip
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
                                 st_no_contact, st_edge_of_data, st_fewer_strips, &
-                                st_fallback_used, st_workspace_too_small
+                                st_fallback_used, st_overlap_left, &
+                                st_workspace_too_small
     use faststrip_profile_gap_curve, only: gap_curve_t
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
-                                              cut_leaving_strips, free_ends
+                                              cut_leaving_strips, free_ends, &
+                                              drop_slivers
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, place_strips, remember
     use faststrip_normal_strip_start, only: goal_t, start_patches, resume_patches
-    use faststrip_normal_strip_ends, only: move_ends, close_overlaps
+    use faststrip_normal_strip_ends, only: move_ends, close_overlaps, overlap_left
     implicit none
     private
 
@@ -50,6 +52,9 @@ module faststrip_normal_strip
     ! Newton's tolerance while the ends still move by more than the loose tolerance, and by more
     ! than the other: what is left then is far below what the ends' moves change.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
+
+    real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
+    real(wp), parameter :: tolerated_overlap = 0.01_wp ! of the penetration, in rough gaps
 
     !> What the user chooses.
     type :: strip_options_t
@@ -81,6 +86,7 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion).
     !> Named limitations: `st_edge_of_data`, the contact runs to the end of the gap's points;
     !> `st_fallback_used`, the ends did not settle and `faststrip_normal_lattice` gave the answer;
+    !> `st_overlap_left`, a rough gap's valleys overlap beside the strips;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -201,10 +207,12 @@ contains
         if (reaches_edge(workspace%curve, result)) then
             call set_status(status, st_edge_of_data, &
                             'the contact runs to the end of the gap data')
-        else if (level == n_settled + 1 .and. n_settled < n_levels &
-                 .and. .not. settled) then
+        else if (.not. settled) then
             call set_status(status, st_fewer_strips, &
                             'fewer strips than asked: more did not settle')
+        else if (overlap_left(workspace, compliance, penetration) > tolerated_overlap) then
+            call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
+                            //'more than 1 % of the penetration: a rough gap, smooth it first')
         end if
     end subroutine solve
 
@@ -249,7 +257,7 @@ contains
         logical, intent(out) :: settled
         type(status_t), intent(inout) :: status
 
-        real(wp) :: trial, move, best_move, pass_tolerance
+        real(wp) :: trial, move, best_move, pass_tolerance, narrowest
         integer :: pass, outcome, n, splits
         logical :: changed, at_rest
 
@@ -258,8 +266,11 @@ contains
         splits = 0
         pass_tolerance = merge(near_tolerance, far_tolerance, warm)
         at_rest = .false.
+        narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call share_strips(strips_per_patch, patches)
         do pass = 1, max_passes
+            call drop_slivers(narrowest, patches)
+            if (patches%n == 0) exit
             call place_strips(workspace, patches, n)
             if (n > workspace%max_strips .or. n > size(strips%p0)) then
                 call set_status(status, st_workspace_too_small, &

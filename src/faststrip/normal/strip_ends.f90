@@ -10,7 +10,7 @@ module faststrip_normal_strip_ends
     implicit none
     private
 
-    public :: move_ends, close_overlaps
+    public :: move_ends, close_overlaps, overlap_left
 
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
@@ -194,6 +194,34 @@ contains
             end if
         end do
     end subroutine scan
+
+    !> Largest overlap of the deformed surfaces at the gap's own valleys outside the patches, over
+    !> the penetration: what the scan's even points can miss where the gap is rough.
+    pure real(wp) function overlap_left(workspace, compliance, penetration) result(largest)
+        type(strip_workspace_t), intent(in) :: workspace !! with a solution remembered
+        real(wp), intent(in) :: compliance               !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: penetration              !! above the lowest height, mm
+
+        integer :: j, p
+
+        largest = 0.0_wp
+        p = 1
+        associate (y => workspace%curve%y_node, h => workspace%curve%h_node)
+            do j = 2, workspace%curve%n_pieces
+                if (h(j) > h(j - 1) .or. h(j) > h(j + 1)) cycle
+                if (h(j) - workspace%curve%h_lowest >= penetration) cycle
+                do while (p <= workspace%old%n)
+                    if (workspace%old%at(p)%y_to > y(j)) exit
+                    p = p + 1
+                end do
+                if (p <= workspace%old%n) then
+                    if (workspace%old%at(p)%y_from <= y(j)) cycle
+                end if
+                largest = max(largest, overlap_depth(workspace, compliance, penetration, y(j)))
+            end do
+        end associate
+        largest = largest/penetration
+    end function overlap_left
 
     !> By how much the deformed surfaces overlap at a point outside the patches, mm.
     pure real(wp) function overlap_depth(workspace, compliance, penetration, y) result(depth)

@@ -7,7 +7,7 @@ module faststrip_normal_strip_patches
 
     public :: patch_t, patches_t, max_patches, fewest_strips
     public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
-    public :: cut_leaving_strips, free_ends
+    public :: cut_leaving_strips, free_ends, drop_slivers
 
     !> Most patches a contact may have at a time.
     integer, parameter :: max_patches = 16
@@ -237,4 +237,20 @@ contains
         patches%at%pushes_from = 0
         patches%at%pushes_to = 0
     end subroutine free_ends
+
+    !> Drop patches that have shrunk to nothing.
+    pure subroutine drop_slivers(narrowest, patches)
+        real(wp), intent(in) :: narrowest         !! least width of a patch, mm
+        type(patches_t), intent(inout) :: patches !! the others stay
+
+        integer :: p, n
+
+        n = 0
+        do p = 1, patches%n
+            if (patches%at(p)%y_to - patches%at(p)%y_from < narrowest) cycle
+            n = n + 1
+            patches%at(n) = patches%at(p)
+        end do
+        patches%n = n
+    end subroutine drop_slivers
 end module faststrip_normal_strip_patches
