@@ -7,8 +7,8 @@ program faststrip_main
     use faststrip_app_batch, only: run_batch
     use faststrip_app_sweep, only: run_sweep
     use faststrip_app_table, only: run_table
-    use faststrip_app_bench, only: run_bench
     use faststrip_app_fuzz, only: run_fuzz
+    use faststrip_app_bench, only: run_bench
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -49,7 +49,7 @@ contains
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
-        call say('  bench integral         what influence integrals cost, by each method')
+        call say('  bench WHAT             for developers: times and errors of the methods')
         call say('  fuzz                   for developers: random gaps, checked')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

@@ -14,6 +14,7 @@ module faststrip_app_solver
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
     use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_app_clock, only: microseconds
     use faststrip_app_methods, only: methods_t
     implicit none
     private
@@ -165,13 +166,4 @@ contains
             end if
         end associate
     end subroutine solve_tangential
-
-    real(wp) function microseconds(from, to)
-        integer(int64), intent(in) :: from, to
-
-        integer(int64) :: rate
-
-        call system_clock(count_rate=rate)
-        microseconds = 1.0e6_wp*real(to - from, wp)/real(rate, wp)
-    end function microseconds
 end module faststrip_app_solver
