@@ -1,5 +1,5 @@
 !> The virtual ellipse of a contact patch that is none.
-module faststrip_tangential_patch
+module faststrip_normal_patch_ellipse
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, number_text, &
@@ -121,4 +121,4 @@ contains
         ellipse%b = sqrt(area/(pi*ratio))
         ellipse%a = ellipse%b*ratio
     end function patch_ellipse
-end module faststrip_tangential_patch
+end module faststrip_normal_patch_ellipse
