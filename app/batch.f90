@@ -1,9 +1,10 @@
 !> `faststrip batch`: one contact a row of a CSV file.
 module faststrip_app_batch
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
+    use faststrip_status, only: status_t, is_error, set_status, st_bad_argument
     use faststrip_text, only: integer_text
-    use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
+    use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, column_index, &
+                             cell_text, &
                              cell_number, open_csv, put_cell, end_row, close_csv, csv_text_t
     use faststrip_material, only: material_t
     use faststrip_creepage, only: creepage_t
@@ -15,7 +16,7 @@ module faststrip_app_batch
     use faststrip_app_methods, only: methods_t
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: beside
-    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
     use faststrip_app_result_csv, only: result_columns, put_result
     implicit none
     private
@@ -24,6 +25,8 @@ module faststrip_app_batch
 
     character(len=*), parameter :: case_columns(9) = [character(len=15) :: &
         'case', 'gap_file', 'E_MPa', 'nu', 'mu', 'N_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
+    integer, parameter :: load_column = 6 ! of `case_columns`
+    character(len=*), parameter :: penetration_column = 'given_penetration_mm'
 
 contains
 
@@ -35,6 +38,7 @@ contains
         type(status_t) :: status
         type(methods_t) :: methods
         type(solver_t) :: solver
+        type(demand_t) :: demand
         type(outcome_t) :: outcome
         integer :: row, i, n_failed, column(size(case_columns))
 
@@ -43,10 +47,11 @@ contains
         command%about = &
             'Solve one contact per row of a CSV file with the columns' // new_line('a') &
             // 'case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm (wheel and rail alike;' &
-            // new_line('a') // 'gap_file relative to the CSV file). Further columns are carried' &
-            // ' through. A row' // new_line('a') // 'that fails gets its status word and empty' &
-            // ' figures; the others go on, and the' // new_line('a') // 'exit code is 1.' &
-            // new_line('a')
+            // new_line('a') // 'gap_file relative to the CSV file). A row with a number in the' &
+            // ' further column' // new_line('a') // penetration_column // ' is solved for it;' &
+            // ' its N_N is then empty, and filled in.' // new_line('a') // 'Other columns are' &
+            // ' carried through. A row that fails gets its status word and' // new_line('a') &
+            // 'empty figures; the others go on, and the exit code is 1.' // new_line('a')
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
                            method_options]
         call parse_command(command, 1)
@@ -66,9 +71,14 @@ contains
         call put_names(writer, table%names)
         n_failed = 0
         do row = 1, table%n_rows
-            call solve_row(table, row, column, solver, outcome, status)
+            call solve_row(table, row, column, solver, demand, outcome, status)
             do i = 1, table%n_columns
-                call put_cell(writer, cell_text(table, row, i))
+                if (i == column(load_column) .and. .not. (demand%by_load .or. is_error(status))) &
+                    then
+                    call put_cell(writer, outcome%normal%load)
+                else
+                    call put_cell(writer, cell_text(table, row, i))
+                end if
             end do
             call put_result(writer, outcome, status)
             call end_row(writer)
@@ -113,25 +123,38 @@ contains
         end do
     end subroutine refuse_result_columns
 
-    subroutine solve_row(table, row, column, solver, outcome, status)
+    subroutine solve_row(table, row, column, solver, demand, outcome, status)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: row, column(:)
         type(solver_t), intent(inout) :: solver
+        type(demand_t), intent(out) :: demand
         type(outcome_t), intent(out) :: outcome
         type(status_t), intent(out) :: status
 
         type(gap_t) :: gap
         real(wp) :: number(3:9)
-        integer :: i
+        integer :: i, penetration
 
-        do i = 3, 9
+        penetration = column_index(table, penetration_column)
+        if (len(cell_text(table, row, penetration)) > 0) then
+            demand%by_load = .false.
+            call cell_number(table, row, penetration, demand%penetration, status)
+            if (is_error(status)) return
+            if (len(cell_text(table, row, column(load_column))) > 0) then
+                call set_status(status, st_bad_argument, 'N_N is given, and ' &
+                                // penetration_column // ' as well')
+                return
+            end if
+        end if
+        do i = lbound(number, 1), ubound(number, 1)
+            if (i == load_column .and. .not. demand%by_load) cycle
             call cell_number(table, row, column(i), number(i), status)
             if (is_error(status)) return
         end do
+        if (demand%by_load) demand%load = number(load_column)
         call read_gap_file(beside(table%file, cell_text(table, row, column(2))), gap, status)
         if (is_error(status)) return
         call solve(solver, gap, material_t(number(3), number(3), number(4), number(4)), &
-                   number(5), number(6), creepage_t(number(7), number(8), number(9)), outcome, &
-                   status)
+                   number(5), demand, creepage_t(number(7), number(8), number(9)), outcome, status)
     end subroutine solve_row
 end module faststrip_app_batch

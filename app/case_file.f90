@@ -32,7 +32,9 @@ module faststrip_app_case_file
         character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
         character(len=:), allocatable :: wheel_name !! `s1002` or the file's name
         character(len=:), allocatable :: rail_name  !! `uic60`, `60e1` or the file's name
+        logical :: load_is_given = .true.           !! or the penetration?
         real(wp) :: load = 0.0_wp                   !! N
+        real(wp) :: penetration = 0.0_wp            !! approach of the bodies, mm
         logical :: load_is_vertical = .false.       !! else along the contact normal
         real(wp) :: mu = 0.0_wp                     !! coefficient of friction
         real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
@@ -81,8 +83,8 @@ contains
 
         character(len=path_length) :: name, gap_file
         character(len=word_length) :: load_direction
-        real(wp) :: load_n, shift_mm
-        namelist /contact/ name, gap_file, load_n, load_direction, shift_mm
+        real(wp) :: load_n, penetration_mm, shift_mm
+        namelist /contact/ name, gap_file, load_n, penetration_mm, load_direction, shift_mm
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -92,6 +94,7 @@ contains
         gap_file = ''
         load_direction = 'normal'
         load_n = unset()
+        penetration_mm = unset()
         shift_mm = 0.0_wp
         call find_group(content, 'contact', .true., group)
         do n = 1, lines_of(group)
@@ -102,7 +105,16 @@ contains
         case%name = trim(name)
         case%gap_file = ''
         if (len_trim(gap_file) > 0) case%gap_file = beside(content%file, trim(gap_file))
-        call need_positive(content, group, 'load_N', load_n)
+        case%load_is_given = .not. sets(content, group, 'penetration_mm')
+        if (case%load_is_given) then
+            call need_positive(content, group, 'load_N', load_n)
+        else
+            call need_finite(content, group, 'penetration_mm', penetration_mm)
+            if (sets(content, group, 'load_N')) &
+                call refuse(content, group, 'penetration_mm', 'is given, and load_N as well', &
+                            number_text(penetration_mm))
+        end if
+        case%penetration = penetration_mm
         call need_finite(content, group, 'shift_mm', shift_mm)
         case%load = load_n
         case%shift = shift_mm
@@ -110,6 +122,9 @@ contains
         if (load_direction /= 'vertical' .and. load_direction /= 'normal') &
             call refuse(content, group, 'load_direction', 'is neither normal nor vertical', &
                         load_direction)
+        if (case%load_is_vertical .and. .not. case%load_is_given) &
+            call refuse(content, group, 'load_direction', &
+                        'has no meaning for a given penetration', load_direction)
         if (case%load_is_vertical .and. len(case%gap_file) > 0) &
             call refuse(content, group, 'load_direction', &
                         'needs profiles; a gap file has no contact angle', load_direction)
@@ -356,6 +371,8 @@ contains
             call need_as_many(content, group, 'load_N', size(case%shift_loads), n)
             if (case%load_is_vertical) call refuse(content, group, 'load_N', &
                 'is a list of normal forces, and load_direction is vertical', '')
+            if (.not. case%load_is_given) call refuse(content, group, 'load_N', &
+                'is given, and &contact penetration_mm as well', '')
             if (any(case%shift_loads <= 0.0_wp)) call refuse(content, group, 'load_N', &
                 'is not positive', number_text(minval(case%shift_loads)))
         end if

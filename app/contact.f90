@@ -60,7 +60,7 @@ contains
         call fail_on_error(status, command%arguments(1)%text)
         call make_solver(case%methods, given(command, '--fields'), solver, status)
         call fail_on_error(status)
-        call solve(solver, scene%gap, case%material, case%mu, scene%load, scene%creepage, &
+        call solve(solver, scene%gap, case%material, case%mu, scene%demand, scene%creepage, &
                    outcome, status)
         call fail_on_error(status, command%arguments(1)%text)
         if (status%code /= st_ok) call note(trim(status%message))

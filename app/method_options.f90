@@ -1,5 +1,6 @@
 !> The options by which several subcommands choose methods and resolutions.
 module faststrip_app_method_options
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_app_console, only: usage_error
     use faststrip_app_options, only: command_t, option_t, option_text, option_integer
     use faststrip_app_methods, only: methods_t, check_methods
@@ -10,9 +11,9 @@ module faststrip_app_method_options
 
     !> For the table of a subcommand.
     type(option_t), parameter :: method_options(6) = [ &
-        option_t('--normal', 'NAME', 'strip (default) or hertz'), &
+        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments'), &
         option_t('--tangential', 'NAME', 'faststrip (default) or fastsim'), &
-        option_t('--strips-per-patch', 'N', 'strips across the largest patch (default 15)'), &
+        option_t('--strips-per-patch', 'N', 'strips across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim (default 50)'), &
         option_t('--fastsim-ny', 'N', 'rows, fastsim (default 50)')]
@@ -29,8 +30,12 @@ contains
 
         methods%normal = option_text(command, '--normal', trim(methods%normal))
         methods%tangential = option_text(command, '--tangential', trim(methods%tangential))
-        methods%strips_per_patch = option_integer(command, '--strips-per-patch', &
-                                                  methods%strips_per_patch)
+        if (option_text(command, '--strips-per-patch', '') == 'auto') then
+            methods%strips_per_patch = strips_auto
+        else
+            methods%strips_per_patch = option_integer(command, '--strips-per-patch', &
+                                                      methods%strips_per_patch)
+        end if
         methods%points_per_strip = option_integer(command, '--points-per-strip', &
                                                   methods%points_per_strip)
         methods%fastsim_nx = option_integer(command, '--fastsim-nx', methods%fastsim_nx)

@@ -1,24 +1,28 @@
 !> Which methods a contact is solved by, and how finely.
 module faststrip_app_methods
     use faststrip_text, only: integer_text
-    use faststrip_normal_strip, only: fewest_strips
+    use faststrip_normal_strip, only: fewest_strips, strips_auto
     use faststrip_tangential_types, only: most_points_per_strip => most_points
     implicit none
     private
 
-    public :: methods_t, check_methods, most_strips, word_length
+    public :: methods_t, check_methods, most_strips, word_length, normal_methods
 
     !> Length of a method's name, characters.
     integer, parameter :: word_length = 16
+    !> Names of the normal methods: strips; the Hertz ellipse of the contact point; the strips'
+    !> patches as ellipses, with the proportions of Hertz or of the second moments.
+    character(len=word_length), parameter :: normal_methods(4) = [character(len=word_length) :: &
+        'strip', 'hertz', 'equal_area', 'equal_moments']
     !> Most strips per patch the program accepts.
     integer, parameter :: most_strips = 1000
     integer, parameter :: most_points = 10000
 
     !> Methods and resolutions.
     type :: methods_t
-        character(len=word_length) :: normal = 'strip'         !! strip or hertz
+        character(len=word_length) :: normal = 'strip'         !! one of `normal_methods`
         character(len=word_length) :: tangential = 'faststrip' !! faststrip or fastsim
-        integer :: strips_per_patch = 15 !! strips across the largest patch
+        integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
         integer :: points_per_strip = 15 !! points along a strip, faststrip
         integer :: fastsim_nx = 50       !! points along a row, fastsim
         integer :: fastsim_ny = 50       !! rows, fastsim
@@ -34,14 +38,15 @@ contains
 
         what = ''
         value = ''
-        if (methods%normal /= 'strip' .and. methods%normal /= 'hertz') then
+        if (all(normal_methods /= methods%normal)) then
             what = 'normal'
             value = trim(methods%normal)
         else if (methods%tangential /= 'faststrip' .and. methods%tangential /= 'fastsim') then
             what = 'tangential'
             value = trim(methods%tangential)
         else
-            call check('strips_per_patch', methods%strips_per_patch, fewest_strips, most_strips)
+            if (methods%strips_per_patch /= strips_auto) call check( &
+                'strips_per_patch', methods%strips_per_patch, fewest_strips, most_strips)
             call check('points_per_strip', methods%points_per_strip, 1, &
                        most_points_per_strip)
             call check('fastsim_nx', methods%fastsim_nx, 1, most_points)

@@ -13,6 +13,7 @@ module faststrip_app_scene
     use faststrip_profile_contact_gap, only: make_gap
     use faststrip_app_console, only: put_origin
     use faststrip_app_case_file, only: case_t
+    use faststrip_app_solver, only: demand_t
     implicit none
     private
 
@@ -26,7 +27,7 @@ module faststrip_app_scene
         type(gap_t) :: gap              !! undeformed gap, mm
         type(rigid_contact_t) :: contact !! rigid contact point, if there are profiles
         real(wp) :: shift = 0.0_wp      !! lateral shift of the wheelset, mm
-        real(wp) :: load = 0.0_wp       !! normal force, N
+        type(demand_t) :: demand        !! normal force, or penetration
         type(creepage_t) :: creepage    !! about the rigid contact point
     end type scene_t
 
@@ -44,7 +45,7 @@ contains
 
         call clear_status(status)
         scene%shift = shift
-        scene%load = case%load
+        scene%demand = demand_t(case%load_is_given, case%load, case%penetration)
         scene%creepage = case%creepage
         if (len(case%gap_file) > 0) then
             call read_gap_file(case%gap_file, scene%gap, status)
@@ -56,7 +57,7 @@ contains
             call clear_place(case, scene)
             return
         end if
-        if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
+        if (case%load_is_vertical) scene%demand%load = contact_force(case%load, scene%contact%gamma)
         if (case%creepage_by_formula) scene%creepage = &
             shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
         call take_lists(case, scene)
@@ -73,7 +74,7 @@ contains
 
         i = findloc(abs(case%shifts - scene%shift) < same_shift, .true., dim=1)
         if (i == 0) return
-        if (size(case%shift_loads) > 0) scene%load = case%shift_loads(i)
+        if (size(case%shift_loads) > 0) scene%demand%load = case%shift_loads(i)
         if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
             case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
     end subroutine take_lists
@@ -87,7 +88,7 @@ contains
 
         unknown = ieee_value(unknown, ieee_quiet_nan)
         scene%contact%gamma = unknown
-        if (case%load_is_vertical) scene%load = unknown
+        if (case%load_is_vertical) scene%demand%load = unknown
         if (case%creepage_by_formula) scene%creepage = creepage_t(unknown, unknown, unknown)
     end subroutine clear_place
 

@@ -7,9 +7,12 @@ module faststrip_app_solver
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_strips
+    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
+                                      hertz_strips
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
+                                      strip_solve_penetration, strips_auto
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
@@ -19,7 +22,10 @@ module faststrip_app_solver
     implicit none
     private
 
-    public :: solver_t, outcome_t, make_solver, solve
+    public :: solver_t, demand_t, outcome_t, make_solver, solve
+
+    ! Strips of a Hertz ellipse where the number is left to the solver, and the most it takes.
+    integer, parameter :: auto_hertz_strips = 15, auto_most_strips = 41
 
     !> Methods with the room they need, used for one contact after the other.
     type :: solver_t
@@ -30,6 +36,13 @@ module faststrip_app_solver
         type(strip_workspace_t), private :: workspace
         type(gap_curve_t), private :: curve
     end type solver_t
+
+    !> What presses the bodies together.
+    type :: demand_t
+        logical :: by_load = .true.      !! is the load given, or the penetration?
+        real(wp) :: load = 0.0_wp        !! normal force, N
+        real(wp) :: penetration = 0.0_wp !! approach from h = 0, mm
+    end type demand_t
 
     !> Figures of one contact.
     type :: outcome_t
@@ -53,6 +66,7 @@ contains
         solver%methods = methods
         solver%with_field = with_field
         room = 2*methods%strips_per_patch + 60
+        if (methods%strips_per_patch == strips_auto) room = 2*auto_most_strips + 60
         call reserve_strips(solver%strips, room, status)
         if (is_error(status) .or. .not. with_field) return
         call reserve_field(solver%field, max(room*methods%points_per_strip, &
@@ -60,12 +74,12 @@ contains
     end subroutine make_solver
 
     !> Solve one contact.
-    subroutine solve(solver, gap, material, mu, load, creepage, outcome, status)
+    subroutine solve(solver, gap, material, mu, demand, creepage, outcome, status)
         type(solver_t), intent(inout) :: solver    !! made beforehand
         type(gap_t), intent(in) :: gap             !! undeformed gap, mm
         type(material_t), intent(in) :: material   !! moduli, MPa
         real(wp), intent(in) :: mu                 !! coefficient of friction
-        real(wp), intent(in) :: load               !! normal force, N
+        type(demand_t), intent(in) :: demand       !! load or penetration
         type(creepage_t), intent(in) :: creepage   !! about y = 0
         type(outcome_t), intent(out) :: outcome    !! figures
         type(status_t), intent(out) :: status      !! an error, or a named limitation
@@ -80,13 +94,9 @@ contains
         if (is_error(status)) return
         call system_clock(before)
         if (solver%methods%normal == 'hertz') then
-            call solve_hertz(solver, gap, material, load, hertz, outcome%normal, status)
+            call solve_hertz(solver, gap, material, demand, hertz, outcome%normal, status)
         else
-            call set_strip_gap(solver%workspace, gap, status)
-            if (is_error(status)) return
-            call strip_solve(solver%workspace, normal_compliance(material), load, &
-                             strip_options_t(strips_per_patch=solver%methods%strips_per_patch), &
-                             solver%strips, outcome%normal, status)
+            call solve_by_strips(solver, gap, material, demand, outcome%normal, status)
         end if
         if (is_error(status)) return
         call system_clock(between)
@@ -119,19 +129,57 @@ contains
         end if
     end subroutine make_room
 
-    subroutine solve_hertz(solver, gap, material, load, hertz, normal, status)
+    subroutine solve_by_strips(solver, gap, material, demand, normal, status)
         type(solver_t), intent(inout) :: solver
         type(gap_t), intent(in) :: gap
         type(material_t), intent(in) :: material
-        real(wp), intent(in) :: load
+        type(demand_t), intent(in) :: demand
+        type(normal_result_t), intent(out) :: normal
+        type(status_t), intent(out) :: status
+
+        type(strip_options_t) :: options
+        type(status_t) :: ellipses
+
+        call set_strip_gap(solver%workspace, gap, status)
+        if (is_error(status)) return
+        options%strips_per_patch = solver%methods%strips_per_patch
+        if (demand%by_load) then
+            call strip_solve(solver%workspace, normal_compliance(material), demand%load, options, &
+                             solver%strips, normal, status)
+        else
+            call strip_solve_penetration(solver%workspace, normal_compliance(material), &
+                                         demand%penetration, options, solver%strips, normal, &
+                                         status)
+        end if
+        if (is_error(status) .or. solver%methods%normal == 'strip') return
+        call replace_by_ellipses( &
+            merge(equal_area, equal_moments, solver%methods%normal == 'equal_area'), &
+            solver%workspace%curve, solver%strips, normal, ellipses)
+        if (is_error(ellipses)) status = ellipses
+    end subroutine solve_by_strips
+
+    subroutine solve_hertz(solver, gap, material, demand, hertz, normal, status)
+        type(solver_t), intent(inout) :: solver
+        type(gap_t), intent(in) :: gap
+        type(material_t), intent(in) :: material
+        type(demand_t), intent(in) :: demand
         type(hertz_t), intent(out) :: hertz
         type(normal_result_t), intent(out) :: normal
         type(status_t), intent(out) :: status
 
+        integer :: n
+
         call set_gap_curve(solver%curve, gap, status)
         if (is_error(status)) return
-        call hertz_solve_gap(solver%curve, normal_compliance(material), load, hertz, status)
+        if (demand%by_load) then
+            call hertz_solve_gap(solver%curve, normal_compliance(material), demand%load, hertz, &
+                                 status)
+        else
+            call hertz_solve_gap_penetration(solver%curve, normal_compliance(material), &
+                                             demand%penetration, hertz, status)
+        end if
         if (is_error(status)) return
+        normal%load = hertz%load
         normal%penetration = hertz%penetration + solver%curve%h_lowest
         normal%area = hertz%area
         normal%pmax = hertz%pmax
@@ -139,7 +187,9 @@ contains
         normal%y_max = hertz%y + hertz%b
         normal%x_max = hertz%a
         normal%n_patches = 1
-        call hertz_strips(hertz, solver%methods%strips_per_patch, solver%strips, status)
+        n = solver%methods%strips_per_patch
+        if (n == strips_auto) n = auto_hertz_strips
+        call hertz_strips(hertz, n, solver%strips, status)
     end subroutine solve_hertz
 
     subroutine solve_tangential(solver, hertz, material, mu, creepage, tangential, status, field)

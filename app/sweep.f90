@@ -67,7 +67,7 @@ contains
             do m = 1, size(solver)
                 status = placed
                 if (.not. is_error(placed)) &
-                    call solve(solver(m), scene%gap, case%material, case%mu, scene%load, &
+                    call solve(solver(m), scene%gap, case%material, case%mu, scene%demand, &
                                scene%creepage, outcome, status)
                 call put_sweep_row(writer, case, solver(m)%methods, scene, outcome, status)
                 if (.not. is_error(status)) cycle

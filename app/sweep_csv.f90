@@ -1,6 +1,6 @@
 !> The rows of `contact` and `sweep`: what was solved, by which methods, with what result.
 module faststrip_app_sweep_csv
-    use faststrip_status, only: status_t
+    use faststrip_status, only: status_t, is_error
     use faststrip_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_app_console, only: put_origin
     use faststrip_app_case_file, only: case_t
@@ -47,7 +47,13 @@ contains
         call put_cell(writer, scene%shift)
         call put_cell(writer, trim(methods%normal))
         call put_cell(writer, trim(methods%tangential))
-        call put_cell(writer, scene%load)
+        if (scene%demand%by_load) then
+            call put_cell(writer, scene%demand%load)
+        else if (is_error(status)) then
+            call put_cell(writer, '')
+        else
+            call put_cell(writer, outcome%normal%load)
+        end if
         if (len(case%gap_file) > 0) then
             call put_cell(writer, '')
         else

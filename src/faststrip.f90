@@ -27,7 +27,9 @@ module faststrip
     use faststrip_profile_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, hertz_strips
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
+                                      hertz_solve_gap_penetration, hertz_strips
+    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve, &

@@ -11,16 +11,17 @@
 module faststrip_normal_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, &
-                                st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
+                                st_no_contact, st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
                                 st_out_of_range, st_workspace_too_small
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: hertz_t, hertz_solve, hertz_solve_gap, hertz_strips
+    public :: hertz_t, hertz_solve, hertz_solve_gap, hertz_solve_gap_penetration, hertz_strips
+    public :: put_hertz_strips
 
     !> A Hertz contact.
     type :: hertz_t
@@ -191,6 +192,39 @@ contains
         hertz%y = curve%y_lowest
     end subroutine hertz_solve_gap
 
+    !> The same for a given penetration, from h = 0; the load is in the result.
+    pure subroutine hertz_solve_gap_penetration(curve, compliance, penetration, hertz, status)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set, mm
+        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: penetration    !! approach of the bodies, mm
+        type(hertz_t), intent(out) :: hertz    !! the contact; zero when there is an error
+        type(status_t), intent(out) :: status  !! as `hertz_solve_gap`, `st_no_contact`
+
+        type(hertz_t) :: unit_load
+        real(wp) :: depth
+
+        if (.not. ieee_is_finite(penetration)) then
+            call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
+                            // number_text(penetration))
+            return
+        end if
+        depth = 0.0_wp
+        if (curve%n > 0) then
+            depth = penetration - curve%h_lowest
+            if (depth <= 0.0_wp) then
+                call set_status(status, st_no_contact, 'the bodies do not touch: penetration ' &
+                                // trim(number_text(penetration)) // ' mm, lowest gap ' &
+                                // trim(number_text(curve%h_lowest)) // ' mm')
+                return
+            end if
+        end if
+        call hertz_solve_gap(curve, compliance, 1.0_wp, unit_load, status)
+        if (is_error(status)) return
+        ! Penetration goes with load^(2/3).
+        call hertz_solve_gap(curve, compliance, sqrt(depth/unit_load%penetration)**3, hertz, &
+                             status)
+    end subroutine hertz_solve_gap_penetration
+
     !> The Hertz ellipse cut into strips of equal width, with the load of each strip exact: half
     !> length and pressure of a strip are `a q` and `pmax q`, `q^2` the mean of `1 - (y/b)^2`
     !> over its width.
@@ -200,9 +234,6 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! with room for n, see `reserve_strips`
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (n < 1, no ellipse), `st_workspace_too_small`
-
-        real(wp) :: left, right, q
-        integer :: i
 
         call clear_status(status)
         if (n < 1) then
@@ -221,17 +252,31 @@ contains
             call set_status(status, st_workspace_too_small, 'too little room for the strips')
             return
         end if
+        call put_hertz_strips(hertz, 1, n, strips)
+        strips%patch(:n) = 1
+        strips%n = n
+        strips%n_patches = 1
+    end subroutine hertz_strips
+
+    !> Cut an ellipse into the strips `first` to `last` of a contact, as `hertz_strips`.
+    pure subroutine put_hertz_strips(hertz, first, last, strips)
+        type(hertz_t), intent(in) :: hertz              !! an ellipse with its pressure
+        integer, intent(in) :: first                    !! number of its first strip, >= 1
+        integer, intent(in) :: last                     !! number of its last strip, there is room
+        type(contact_strips_t), intent(inout) :: strips !! edges, lengths, pressures are written
+
+        real(wp) :: left, right, q
+        integer :: i, n
+
+        n = last - first + 1
         do i = 1, n
             left = real(2*(i - 1) - n, wp)/n
             right = real(2*i - n, wp)/n
             q = sqrt(1.0_wp - (left*left + left*right + right*right)/3.0_wp)
-            strips%y_left(i) = hertz%y + hertz%b*left
-            strips%y_right(i) = hertz%y + hertz%b*right
-            strips%half_length(i) = hertz%a*q
-            strips%p0(i) = hertz%pmax*q
-            strips%patch(i) = 1
+            strips%y_left(first + i - 1) = hertz%y + hertz%b*left
+            strips%y_right(first + i - 1) = hertz%y + hertz%b*right
+            strips%half_length(first + i - 1) = hertz%a*q
+            strips%p0(first + i - 1) = hertz%pmax*q
         end do
-        strips%n = n
-        strips%n_patches = 1
-    end subroutine hertz_strips
+    end subroutine put_hertz_strips
 end module faststrip_normal_hertz
