@@ -46,16 +46,18 @@ contains
             // trim(number_text(seconds)), command%name)
         select case (what)
         case ('integral')
-            call refuse_options(command, what, ['--contacts   ', '--most-strips', '--seconds    '])
+            call refuse_options(command, what, &
+                                [character(len=13) :: '--contacts', '--most-strips', '--seconds'])
             call bench_integral(file, rounds)
         case ('normal')
             call refuse_options(command, what, ['--rounds'])
             call bench_normal(file, folder, most_strips, seconds)
         case ('accuracy')
-            call refuse_options(command, what, ['--rounds     ', '--most-strips', '--seconds    '])
+            call refuse_options(command, what, &
+                                [character(len=13) :: '--rounds', '--most-strips', '--seconds'])
             call bench_accuracy(file, folder)
         case ('convergence')
-            call refuse_options(command, what, ['--rounds ', '--seconds'])
+            call refuse_options(command, what, [character(len=9) :: '--rounds', '--seconds'])
             call bench_convergence(file, folder, most_strips)
         case default
             call usage_error('there is no bench called ' // what, command%name)
@@ -77,19 +79,19 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(13) = [character(len=88) :: &
-            'integral: nanoseconds an influence number costs and its largest relative error, by', &
-            'the published polynomial (Horner, exp), fresh fits, the closed form and GSL; one by', &
-            'one (scalar) and for n = 0 to 20 at once (row). CSV:', &
+        character(len=*), parameter :: lines(13) = [character(len=80) :: &
+            'integral: nanoseconds an influence number costs and its largest relative error,', &
+            'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
+            'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
             'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu; medians; ratio: to the', &
             'published polynomial in the same loop.', &
-            'normal: microseconds the strip solver takes with 5 to 400 strips, from nothing (cold)', &
-            'and from the previous step (load changed by 5 %, wheelset moved by 0.05 mm), beside', &
-            'FASTSIM on 50 x 50 elements. Processor time, medians; OPENBLAS_NUM_THREADS=1 keeps it', &
-            'to one core.', &
+            'normal: microseconds the strip solver takes with 5 to 400 strips, from nothing', &
+            '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
+            '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
+            'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
             'accuracy: its errors against CONTACT with 15 strips and auto.', &
-            'convergence: its errors with 5 to 81 strips against 301 strips, and against Hertz on', &
-            'ellipses.', &
+            'convergence: its errors with 5 to 81 strips, against 301 strips, and against', &
+            'Hertz on ellipses.', &
             'The last three work on the 20 contacts of the paper''s section 5.']
         integer :: i
 

@@ -13,7 +13,7 @@ module faststrip_app_method_options
     type(option_t), parameter :: method_options(6) = [ &
         option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments'), &
         option_t('--tangential', 'NAME', 'faststrip (default) or fastsim'), &
-        option_t('--strips-per-patch', 'N', 'strips across the largest patch (default 15), or auto'), &
+        option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim (default 50)'), &
         option_t('--fastsim-ny', 'N', 'rows, fastsim (default 50)')]

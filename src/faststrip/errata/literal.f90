@@ -15,7 +15,7 @@ module faststrip_errata_literal
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
-    use faststrip_tangential_patch, only: check_strips
+    use faststrip_normal_patch_ellipse, only: check_strips
     implicit none
     private
 
