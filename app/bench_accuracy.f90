@@ -49,7 +49,8 @@ contains
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_comment(writer, 'errors against CONTACT on 0.1 mm; relative, patch ends in mm')
+        call put_comment(writer, 'errors against CONTACT on 0.1 mm, area extrapolated; ' &
+                         // 'relative, patch ends in mm')
         call put_header(writer, [character(len=15) :: 'case', 'strips', 'status', &
                                  'penetration_err', 'pmax_err', 'area_err', 'ymin_err_mm', &
                                  'ymax_err_mm', 'strips_used', 'iterations'])

@@ -21,7 +21,7 @@ module faststrip_app_bench_cases
         type(gap_t) :: gap                    !! undeformed gap, mm
         real(wp) :: penetration = 0.0_wp      !! by CONTACT, mm
         real(wp) :: pmax = 0.0_wp             !! by CONTACT, MPa
-        real(wp) :: area = 0.0_wp             !! by CONTACT, mm2
+        real(wp) :: area = 0.0_wp             !! by CONTACT, extrapolated in the grid, mm2
         real(wp) :: y_min = 0.0_wp            !! left end by CONTACT, mm
         real(wp) :: y_max = 0.0_wp            !! right end by CONTACT, mm
     end type bench_case_t
@@ -36,7 +36,7 @@ contains
 
         character(len=*), parameter :: names(10) = [character(len=16) :: &
             'yw_mm', 'Fn_N', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
-            'area_mm2', 'ymin_mm', 'ymax_mm']
+            'area_extrap_mm2', 'ymin_mm', 'ymax_mm']
         type(csv_table_t) :: table
         real(wp), allocatable :: column(:)
         real(wp), allocatable :: values(:, :)

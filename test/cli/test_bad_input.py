@@ -65,7 +65,13 @@ class CaseFiles(ProgramTest):
         self.check(gap_case(motion="creepage = 'formula'"), "(c.nml:10)", "formula")
         self.check(gap_case(load="1e5\n load_direction = 'up'"), "(c.nml:5)", "up")
         self.check(gap_case(load="1e5\n load_direction = 'vertical'"), "(c.nml:5)", "vertical")
-        for line, value in (("strips_per_patch = 0", "0"), ("normal = 'guess'", "guess"),
+        self.check(gap_case(load="1e5\n penetration_mm = 0.1"), "(c.nml:5)", "penetration_mm",
+                   "load_N")
+        self.check(gap_case(load="1e5\n penetration_mm = 0.1").replace("  load_N = 1e5\n", "")
+                   .replace("penetration_mm = 0.1", "penetration_mm = NaN"), "(c.nml:4)", "NaN")
+        self.check(gap_case(load="1\n penetration_mm = 1\n load_direction = 'vertical'")
+                   .replace("  load_N = 1\n", ""), "(c.nml:5)", "vertical")
+        for line, value in (("strips_per_patch = 2", "2"), ("normal = 'guess'", "guess"),
                             ("points_per_strip = 1001", "1001"), ("fastsim_nx = -1", "-1"),
                             ("gap_step_mm = 0", "0.0"), ("gap_height_mm = -1", "-1.0")):
             self.check(gap_case(extra=f"&numerics\n {line}\n/\n"), "(c.nml:13)",

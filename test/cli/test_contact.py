@@ -118,6 +118,54 @@ class GapFile(ProgramTest):
                 used = strips[strip["y_mm"]]
                 self.assertLessEqual(used, 0.3 * float(strip["load_N"]) * (1.0 + 1e-9))
 
+    def test_penetration_gives_back_the_load(self):
+        self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.05 * y)))
+        for normal, relative in (("strip", 1e-6), ("hertz", 1e-12), ("equal_area", 1e-6),
+                                 ("equal_moments", 1e-6)):
+            row = self.contact("--normal", normal, gap_file="lopsided.csv")
+            text = gap_case(gap_file="lopsided.csv").replace(
+                "load_N = 1e5", f"penetration_mm = {float(row['penetration_mm'])!r}")
+            self.write("deep.nml", text)
+            deep = self.good("contact", "deep.nml", "--normal", normal)[0]
+            self.assertEqual(list(deep), list(row))
+            self.assert_close(float(deep["N_N"]), 1e5, 1e-5 + relative, what=normal)
+            self.same(deep, row, 1e-4)
+        self.write("deep.nml", text.replace("penetration_mm = ", "penetration_mm = -"))
+        for normal in ("strip", "hertz", "equal_area"):
+            self.refused(1, "contact", "deep.nml", "--normal", normal, says=["deep.nml", "touch"])
+
+    def test_strips_left_to_the_solver(self):
+        self.write("kink.csv", gap_text(lambda y: abs(y) ** 1.5 / 300.0 + parabola(y)))
+        counts = {}
+        for gap in ("gap.csv", "kink.csv"):
+            row = self.contact("--strips-per-patch", "auto", "--strips", "s.csv", gap_file=gap)
+            counts[gap] = len(self.read("s.csv"))
+            self.assertEqual(row["status"], "ok")
+            fine = self.contact("--strips-per-patch", "81", gap_file=gap)
+            self.assert_close(float(row["pmax_MPa"]), float(fine["pmax_MPa"]), 0.02)
+            listed = self.contact(gap_file=gap, extra="&numerics\n strips_per_patch = 0\n/\n")
+            self.same(listed, row)
+            self.assertEqual(float(self.contact("--strips-per-patch", "auto", "--normal", "hertz")
+                                   ["N_N"]), 1e5)
+        self.assertTrue(15 <= counts["gap.csv"] <= 41, counts)
+        self.assertTrue(15 <= counts["kink.csv"] <= 41, counts)
+
+    def test_ellipses_of_the_strips(self):
+        self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.002 * y * y)))
+        strip = self.contact(gap_file="lopsided.csv")
+        axes = {}
+        for normal in ("equal_area", "equal_moments"):
+            row = self.contact("--normal", normal, "--strips", "s.csv", "--fields", "f.csv",
+                               gap_file="lopsided.csv", motion="cksi = 0.0008")
+            self.assertEqual((row["normal"], row["penetration_mm"]),
+                             (normal, strip["penetration_mm"]))
+            self.check_strips(row, self.read("s.csv"))
+            self.check_fields(row, self.read("f.csv"))
+            self.assert_close(float(row["area_mm2"]), float(strip["area_mm2"]), 0.01)
+            self.assert_close(float(row["pmax_MPa"]), 1.5e5 / float(row["area_mm2"]), 1e-6)
+            axes[normal] = float(row["xmax_mm"])
+        self.assertNotEqual(axes["equal_area"], axes["equal_moments"])
+
     def test_gap_that_was_read_is_the_gap_that_is_written(self):
         self.contact("--gap", "g.csv")
         for name in ("y_mm", "h_mm", "inv2R_per_mm"):

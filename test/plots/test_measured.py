@@ -74,7 +74,8 @@ def normal_rows():
     return [
         dict(start=start, strips=strips, us=factor * strips**2 * again, iterations=7,
              ns_per_entry=20.0, fastsim_us=120.0)
-        for start, factor in (("cold", 1.0), ("warm", 0.2)) for strips in (5, 10, 20, 100, 400)
+        for start, factor in (("cold", 1.0), ("warm_load", 0.2), ("warm_shift", 0.25))
+        for strips in (5, 10, 20, 100, 400)
         for again in (1.0, 1.1, 3.0)
     ]
 
@@ -216,7 +217,8 @@ class BadInput(unittest.TestCase):
             ("convergence", dict(strips=0), "strips is below one: 0"),
             ("bench_normal", dict(us=-1), "us is not above zero: -1"),
             ("bench_normal", dict(strips=0), "strips is not above zero: 0"),
-            ("bench_normal", dict(start="hot"), "neither cold nor warm in column start: hot"),
+            ("bench_normal", dict(start="hot"), "none of cold, warm_load,"
+                                              " warm_shift in column start: hot"),
         ):
             with self.subTest(command=command, words=words):
                 name = COMMANDS[command][0]

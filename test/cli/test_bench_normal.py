@@ -1,0 +1,87 @@
+"""`faststrip bench normal`, `accuracy` and `convergence`: the columns, and that they measure."""
+
+import math
+import statistics
+
+from cli_program import GAPS, ROOT, ProgramTest, numbers
+
+CONTACTS = ROOT / "reference" / "contact"
+
+
+class Bench(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        # Three of the twenty contacts.
+        lines = (CONTACTS / "s1002_uic60_B.csv").read_text(encoding="utf-8").splitlines()
+        shifts = ("-5", "-1", "2")
+        kept = [line for line in lines if line.startswith("#")]
+        rows = [line for line in lines if not line.startswith("#")]
+        kept += rows[:1] + [row for row in rows if row.split(",")[0] in shifts]
+        self.write("contacts/s1002_uic60_B.csv", "\n".join(kept) + "\n")
+        for shift in shifts:
+            name = f"shift_{shift}.csv"
+            self.write(f"contacts/gaps/{name}", (GAPS / name).read_text(encoding="utf-8"))
+
+    def bench(self, what, *words):
+        done = self.run_program("bench", what, "--contacts", "contacts", "-o", "out.csv", *words)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return self.read("out.csv"), done.stderr
+
+    def test_normal(self):
+        rows, said = self.bench("normal", "--most-strips", "9", "--seconds", "0.2")
+        self.assertEqual(list(rows[0]), (
+            "start,strips,us,iterations,ns_per_entry,fastsim_us,ratio,flags,compiler,cpu,gap_us,"
+            "case,runs").split(","))
+        for strips in (5, 7, 9):
+            self.assertIn(f"{strips} strips, ", said)
+            own = [row for row in rows if int(row["strips"]) == strips]
+            self.assertEqual({row["start"] for row in own}, {"cold", "warm_load", "warm_shift"})
+            iterations = {start: statistics.median(
+                numbers([row for row in own if row["start"] == start], "iterations"))
+                for start in ("cold", "warm_load", "warm_shift")}
+            self.assertLess(iterations["warm_load"], iterations["cold"])
+            self.assertLess(iterations["warm_shift"], iterations["cold"])
+        for row in rows:
+            for name in ("us", "iterations", "ns_per_entry", "fastsim_us", "ratio"):
+                self.assertGreater(float(row[name]), 0.0, name)
+            self.assert_close(float(row["ratio"]), float(row["us"]) / float(row["fastsim_us"]),
+                              1e-12)
+            # An entry costs tens of nanoseconds: a factor of a hundred is a wrong unit.
+            self.assertTrue(1.0 < float(row["ns_per_entry"]) < 1e4, row["ns_per_entry"])
+            self.assertGreaterEqual(int(row["runs"]), 1)
+
+    def test_accuracy(self):
+        rows, said = self.bench("accuracy")
+        self.assertEqual([(row["case"], row["strips"]) for row in rows],
+                         [(f"shift_{shift}", strips) for strips in ("15", "auto")
+                          for shift in ("-5", "-1", "2")])
+        self.assertEqual(said.count("penetration"), 2)
+        for row in rows:
+            self.assertLess(abs(float(row["penetration_err"])), 2e-3)
+            self.assertLess(abs(float(row["pmax_err"])), 2e-2)
+            self.assertLess(abs(float(row["area_err"])), 1e-2)
+            self.assertLess(abs(float(row["ymin_err_mm"])), 0.15)
+            self.assertGreaterEqual(int(row["strips_used"]), 15)
+
+    def test_convergence(self):
+        rows, _ = self.bench("convergence", "--most-strips", "15")
+        self.assertEqual(list(rows[0]),
+                         "case,strips,status,penetration_err,pmax_err,area_err".split(","))
+        self.assertEqual(len(rows), (3 + 12) * 5)
+        errors = {}
+        for row in rows:
+            self.assertEqual(row["status"], "ok")
+            if row["case"].startswith("hertz_"):
+                errors.setdefault(int(row["strips"]), []).append(abs(float(row["penetration_err"])))
+        # Second order in the number of strips.
+        order = math.log(statistics.median(errors[5]) / statistics.median(errors[15]), 3)
+        self.assertTrue(1.6 < order < 2.6, order)
+
+    def test_refused(self):
+        for words, says in ((["guess"], "guess"), ([], "WHAT"),
+                            (["normal", "--rounds", "3"], "--rounds"),
+                            (["normal", "--seconds", "-1"], "-1"),
+                            (["accuracy", "--seconds", "1"], "--seconds"),
+                            (["integral", "--contacts", "x"], "--contacts")):
+            self.refused(2, "bench", *words, says=[says])
+        self.refused_and_untouched("bench", "accuracy", "--contacts", "nowhere", says=["nowhere"])
