@@ -9,6 +9,7 @@ module faststrip_app_bench
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_accuracy, only: bench_accuracy
     use faststrip_app_bench_convergence, only: bench_convergence
+    use faststrip_app_certify, only: run_certificate_study
     implicit none
     private
 
@@ -52,6 +53,10 @@ contains
         case ('normal')
             call refuse_options(command, what, ['--rounds'])
             call bench_normal(file, folder, most_strips, seconds)
+        case ('certificate')
+            call refuse_options(command, what, [character(len=14) :: '--rounds', '--contacts', &
+                                                '--most-strips', '--seconds'])
+            call run_certificate_study(file)
         case ('accuracy')
             call refuse_options(command, what, &
                                 [character(len=13) :: '--rounds', '--most-strips', '--seconds'])

@@ -13,10 +13,11 @@ module faststrip_app_result_csv
     public :: result_columns, put_result, put_strips, put_field
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(15) = [character(len=16) :: &
+    character(len=*), parameter :: result_columns(20) = [character(len=19) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
-        'normal_us', 'tangential_us']
+        'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
+        'est_err_penetration', 'est_err_pmax', 'est_err_area']
 
 contains
 
@@ -49,6 +50,25 @@ contains
         call put_cell(writer, outcome%tangential%stick_fraction)
         call put_cell(writer, outcome%normal_us)
         call put_cell(writer, outcome%tangential_us)
+        associate (certificate => outcome%certificate)
+            call put_certificate(certificate%residual_inside)
+            call put_certificate(certificate%overlap_outside)
+            call put_certificate(certificate%est_err_penetration)
+            call put_certificate(certificate%est_err_pmax)
+            call put_certificate(certificate%est_err_area)
+        end associate
+
+    contains
+
+        subroutine put_certificate(value)
+            real(wp), intent(in) :: value
+
+            if (outcome%is_certified) then
+                call put_cell(writer, value)
+            else
+                call put_cell(writer, '')
+            end if
+        end subroutine put_certificate
     end subroutine put_result
 
     !> The strips of a contact, one row a strip.

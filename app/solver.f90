@@ -7,6 +7,7 @@ module faststrip_app_solver
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
@@ -48,6 +49,8 @@ module faststrip_app_solver
     type :: outcome_t
         type(normal_result_t) :: normal         !! penetration, area, ...
         type(tangential_result_t) :: tangential !! forces, friction power, ...
+        logical :: is_certified = .false.       !! does the certificate count? only for strips
+        type(certificate_t) :: certificate      !! how wrong the normal solution is
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us
         real(wp) :: tangential_us = 0.0_wp      !! of the tangential problem, us
     end type outcome_t
@@ -85,7 +88,7 @@ contains
         type(status_t), intent(out) :: status      !! an error, or a named limitation
 
         type(hertz_t) :: hertz
-        type(status_t) :: tangential_status
+        type(status_t) :: tangential_status, certificate_status
         integer(int64) :: before, between, after
 
         call check_material(material, status)
@@ -111,6 +114,10 @@ contains
         outcome%normal_us = microseconds(before, between)
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
+        if (solver%methods%normal /= 'strip' .or. is_error(status)) return
+        call certify_strips(solver%workspace%curve, normal_compliance(material), solver%strips, &
+                            outcome%normal, outcome%certificate, certificate_status)
+        outcome%is_certified = .not. is_error(certificate_status)
     end subroutine solve
 
     !> Grow the workspaces to what a gap and the methods need, outside the time that is measured.
