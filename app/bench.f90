@@ -84,7 +84,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(13) = [character(len=80) :: &
+        character(len=*), parameter :: lines(15) = [character(len=81) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -97,7 +97,9 @@ contains
             'accuracy: its errors against CONTACT with 15 strips and auto.', &
             'convergence: its errors with 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
-            'The last three work on the 20 contacts of the paper''s section 5.']
+            'certificate: how often estimated errors bound the true ones (minutes; with -o', &
+            'the shares on stdout).', &
+            'normal, accuracy and convergence work on the paper''s 20 contacts.']
         integer :: i
 
         text = ''

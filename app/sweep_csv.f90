@@ -13,7 +13,7 @@ module faststrip_app_sweep_csv
 
     public :: put_sweep_header, put_sweep_row
 
-    character(len=*), parameter :: scene_columns(9) = [character(len=16) :: &
+    character(len=*), parameter :: scene_columns(9) = [character(len=19) :: &
         'case', 'yw_mm', 'normal', 'tangential', 'N_N', 'gamma_rad', 'cksi', 'ceta', &
         'cphi_rad_per_mm']
 

@@ -17,6 +17,9 @@ RESULT_COLUMNS = (
     "overlap_outside,est_err_penetration,est_err_pmax,est_err_area"
 ).split(",")
 
+# What does not change from run to run and is no status.
+FIGURES = RESULT_COLUMNS[1:RESULT_COLUMNS.index("normal_us")]
+
 
 def rows_of(text):
     """The rows of a CSV text as dictionaries, comments left out."""

@@ -4,11 +4,10 @@ import math
 import subprocess
 
 from cli_program import (
-    GAPS, PROGRAM, RESULT_COLUMNS, ProgramTest, gap_case, gap_text, numbers, parabola, profile_case,
-    rows_of,
+    FIGURES, GAPS, PROGRAM, RESULT_COLUMNS, ProgramTest, gap_case, gap_text, numbers, parabola,
+    profile_case, rows_of,
 )
 
-FIGURES = RESULT_COLUMNS[1:-2]  # without status and times
 
 
 def bumpy(y):
