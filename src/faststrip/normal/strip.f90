@@ -41,6 +41,7 @@ module faststrip_normal_strip
     integer, parameter :: strips_auto = 0
 
     integer, parameter :: first_level = 15   ! strips that find the patches
+    integer, parameter :: most_at_once = 20  ! more strips than these are reached in two levels
     integer, parameter :: auto_levels(3) = [15, 27, 41]
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
 
@@ -163,7 +164,7 @@ contains
         if (options%strips_per_patch == strips_auto) then
             n_levels = 3
             levels = auto_levels
-        else if (options%strips_per_patch > 2*first_level) then
+        else if (options%strips_per_patch > most_at_once) then
             n_levels = 2
             levels(1) = first_level
         end if
