@@ -34,7 +34,7 @@ QUANTITIES = {
     "penetration": Quantity(
         "penetration_mm", "penetration_mm", r"$\delta$", "approach", "mm", 1.0, "value"
     ),
-    "area": Quantity("area_mm2", "area_mm2", "$A$", "contact area", "mm²", 1.0, "value"),
+    "area": Quantity("area_mm2", "area_extrap_mm2", "$A$", "contact area", "mm²", 1.0, "value"),
     "pmax": Quantity(
         "pmax_MPa", "pmax_MPa", r"$p_\mathrm{max}$", "largest pressure", "MPa", 1.0, "value"
     ),

@@ -20,7 +20,7 @@ SWEEP_COLUMNS = (
     "stick_fraction,normal_us,tangential_us"
 ).split(",")
 REFERENCE_COLUMNS = (
-    "yw_mm,Fn_N,penetration_mm,area_mm2,pmax_MPa,Fx_extrap_N,Fy_extrap_N,Mz_extrap_Nmm"
+    "yw_mm,Fn_N,penetration_mm,area_extrap_mm2,pmax_MPa,Fx_extrap_N,Fy_extrap_N,Mz_extrap_Nmm"
 ).split(",")
 FAST_COLUMNS = (
     "method,dx_mm,yw_mm,cpu_norm_s,cpu_tang_s,err_pen_pct,err_area_pct,err_pmax_pct,"
@@ -66,7 +66,7 @@ def sweep_text(*rows):
 
 
 def reference_text(*shifts, **changes):
-    row = dict(Fn_N=10000.0, penetration_mm=0.05, area_mm2=repr(AREA), pmax_MPa=1000.0,
+    row = dict(Fn_N=10000.0, penetration_mm=0.05, area_extrap_mm2=repr(AREA), pmax_MPa=1000.0,
                Fx_extrap_N=1000.0, Fy_extrap_N=-500.0, Mz_extrap_Nmm=600.0)
     row.update(changes)
     return csv_text(REFERENCE_COLUMNS, [dict(row, yw_mm=yw) for yw in shifts], "# reference\n")

@@ -59,7 +59,7 @@ class Figures(unittest.TestCase):
     def test_area_is_judged_by_the_reference_area(self):
         files = {
             "out/sweep.csv": sweep_text(sweep_row(0, area_mm2=110), sweep_row(1, area_mm2=97)),
-            "r.csv": reference_text(0, 1, area_mm2=100.0),
+            "r.csv": reference_text(0, 1, area_extrap_mm2=100.0),
         }
         with Folder(files) as folder:
             _, out, _ = folder.run("accuracy", "--reference", "r.csv", "--no-fast-modes")
@@ -197,8 +197,8 @@ class BadInput(unittest.TestCase):
                      "3 cells in a row, 24 in the header (out/sweep.csv:5)")
 
     def test_column_given_twice(self):
-        text = self.files["r.csv"].replace("pmax_MPa", "area_mm2")
-        self.refused({**self.files, "r.csv": text}, "column given twice: area_mm2 (r.csv:2)")
+        text = self.files["r.csv"].replace("pmax_MPa", "area_extrap_mm2")
+        self.refused({**self.files, "r.csv": text}, "column given twice: area_extrap_mm2 (r.csv:2)")
 
     def test_shift_given_twice(self):
         text = sweep_text(sweep_row(0), sweep_row(0))
