@@ -181,8 +181,7 @@ contains
             coarser = result
             call free_ends(patches)
             call settle(workspace, compliance, goal, options%tolerance, levels(level), warm, &
-                        patches, penetration, strips, result, settled, status)
-            if (is_error(status)) return
+                        patches, penetration, strips, result, settled)
             if (.not. settled) then
                 if (.not. warm) exit
                 warm = .false.
@@ -245,7 +244,7 @@ contains
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.
     subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, warm, patches, &
-                      penetration, strips, result, settled, status)
+                      penetration, strips, result, settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, tolerance
         type(goal_t), intent(in) :: goal
@@ -256,7 +255,6 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
         logical, intent(out) :: settled
-        type(status_t), intent(inout) :: status
 
         real(wp) :: trial, move, best_move, pass_tolerance, narrowest
         integer :: pass, outcome, n, splits
@@ -273,11 +271,7 @@ contains
             call drop_slivers(narrowest, patches)
             if (patches%n == 0) exit
             call place_strips(workspace, patches, n)
-            if (n > workspace%max_strips .or. n > size(strips%p0)) then
-                call set_status(status, st_workspace_too_small, &
-                                'the patches need more strips than there is room for')
-                return
-            end if
+            if (n > min(workspace%max_strips, size(strips%p0))) exit
             trial = penetration
             pass_tolerance = max(pass_tolerance, tolerance)
             call solve_strips( &
@@ -349,6 +343,9 @@ contains
             call set_status(status, st_workspace_too_small, 'no gap was set in the workspace')
         else if (.not. allocated(strips%p0)) then
             call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
+        else if (min(workspace%max_strips, size(strips%p0)) < options%strips_per_patch) then
+            call set_status(status, st_workspace_too_small, &
+                            'more strips per patch asked than there is room for')
         end if
     end subroutine check_input
 
