@@ -1,9 +1,9 @@
 !> What the program says to people: errors and notes on stderr, help and version on stdout.
 module faststrip_app_console
-    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, int64, &
-                                             compiler_version, compiler_options
+    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, int64
     use faststrip_status, only: status_t, is_error, st_no_convergence
     use faststrip_csv, only: csv_writer_t, put_comment
+    use faststrip_app_machine, only: compiler_name, compiler_flags
     use faststrip_app_revision, only: revision
     implicit none
     private
@@ -100,26 +100,6 @@ contains
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
         call put_comment(writer, version_text())
-        call put_comment(writer, 'compiler ' // compiler_version() // ', ' // flags())
+        call put_comment(writer, 'compiler ' // compiler_name() // ', ' // compiler_flags())
     end subroutine put_origin
-
-    !> The compiler options that matter for numbers: those that start with -O, -m or -f.
-    function flags() result(text)
-        character(len=:), allocatable :: text
-
-        character(len=:), allocatable :: all_options
-        integer :: from, to
-
-        all_options = compiler_options() // ' '
-        text = ''
-        from = 1
-        do while (from <= len(all_options))
-            to = from + index(all_options(from:), ' ') - 2
-            if (index(all_options(from:to), '-O') == 1 .or. index(all_options(from:to), '-m') == 1 &
-                .or. index(all_options(from:to), '-fopenmp') == 1) &
-                text = text // all_options(from:to) // ' '
-            from = to + 2
-        end do
-        text = trim(text)
-    end function flags
 end module faststrip_app_console
