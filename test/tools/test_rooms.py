@@ -71,13 +71,13 @@ class Rooms(unittest.TestCase):
 
     def test_core_needs_no_file_and_no_gsl(self):
         umbrella = ROOT / "src" / "faststrip.f90"
-        seen, todo = set(), sorted(imports(umbrella))
-        while todo:
-            name = todo.pop()
+        seen, waiting = set(), sorted(imports(umbrella))
+        while waiting:
+            name = waiting.pop()
             if name in seen:
                 continue
             seen.add(name)
-            todo.extend(imports(self.modules[name]))
+            waiting.extend(imports(self.modules[name]))
         self.assertIn("faststrip_normal_strip", seen)
         self.assertEqual(seen & OUTSIDE_CORE, set())
         self.assertEqual([name for name in seen if name.startswith("faststrip_errata")], [])
