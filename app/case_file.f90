@@ -302,6 +302,7 @@ contains
         type(namelist_file_t), intent(in) :: content
         type(case_t), intent(inout) :: case
 
+        type(methods_t) :: methods
         character(len=word_length) :: normal, tangential
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
         real(wp) :: gap_step_mm, gap_height_mm
@@ -327,9 +328,14 @@ contains
             read (text, nml=numerics, iostat=code, iomsg=words)
             if (code /= 0) call refuse_text(content, group, n, words)
         end do
-        case%methods = methods_t(normal, tangential, strips_per_patch, points_per_strip, &
-                                 fastsim_nx, fastsim_ny)
-        call check_methods(case%methods, what, value)
+        methods%normal = normal
+        methods%tangential = tangential
+        methods%strips_per_patch = strips_per_patch
+        methods%points_per_strip = points_per_strip
+        methods%fastsim_nx = fastsim_nx
+        methods%fastsim_ny = fastsim_ny
+        call check_methods(methods, what, value)
+        case%methods = methods
         if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)
         call need_positive(content, group, 'gap_step_mm', gap_step_mm)
         call need_positive(content, group, 'gap_height_mm', gap_height_mm)

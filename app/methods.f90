@@ -6,7 +6,7 @@ module faststrip_app_methods
     implicit none
     private
 
-    public :: methods_t, check_methods, most_strips, word_length, normal_methods
+    public :: methods_t, check_methods, most_strips, word_length, normal_methods, tangential_methods
 
     !> Length of a method's name, characters.
     integer, parameter :: word_length = 16
@@ -14,6 +14,9 @@ module faststrip_app_methods
     !> patches as ellipses, with the proportions of Hertz or of the second moments.
     character(len=word_length), parameter :: normal_methods(4) = [character(len=word_length) :: &
         'strip', 'hertz', 'equal_area', 'equal_moments']
+    !> Names of the tangential methods.
+    character(len=word_length), parameter :: tangential_methods(2) = &
+        [character(len=word_length) :: 'faststrip', 'fastsim']
     !> Most strips per patch the program accepts.
     integer, parameter :: most_strips = 1000
     integer, parameter :: most_points = 10000
@@ -21,7 +24,7 @@ module faststrip_app_methods
     !> Methods and resolutions.
     type :: methods_t
         character(len=word_length) :: normal = 'strip'         !! one of `normal_methods`
-        character(len=word_length) :: tangential = 'faststrip' !! faststrip or fastsim
+        character(len=word_length) :: tangential = 'faststrip' !! one of `tangential_methods`
         integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
         integer :: points_per_strip = 15 !! points along a strip, faststrip
         integer :: fastsim_nx = 50       !! points along a row, fastsim
@@ -41,7 +44,7 @@ contains
         if (all(normal_methods /= methods%normal)) then
             what = 'normal'
             value = trim(methods%normal)
-        else if (methods%tangential /= 'faststrip' .and. methods%tangential /= 'fastsim') then
+        else if (all(tangential_methods /= methods%tangential)) then
             what = 'tangential'
             value = trim(methods%tangential)
         else
