@@ -8,6 +8,7 @@ program faststrip_main
     use faststrip_app_sweep, only: run_sweep
     use faststrip_app_table, only: run_table
     use faststrip_app_fuzz, only: run_fuzz
+    use faststrip_app_report, only: run_report
     use faststrip_app_bench, only: run_bench
     implicit none
 
@@ -20,6 +21,7 @@ program faststrip_main
     case ('table'); call run_table()
     case ('bench'); call run_bench()
     case ('fuzz'); call run_fuzz()
+    case ('report'); call run_report()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -50,6 +52,7 @@ contains
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  bench WHAT             for developers: times and errors of the methods')
+        call say('  report                 everything measured, judged and drawn, in one folder')
         call say('  fuzz                   for developers: random gaps, checked')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
