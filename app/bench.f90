@@ -9,6 +9,7 @@ module faststrip_app_bench
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_accuracy, only: bench_accuracy
     use faststrip_app_bench_convergence, only: bench_convergence
+    use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
     implicit none
     private
@@ -33,7 +34,10 @@ contains
                      // ' (default 21)'), &
             option_t('--contacts', 'FOLDER', 'others: the contacts (default reference/contact)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
-            option_t('--seconds', 'S', 'normal: for each number of strips (default 6)')]
+            option_t('--seconds', 'S', 'normal: for each number of strips (default 6)'), &
+            option_t('--methods', 'FILE', 'trade: the methods (default' &
+                     // ' reference/trade_methods.csv)'), &
+            option_t('--quick', '', 'trade: few methods, few contacts')]
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
@@ -45,6 +49,8 @@ contains
         seconds = option_number(command, '--seconds', 6.0_wp)
         if (seconds < 0.0_wp) call usage_error('--seconds is negative: ' &
             // trim(number_text(seconds)), command%name)
+        if (what /= 'trade') call refuse_options(command, what, &
+                                                 [character(len=9) :: '--methods', '--quick'])
         select case (what)
         case ('integral')
             call refuse_options(command, what, &
@@ -61,6 +67,12 @@ contains
             call refuse_options(command, what, &
                                 [character(len=13) :: '--rounds', '--most-strips', '--seconds'])
             call bench_accuracy(file, folder)
+        case ('trade')
+            call refuse_options(command, what, [character(len=13) :: '--rounds', '--most-strips', &
+                                                '--seconds'])
+            call bench_trade(file, option_text(command, '--methods', &
+                                               'reference/trade_methods.csv'), folder, &
+                             given(command, '--quick'))
         case ('convergence')
             call refuse_options(command, what, [character(len=9) :: '--rounds', '--seconds'])
             call bench_convergence(file, folder, most_strips)
@@ -84,7 +96,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(15) = [character(len=81) :: &
+        character(len=*), parameter :: lines(18) = [character(len=81) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -99,6 +111,9 @@ contains
             'Hertz on ellipses.', &
             'certificate: how often estimated errors bound the true ones (minutes; with -o', &
             'the shares on stdout).', &
+            'trade: errors and microseconds of many methods and resolutions, one row per', &
+            'contact and method, on these contacts and 161 Hertz ellipses. Columns of', &
+            'FILE: see reference/trade_methods.csv.', &
             'normal, accuracy and convergence work on the paper''s 20 contacts.']
         integer :: i
 

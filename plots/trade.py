@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""Draw errors against time of every method and resolution, and tabulate which one to take."""
+
+import csv
+import io
+import os
+import sys
+
+import numpy as np
+
+from faststrip_plots import command
+from faststrip_plots.document import write_text
+from faststrip_plots.results import RESULTS, revision
+from faststrip_plots.style import legend_above, new_figure, save, title
+from faststrip_plots.tables import InputError, read_table
+
+FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
+STAGES = {
+    "normal": ("Normal contact", "penetration, largest pressure and area"),
+    "tangential": ("Tangential contact", "Fx and Fy in µN, Mz in µNc"),
+    "both": ("Both together", "Fx and Fy in µN, Mz in µNc"),
+}
+TARGETS = (0.1, 0.03, 0.01, 0.003, 0.001)
+# colour and marker by the first word of a method's name; lighter ones are the simpler models
+LOOKS = {
+    "Hertz": ("#f08519", "s"), "equal-area": ("#b8870b", "D"), "strips": ("#0b3c78", "o"),
+    "FASTSTRIP": ("#0b3c78", "o"), "FASTSIM": ("#a8326e", "^"), "NORM": ("#2f7d32", "v"),
+    "TANG": ("#2f7d32", "v"),
+}
+OTHER = ("#6b6b6b", "P")
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--trade", default="out/trade.csv", metavar="CSV",
+                        help="what `faststrip bench trade` wrote")
+    parser.add_argument("--folder", default="out/trade", metavar="FOLDER",
+                        help="pictures and tables go there")
+    options = parser.parse_args(arguments)
+    table = read_table(options.trade, ("set", "stage", "method", "status", "us")
+                       + tuple("err_" + name for name in FIGURES))
+    points = summarize(table)
+    os.makedirs(options.folder, exist_ok=True)
+    announced = []
+    for stage, (heading, what) in STAGES.items():
+        own = [point for point in points if point["stage"] == stage]
+        if own:
+            name = f"trade_{stage}.png"
+            draw(own, heading, os.path.join(options.folder, name), revision(table))
+            announced.append((name, heading, f"Errors of {what} against time; the line joins the"
+                              " methods that no other beats in both.", "trade"))
+    write_rows(os.path.join(options.folder, "figures.csv"),
+               ("file", "title", "caption", "chapter"), announced)
+    write_rows(os.path.join(options.folder, "trade_points.csv"), tuple(points[0]),
+               [tuple(point.values()) for point in points])
+    choice = choices(points)
+    write_rows(os.path.join(options.folder, "trade_choice.csv"), tuple(choice[0]),
+               [tuple(row.values()) for row in choice])
+    write_rows(os.path.join(options.folder, "tables.csv"), ("file", "title", "caption", "chapter"), [
+        ("trade_choice.csv", "Which method to take",
+         "The fastest whose mean error, over all contacts and figures of its stage, is within the"
+         " target; in brackets the same for the largest error.", "trade"),
+    ])
+
+
+def summarize(table):
+    """Mean and largest error and median time of each method over all its contacts."""
+    status, stage = table.words("status"), table.words("stage")
+    method = table.words("method")
+    us = table.numbers("us", missing=True)
+    errors = np.abs([table.numbers("err_" + name, missing=True) for name in FIGURES])
+    points = []
+    for key in dict.fromkeys(zip(stage, method)):
+        rows = np.array([k for k, other in enumerate(zip(stage, method)) if other == key])
+        solved = np.array([k for k in rows if status[k] in RESULTS], dtype=int)
+        point = {"stage": key[0], "method": key[1], "contacts": len(rows),
+                 "unsolved": len(rows) - len(solved)}
+        if not solved.size:
+            continue
+        known = [f for f in range(len(FIGURES)) if not np.isnan(errors[f, solved]).all()]
+        if not known:
+            raise InputError(f"no errors for {key[1]}: {table.path}")
+        # each figure counts alike: the worst figure of a contact is its error
+        worst = np.nanmax(errors[np.ix_(known, solved)], axis=0)
+        point |= {"us": float(np.median(us[solved])), "mean": float(worst.mean()),
+                  "max": float(worst.max())}
+        for f, name in enumerate(FIGURES):
+            point[f"mean_{name}"] = float(errors[f, solved].mean()) if f in known else ""
+            point[f"max_{name}"] = float(errors[f, solved].max()) if f in known else ""
+        points.append(point)
+    if not points:
+        raise InputError(f"no method has a result: {table.path}")
+    return points
+
+
+def front(points, error):
+    """The points that no other beats in both time and error, by ascending time."""
+    best, found = np.inf, []
+    for point in sorted(points, key=lambda p: (p["us"], p[error])):
+        if point[error] < best:
+            best = point[error]
+            found.append(point)
+    return found
+
+
+def choices(points):
+    """The fastest method of each stage for each target, by mean and by largest error."""
+    rows = []
+    for target in TARGETS:
+        row = {"target": f"{100 * target:g} %"}
+        for stage, (heading, _) in STAGES.items():
+            own = [p for p in points if p["stage"] == stage and p["unsolved"] == 0]
+            if own:
+                row[heading] = " ".join(
+                    form.format(cheapest(own, error, target))
+                    for error, form in (("mean", "{}"), ("max", "({})"))
+                )
+        rows.append(row)
+    return rows
+
+
+def cheapest(points, error, target):
+    good = [point for point in points if point[error] <= target]
+    if not good:
+        return "none"
+    best = min(good, key=lambda point: point["us"])
+    return f"{best['method']}, {best['us']:.3g} µs"
+
+
+def look(method):
+    return LOOKS.get(method.split()[0], OTHER)
+
+
+def draw(points, heading, path, stamp):
+    """Mean errors on the left, largest errors on the right."""
+    figure = new_figure(11.5, 5.4)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    for axes, error, words in zip(panels, ("mean", "max"), ("mean error", "largest error")):
+        best = front(points, error)
+        axes.plot([p["us"] for p in best], [100 * p[error] for p in best], color="#333333",
+                  linewidth=1.0, zorder=1, label="no other is better in both")
+        for family in dict.fromkeys(p["method"].split()[0] for p in points):
+            own = [p for p in points if p["method"].split()[0] == family]
+            colour, marker = look(family)
+            axes.plot([p["us"] for p in own], [100 * p[error] for p in own], linestyle="none",
+                      marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
+                      label=family)
+        for number, point in enumerate(best):
+            axes.annotate(shorter(point["method"]), (point["us"], 100 * point[error]),
+                          xytext=(5, 5 if number % 2 else -12), textcoords="offset points",
+                          fontsize=7.5, color="#333333")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("time per contact in µs")
+        axes.set_ylabel("error in %")
+        title(axes, f"{heading}: {words}")
+        axes.margins(0.12)
+    legend_above(figure, *panels)
+    save(figure, path, [stamp])
+
+
+def shorter(name):
+    """A method's name without the words every label would repeat."""
+    for word in ("strips + FASTSTRIP ", "FASTSTRIP ", "FASTSIM ", "strips "):
+        if name.startswith(word):
+            return name[len(word):]
+    return name
+
+
+def write_rows(path, header, rows):
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    write_text(path, stream.getvalue())
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))

@@ -1,0 +1,44 @@
+"""`faststrip bench trade`: errors are against the references, times are there, bad lists refused."""
+
+from cli_program import ROOT, ProgramTest, numbers
+
+CONTACTS = ROOT / "reference" / "contact"
+HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fastsim_nx,"
+          "fastsim_ny\n")
+
+
+class Trade(ProgramTest):
+    def trade(self, methods):
+        self.write("methods.csv", HEADER + methods)
+        done = self.run_program("bench", "trade", "--quick", "--methods", "methods.csv",
+                                "--contacts", CONTACTS, "-o", "trade.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.read("trade.csv")
+
+    def test_errors_are_those_of_the_stage(self):
+        rows = self.trade("normal,fine,always,strip,faststrip,15,,,\n"
+                          "tangential,march,always,hertz,fastsim,,,40,40\n"
+                          "both,later,full,strip,faststrip,,,,\n")
+        self.assertEqual({row["method"] for row in rows}, {"fine", "march"})
+        normal = [row for row in rows if row["stage"] == "normal"]
+        self.assertEqual(len(normal), 4)
+        self.assertLess(max(map(abs, numbers(normal, "err_penetration"))), 2e-3)
+        self.assertEqual({row["err_Fx"] for row in normal}, {""})
+        hertz = [row for row in rows if row["set"] == "hertz"]
+        self.assertEqual(len(hertz), 9)
+        self.assertLess(max(map(abs, numbers(hertz, "err_Fx"))), 0.1)
+        self.assertEqual({row["err_pmax"] for row in hertz}, {""})
+        self.assertGreater(min(numbers(rows, "us")), 0.0)
+
+    def test_exact_on_ellipses(self):
+        rows = self.trade("both,Hertz,always,hertz,fastsim,,,,\n")
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+
+    def test_bad_lists(self):
+        for line, says in (("sideways,x,always,strip,fastsim,,,,\n", "stage is out of range"),
+                           ("both,x,always,strap,fastsim,,,,\n", "normal is out of range: strap"),
+                           ("both,x,always,strip,fastsim,2000,,,\n", "strips_per_patch")):
+            self.write("methods.csv", HEADER + line)
+            self.refused(1, "bench", "trade", "--methods", "methods.csv", "--contacts", CONTACTS,
+                         says=(says, "methods.csv:2"))
+        self.refused(2, "bench", "normal", "--quick", says=("--quick goes without normal",))
