@@ -67,7 +67,8 @@ contains
         call open_outputs(command, writer)
         call put_sweep_header(writer(1), case)
         call put_sweep_row(writer(1), case, case%methods, scene, outcome, status)
-        if (given(command, '--strips')) call put_strips(writer(2), case%name, solver%normal%strips)
+        if (given(command, '--strips')) &
+            call put_strips(writer(2), case%name, solver%normal%workspace%strips)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
         if (given(command, '--gap')) call put_gap(writer(4), scene%gap)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)

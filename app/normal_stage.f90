@@ -4,31 +4,22 @@ module faststrip_app_normal_stage
     use faststrip_status, only: status_t, is_error
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t, check_gap
-    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, certify_strips
-    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
-                                      hertz_strips
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
-                                      strip_solve_penetration, strips_auto
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
+                                         normal_strip
+    use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
+                                       set_contact_gap, solve_contact_normal
     use faststrip_app_methods, only: methods_t
     implicit none
     private
 
     public :: normal_stage_t, demand_t, make_normal_stage, make_room, solve_normal, certify
 
-    ! Strips of a Hertz ellipse where the number is left to the solver, and the most it takes.
-    integer, parameter :: auto_hertz_strips = 15, auto_most_strips = 41
-
     !> The normal method with the room it needs, and its last solution.
     type :: normal_stage_t
-        type(methods_t) :: methods       !! what was asked for
-        type(contact_strips_t) :: strips !! of the last contact
-        type(hertz_t) :: hertz           !! of the last contact, if by Hertz
-        type(strip_workspace_t), private :: workspace
-        type(gap_curve_t), private :: curve
+        type(contact_methods_t) :: methods !! what was asked for
+        type(workspace_t) :: workspace     !! with the strips of the last contact
     end type normal_stage_t
 
     !> What presses the bodies together.
@@ -40,21 +31,18 @@ module faststrip_app_normal_stage
 
 contains
 
-    !> Make room for the strips of a normal method.
-    subroutine make_normal_stage(methods, stage, status)
+    !> Take over the methods.
+    subroutine make_normal_stage(methods, stage)
         type(methods_t), intent(in) :: methods     !! checked
-        type(normal_stage_t), intent(out) :: stage !! ready
-        type(status_t), intent(out) :: status      !! from the library
+        type(normal_stage_t), intent(out) :: stage !! ready for `make_room`
 
-        integer :: room
-
-        stage%methods = methods
-        room = 2*methods%strips_per_patch + 60
-        if (methods%strips_per_patch == strips_auto) room = 2*auto_most_strips + 60
-        call reserve_strips(stage%strips, room, status)
+        stage%methods = contact_methods_t( &
+            normal_method(methods%normal), tangential_method(methods%tangential), &
+            methods%strips_per_patch, methods%points_per_strip, methods%fastsim_nx, &
+            methods%fastsim_ny)
     end subroutine make_normal_stage
 
-    !> Grow the workspaces to what a gap needs, outside the time that is measured.
+    !> Grow the workspace to what a gap needs, outside the time that is measured.
     subroutine make_room(stage, gap, status)
         type(normal_stage_t), intent(inout) :: stage !! made beforehand
         type(gap_t), intent(in) :: gap               !! undeformed gap, mm
@@ -62,12 +50,7 @@ contains
 
         call check_gap(gap, status)
         if (is_error(status)) return
-        if (stage%methods%normal == 'hertz') then
-            call reserve_gap_curve(stage%curve, size(gap%y), status)
-        else
-            call reserve_strip_workspace(stage%workspace, size(stage%strips%p0), size(gap%y), &
-                                         status)
-        end if
+        call reserve_workspace(stage%workspace, stage%methods, size(gap%y), status)
     end subroutine make_room
 
     !> Solve the normal problem; the strips are those of the patch, or of the Hertz ellipse.
@@ -79,11 +62,16 @@ contains
         type(normal_result_t), intent(out) :: normal !! figures
         type(status_t), intent(out) :: status        !! an error, or a named limitation
 
-        if (stage%methods%normal == 'hertz') then
-            call solve_hertz(stage, gap, material, demand, normal, status)
-        else
-            call solve_by_strips(stage, gap, material, demand, normal, status)
-        end if
+        type(contact_case_t) :: case
+
+        call set_contact_gap(stage%workspace, gap%y, gap%h, gap%inv2r, status)
+        if (is_error(status)) return
+        case%material = material
+        case%by_load = demand%by_load
+        case%load = demand%load
+        case%penetration = demand%penetration
+        case%methods = stage%methods
+        call solve_contact_normal(stage%workspace, case, normal, status)
     end subroutine solve_normal
 
     !> How wrong the last solution is, where that can be told: of strips.
@@ -97,72 +85,9 @@ contains
         type(status_t) :: status
 
         is_certified = .false.
-        if (stage%methods%normal /= 'strip') return
-        call certify_strips(stage%workspace%curve, normal_compliance(material), stage%strips, &
-                            normal, certificate, status)
+        if (stage%methods%normal /= normal_strip) return
+        call certify_strips(stage%workspace%solver%curve, normal_compliance(material), &
+                            stage%workspace%strips, normal, certificate, status)
         is_certified = .not. is_error(status)
     end subroutine certify
-
-    subroutine solve_by_strips(stage, gap, material, demand, normal, status)
-        type(normal_stage_t), intent(inout) :: stage
-        type(gap_t), intent(in) :: gap
-        type(material_t), intent(in) :: material
-        type(demand_t), intent(in) :: demand
-        type(normal_result_t), intent(out) :: normal
-        type(status_t), intent(out) :: status
-
-        type(strip_options_t) :: options
-        type(status_t) :: ellipses
-
-        call set_strip_gap(stage%workspace, gap, status)
-        if (is_error(status)) return
-        options%strips_per_patch = stage%methods%strips_per_patch
-        if (demand%by_load) then
-            call strip_solve(stage%workspace, normal_compliance(material), demand%load, options, &
-                             stage%strips, normal, status)
-        else
-            call strip_solve_penetration(stage%workspace, normal_compliance(material), &
-                                         demand%penetration, options, stage%strips, normal, &
-                                         status)
-        end if
-        if (is_error(status) .or. stage%methods%normal == 'strip') return
-        call replace_by_ellipses( &
-            merge(equal_area, equal_moments, stage%methods%normal == 'equal_area'), &
-            stage%workspace%curve, stage%strips, normal, ellipses)
-        if (is_error(ellipses)) status = ellipses
-    end subroutine solve_by_strips
-
-    subroutine solve_hertz(stage, gap, material, demand, normal, status)
-        type(normal_stage_t), intent(inout) :: stage
-        type(gap_t), intent(in) :: gap
-        type(material_t), intent(in) :: material
-        type(demand_t), intent(in) :: demand
-        type(normal_result_t), intent(out) :: normal
-        type(status_t), intent(out) :: status
-
-        integer :: n
-
-        call set_gap_curve(stage%curve, gap, status)
-        if (is_error(status)) return
-        if (demand%by_load) then
-            call hertz_solve_gap(stage%curve, normal_compliance(material), demand%load, &
-                                 stage%hertz, status)
-        else
-            call hertz_solve_gap_penetration(stage%curve, normal_compliance(material), &
-                                             demand%penetration, stage%hertz, &
-                                             status)
-        end if
-        if (is_error(status)) return
-        normal%load = stage%hertz%load
-        normal%penetration = stage%hertz%penetration + stage%curve%h_lowest
-        normal%area = stage%hertz%area
-        normal%pmax = stage%hertz%pmax
-        normal%y_min = stage%hertz%y - stage%hertz%b
-        normal%y_max = stage%hertz%y + stage%hertz%b
-        normal%x_max = stage%hertz%a
-        normal%n_patches = 1
-        n = stage%methods%strips_per_patch
-        if (n == strips_auto) n = auto_hertz_strips
-        call hertz_strips(stage%hertz, n, stage%strips, status)
-    end subroutine solve_hertz
 end module faststrip_app_normal_stage

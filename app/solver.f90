@@ -2,18 +2,19 @@
 module faststrip_app_solver
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
+    use faststrip_status, only: status_t, clear_status, is_error
     use faststrip_material, only: material_t, check_material
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
+    use faststrip_contact_solve, only: reserve_contact_field
     use faststrip_app_clock, only: microseconds
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal, certify
-    use faststrip_app_tangential_stage, only: reserve_elements, solve_tangential
+    use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
     private
 
@@ -48,9 +49,9 @@ contains
 
         solver%methods = methods
         solver%with_field = with_field
-        call make_normal_stage(methods, solver%normal, status)
-        if (is_error(status) .or. .not. with_field) return
-        call reserve_elements(solver%normal, solver%field, status)
+        call clear_status(status)
+        call make_normal_stage(methods, solver%normal)
+        if (with_field) call reserve_contact_field(solver%field, solver%normal%methods, status)
     end subroutine make_solver
 
     !> Solve one contact.

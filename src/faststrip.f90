@@ -5,7 +5,7 @@
 !> quadrature (`faststrip_influence_quadrature`) are modules of their own.
 module faststrip
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, status_word, st_ok, first_error, &
+    use faststrip_status, only: status_t, is_error, status_word, message_length, st_ok, first_error, &
                                 st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left, &
                                 st_bad_argument, st_not_finite, st_not_increasing, &
                                 st_too_few_points, st_bad_material, st_bad_load, st_no_contact, &
@@ -37,8 +37,19 @@ module faststrip
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           state_adhesion, state_slip
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
+                                            fastsim_coefficients_solve
     use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
+                                         tangential_method, normal_method_name, &
+                                         tangential_method_name, method_name_length, &
+                                         normal_strip, normal_hertz, normal_equal_area, &
+                                         normal_equal_moments, tangential_none, &
+                                         tangential_faststrip, tangential_fastsim
+    use faststrip_contact_solve, only: contact_case_t, contact_result_t, workspace_t, &
+                                       reserve_workspace, reserve_contact_field, &
+                                       set_contact_gap, solve_contact, solve_contact_normal, &
+                                       solve_contact_tangential, most_gap_points
     implicit none
     public
 end module faststrip

@@ -8,7 +8,7 @@ module faststrip_profile_gap
     implicit none
     private
 
-    public :: gap_t, check_gap, min_gap_points
+    public :: gap_t, check_gap, check_gap_points, min_gap_points
 
     !> Fewest points that describe a gap.
     integer, parameter :: min_gap_points = 5
@@ -31,19 +31,31 @@ contains
         type(gap_t), intent(in) :: gap        !! mm, mm, 1/mm
         type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
                                               !! `st_not_finite`, `st_not_increasing`
-        integer :: i, n
 
         call clear_status(status)
         if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
             call set_status(status, st_bad_argument, 'the gap has no y, h or inv2r')
             return
         end if
-        n = size(gap%y)
-        if (size(gap%h) /= n .or. size(gap%inv2r) /= n) then
+        call check_gap_points(gap%y, gap%h, gap%inv2r, status)
+    end subroutine check_gap
+
+    !> The same for a gap in plain arrays.
+    pure subroutine check_gap_points(y, h, inv2r, status)
+        real(wp), intent(in) :: y(:)          !! lateral coordinate, mm
+        real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
+        real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), 1/mm
+        type(status_t), intent(out) :: status !! as `check_gap`
+
+        real(wp) :: before
+        integer :: i, n
+
+        call clear_status(status)
+        n = size(y)
+        if (size(h) /= n .or. size(inv2r) /= n) then
             call set_status(status, st_bad_argument, &
                             'y, h and inv2r of the gap differ in length: ' // count_text(n) // &
-                            ', ' // count_text(size(gap%h)) // ', ' // &
-                            count_text(size(gap%inv2r)))
+                            ', ' // count_text(size(h)) // ', ' // count_text(size(inv2r)))
             return
         end if
         if (n < min_gap_points) then
@@ -51,27 +63,29 @@ contains
                             count_text(min_gap_points) // ' points: ' // count_text(n))
             return
         end if
+        before = 0.0_wp
         do i = 1, n
-            call check_finite('y', i, gap%y(i), status)
-            if (status%code == 0) call check_finite('h', i, gap%h(i), status)
-            if (status%code == 0) call check_finite('inv2r', i, gap%inv2r(i), status)
+            call check_finite('y', i, y(i), status)
+            if (status%code == 0) call check_finite('h', i, h(i), status)
+            if (status%code == 0) call check_finite('inv2r', i, inv2r(i), status)
             if (status%code /= 0) return
             if (i > 1) then
-                if (gap%y(i) <= gap%y(i - 1)) then
+                if (y(i) <= before) then
                     call set_status(status, st_not_increasing, 'y(' // count_text(i) // &
                                     ') of the gap is not above the one before: ' // &
-                                    trim(number_text(gap%y(i))))
+                                    trim(number_text(y(i))))
                     return
                 end if
             end if
-            if (gap%inv2r(i) < 0.0_wp) then
+            before = y(i)
+            if (inv2r(i) < 0.0_wp) then
                 call set_status(status, st_bad_argument, 'inv2r(' // count_text(i) // &
                                 ') of the gap is negative: ' // &
-                                trim(number_text(gap%inv2r(i))))
+                                trim(number_text(inv2r(i))))
                 return
             end if
         end do
-    end subroutine check_gap
+    end subroutine check_gap_points
 
     pure subroutine check_finite(name, i, value, status)
         character(len=*), intent(in) :: name

@@ -9,12 +9,13 @@ module faststrip_profile_gap_curve
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, &
                                 st_workspace_too_small, st_bad_argument
-    use faststrip_profile_gap, only: gap_t, check_gap
+    use faststrip_profile_gap, only: gap_t, check_gap, check_gap_points
     use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot
     implicit none
     private
 
-    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at, gap_curvature, level_intervals
+    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    public :: gap_at, gap_curvature, level_intervals
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
@@ -60,11 +61,32 @@ contains
         type(gap_t), intent(in) :: gap            !! points of the gap, mm
         type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
 
-        integer :: n
-
         call check_gap(gap, status)
         if (is_error(status)) return
-        n = size(gap%y)
+        call take_points(curve, gap%y, gap%h, gap%inv2r, status)
+    end subroutine set_gap_curve
+
+    !> The same from plain arrays.
+    subroutine set_gap_curve_points(curve, y, h, inv2r, status)
+        type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
+        real(wp), intent(in) :: y(:)              !! lateral coordinate, strictly increasing, mm
+        real(wp), intent(in) :: h(:)              !! gap on the line x = 0, mm
+        real(wp), intent(in) :: inv2r(:)          !! 1/(2 R), R the local radius along x, 1/mm
+        type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
+
+        call check_gap_points(y, h, inv2r, status)
+        if (is_error(status)) return
+        call take_points(curve, y, h, inv2r, status)
+    end subroutine set_gap_curve_points
+
+    subroutine take_points(curve, y, h, inv2r, status)
+        type(gap_curve_t), intent(inout) :: curve
+        real(wp), intent(in) :: y(:), h(:), inv2r(:)
+        type(status_t), intent(inout) :: status
+
+        integer :: n
+
+        n = size(y)
         curve%n = 0
         if (.not. allocated(curve%y)) then
             call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
@@ -74,15 +96,15 @@ contains
                             'the gap has more points than the room reserved for it')
             return
         end if
-        curve%y(:n) = gap%y
-        curve%h(:n) = gap%h
-        curve%inv2r(:n) = gap%inv2r
+        curve%y(:n) = y
+        curve%h(:n) = h
+        curve%inv2r(:n) = inv2r
         call spline_setup(curve%y(:n), curve%h(:n), spline_not_a_knot, curve%slope(:n), &
                           curve%work, status)
         if (is_error(status)) return
         curve%n = n
         call cut_into_monotone_pieces(curve)
-    end subroutine set_gap_curve
+    end subroutine take_points
 
     pure subroutine cut_into_monotone_pieces(curve)
         type(gap_curve_t), intent(inout) :: curve

@@ -18,8 +18,8 @@
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument, &
-                                st_not_finite
+    use faststrip_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
+                                st_bad_material, st_not_finite, st_out_of_range
     use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
                                   combined_poisson_ratio
     use faststrip_creepage, only: creepage_t
@@ -33,10 +33,12 @@ module faststrip_tangential_fastsim
     implicit none
     private
 
-    public :: fastsim_solve, fastsim_strips_solve
+    public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve
 
     ! The most elements along x and strips across.
     integer, parameter :: most_elements = 10000
+    ! Axes, loads, moduli and coefficients beyond this, or below its inverse, are refused.
+    real(wp), parameter :: largest = 1.0e20_wp
 
     !> Areas of the elements gone through so far.
     type :: areas_t
@@ -69,8 +71,11 @@ contains
             !! filled when present; needs room for nx*ny elements
 
         type(areas_t) :: areas
+        type(kalker_coefficients_t) :: c
 
-        call check_input(material, mu, creepage, nx, ny, 1, status, field)
+        call check_input(mu, creepage, nx, ny, 1, status, field)
+        if (is_error(status)) return
+        call check_material(material, status)
         if (is_error(status)) return
         if (.not. (ieee_is_finite(hertz%a) .and. ieee_is_finite(hertz%b) &
                    .and. ieee_is_finite(hertz%y) .and. ieee_is_finite(hertz%load))) then
@@ -81,10 +86,64 @@ contains
             call set_status(status, st_bad_argument, 'no Hertz ellipse')
             return
         end if
-        call add_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, material, mu, creepage, nx, ny, &
-                         result, areas, status, field)
-        if (.not. is_error(status)) result%stick_fraction = areas%stuck/areas%covered
+        call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
+        if (is_error(status)) return
+        call add_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, c, &
+                         combined_shear_modulus(material), mu, creepage, nx, ny, result, areas, &
+                         field)
+        result%stick_fraction = areas%stuck/areas%covered
     end subroutine fastsim_solve
+
+    !> Forces by FASTSIM on an ellipse about the reference point with creepage coefficients the
+    !> caller has, what vehicle codes keep in tables.
+    pure subroutine fastsim_coefficients_solve(a, b, load, g, c, mu, creepage, nx, ny, result, &
+                                               status, field)
+        real(wp), intent(in) :: a                    !! semi-axis along x, mm
+        real(wp), intent(in) :: b                    !! semi-axis along y, mm
+        real(wp), intent(in) :: load                 !! N, >= 0
+        real(wp), intent(in) :: g                    !! combined shear modulus, MPa
+        type(kalker_coefficients_t), intent(in) :: c !! c11, c22, c23 > 0; c33 is not used
+        real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
+        type(creepage_t), intent(in) :: creepage     !! about y = 0, rail relative to wheel
+        integer, intent(in) :: nx                    !! elements along x in each strip, >= 1
+        integer, intent(in) :: ny                    !! strips across, >= 1; both <= 10000
+        type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument` (no ellipse, coefficients, mu < 0, grid), `st_not_finite`,
+            !! `st_bad_material` (g), `st_out_of_range` (anything beyond all proportion),
+            !! `st_workspace_too_small`
+        type(tangential_field_t), intent(inout), optional :: field
+            !! filled when present; needs room for nx*ny elements
+
+        type(areas_t) :: areas
+
+        call check_input(mu, creepage, nx, ny, 1, status, field)
+        if (is_error(status)) return
+        if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b) .and. ieee_is_finite(load) &
+                   .and. ieee_is_finite(g) .and. ieee_is_finite(c%c11) &
+                   .and. ieee_is_finite(c%c22) .and. ieee_is_finite(c%c23))) then
+            call set_status(status, st_not_finite, 'ellipse, load, shear modulus or creepage ' // &
+                            'coefficients are not finite')
+        else if (a <= 0.0_wp .or. b <= 0.0_wp .or. load < 0.0_wp) then
+            call set_status(status, st_bad_argument, 'no ellipse with a load: a ' // &
+                            trim(number_text(a)) // ' mm, b ' // trim(number_text(b)) // &
+                            ' mm, load ' // trim(number_text(load)) // ' N')
+        else if (g <= 0.0_wp) then
+            call set_status(status, st_bad_material, 'shear modulus is not positive: ' // &
+                            trim(number_text(g)) // ' MPa')
+        else if (min(c%c11, c%c22, c%c23) <= 0.0_wp) then
+            call set_status(status, st_bad_argument, 'creepage coefficients are not positive: ' // &
+                            trim(number_text(c%c11)) // ', ' // trim(number_text(c%c22)) // &
+                            ', ' // trim(number_text(c%c23)))
+        else if (max(a, b, g, load, c%c11, c%c22, c%c23) > largest .or. &
+                 min(a, b, g, c%c11, c%c22, c%c23) < 1.0_wp/largest) then
+            call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage ' // &
+                            'coefficients beyond all proportion')
+        else
+            call add_ellipse(a, b, 0.0_wp, load, c, g, mu, creepage, nx, ny, result, areas, field)
+            result%stick_fraction = areas%stuck/areas%covered
+        end if
+    end subroutine fastsim_coefficients_solve
 
     !> Forces by FASTSIM on the virtual ellipses of any contact patches: same area, proportions of
     !> the second moments, centroid and load (`patch_ellipse`), each under its own Hertz pressure.
@@ -104,12 +163,15 @@ contains
             !! filled when present; needs room for nx*ny elements a patch
 
         type(patch_ellipse_t) :: ellipse
+        type(kalker_coefficients_t) :: c
         type(areas_t) :: areas
         integer :: first, last
 
         call check_strips(strips, status)
         if (is_error(status)) return
-        call check_input(material, mu, creepage, nx, ny, strips%n_patches, status, field)
+        call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
+        if (is_error(status)) return
+        call check_material(material, status)
         if (is_error(status)) return
         last = 0
         do while (last < strips%n)
@@ -117,19 +179,21 @@ contains
             last = patch_end(strips, first)
             ellipse = patch_ellipse(strips, first, last)
             if (ellipse%load <= 0.0_wp) cycle
-            call add_ellipse(ellipse%a, ellipse%b, ellipse%y, ellipse%load, material, mu, &
-                             creepage, nx, ny, result, areas, status, field)
+            call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, &
+                                     status)
             if (is_error(status)) then
                 result = tangential_result_t()
                 return
             end if
+            call add_ellipse(ellipse%a, ellipse%b, ellipse%y, ellipse%load, c, &
+                             combined_shear_modulus(material), mu, creepage, nx, ny, result, &
+                             areas, field)
         end do
         if (areas%covered > 0.0_wp) result%stick_fraction = areas%stuck/areas%covered
     end subroutine fastsim_strips_solve
 
     !> Refuse what no FASTSIM can work on, and empty the field.
-    pure subroutine check_input(material, mu, creepage, nx, ny, ellipses, status, field)
-        type(material_t), intent(in) :: material !! moduli in MPa
+    pure subroutine check_input(mu, creepage, nx, ny, ellipses, status, field)
         real(wp), intent(in) :: mu               !! coefficient of friction
         type(creepage_t), intent(in) :: creepage !! rail relative to wheel
         integer, intent(in) :: nx, ny            !! elements along, strips across
@@ -138,8 +202,6 @@ contains
         type(tangential_field_t), intent(inout), optional :: field !! emptied
 
         call check_motion(mu, creepage, status)
-        if (is_error(status)) return
-        call check_material(material, status)
         if (is_error(status)) return
         if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_elements) then
             call set_status(status, st_bad_argument, 'a grid of fewer than one or more than ' // &
@@ -150,28 +212,23 @@ contains
     end subroutine check_input
 
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(a, b, y0, load, material, mu, creepage, nx, ny, result, areas, &
-                                status, field)
+    pure subroutine add_ellipse(a, b, y0, load, c, g, mu, creepage, nx, ny, result, areas, field)
         real(wp), intent(in) :: a, b                 !! semi-axes along x and y, mm
         real(wp), intent(in) :: y0                   !! middle of the ellipse, mm
         real(wp), intent(in) :: load                 !! N
-        type(material_t), intent(in) :: material     !! moduli in MPa
+        type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
+        real(wp), intent(in) :: g                    !! combined shear modulus, MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction
         type(creepage_t), intent(in) :: creepage     !! about y = 0
         integer, intent(in) :: nx, ny                !! elements along, strips across
         type(tangential_result_t), intent(inout) :: result !! forces, moment, power are added to
         type(areas_t), intent(inout) :: areas      !! added to
-        type(status_t), intent(out) :: status              !! those of `kalker_coefficients`
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
 
-        type(kalker_coefficients_t) :: c
-        real(wp) :: g, l1, l2, l3, top, pmax, width, y, row, h, x, t, bound, size_squared, step
+        real(wp) :: l1, l2, l3, top, pmax, width, y, row, h, x, t, bound, size_squared, step
         real(wp) :: cksi, slope_x, slope_y, px, py, sx, sy, cell, place, ahead_x, ahead_y
         integer :: i, j, state
 
-        call kalker_coefficients(a/b, combined_poisson_ratio(material), c, status)
-        if (is_error(status)) return
-        g = combined_shear_modulus(material)
         l1 = 8.0_wp*a/(3.0_wp*c%c11*g)
         l2 = 8.0_wp*a/(3.0_wp*c%c22*g)
         l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)

@@ -1,0 +1,343 @@
+!> One contact from gap to forces: the call an embedding program makes.
+!>
+!> A workspace, one per thread, is given room once; after that nothing is allocated, and every call
+!> leaves the host's floating-point flags, traps and rounding as they were. The workspace
+!> remembers the gap and, for warm starts, the last solution; copying it (by assignment) saves
+!> both, for steps that are taken back.
+module faststrip_contact_solve
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, st_bad_argument, &
+                                st_workspace_too_small
+    use faststrip_material, only: material_t, check_material, normal_compliance
+    use faststrip_creepage, only: creepage_t
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_profile_gap, only: gap_t, min_gap_points
+    use faststrip_profile_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
+                                      hertz_strips
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+                                      reserve_strip_workspace, strip_solve, &
+                                      strip_solve_penetration, strips_auto
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
+    use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
+                                         normal_strip, normal_equal_area, tangential_none, &
+                                         tangential_faststrip
+    implicit none
+    private
+
+    public :: contact_case_t, contact_result_t, workspace_t
+    public :: reserve_workspace, reserve_contact_field, set_contact_gap
+    public :: solve_contact, solve_contact_normal, solve_contact_tangential
+    public :: most_gap_points
+
+    ! Strips of a Hertz ellipse where the number is left to the solver, and the most it takes.
+    integer, parameter :: auto_hertz_strips = 15, auto_most_strips = 41
+    integer, parameter :: most_patches = 16 ! each with its own ellipse
+
+    !> Most points of a gap.
+    integer, parameter :: most_gap_points = 1000000
+
+    !> One contact to be solved.
+    type :: contact_case_t
+        type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
+        type(material_t) :: material       !! moduli in MPa
+        real(wp) :: mu = 0.3_wp            !! coefficient of friction
+        logical :: by_load = .true.        !! is the load given, or the penetration?
+        real(wp) :: load = 0.0_wp          !! normal force, N
+        real(wp) :: penetration = 0.0_wp   !! approach from h = 0, mm
+        type(creepage_t) :: creepage       !! about y = 0
+        type(contact_methods_t) :: methods !! methods and resolutions
+        logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
+    end type contact_case_t
+
+    !> Figures of one contact.
+    type :: contact_result_t
+        type(normal_result_t) :: normal         !! load, penetration, area, largest pressure, ...
+        type(tangential_result_t) :: tangential !! forces on the rail, friction power, stick
+    end type contact_result_t
+
+    !> Everything a solution needs beside the case; owned by the caller, one per thread.
+    type :: workspace_t
+        type(strip_workspace_t) :: solver !! the gap (`solver%curve`) and the strip solver's room
+        type(contact_strips_t) :: strips  !! of the last contact
+        type(hertz_t) :: hertz            !! of the last contact, if by Hertz
+        integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
+    end type workspace_t
+
+contains
+
+    !> Make room for the methods and for gaps of up to `max_points` points: the only allocation.
+    !>
+    !> A workspace with room for strips serves every normal method up to its number of strips.
+    subroutine reserve_workspace(workspace, methods, max_points, status)
+        type(workspace_t), intent(inout) :: workspace  !! sized
+        type(contact_methods_t), intent(in) :: methods !! what will be asked of it
+        integer, intent(in) :: max_points              !! points of a gap, 5 to `most_gap_points`
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`; `st_workspace_too_small`, not enough memory
+
+        real(wp), allocatable :: trial(:)
+        integer(int64) :: numbers
+        integer :: room, failure
+
+        call check_contact_methods(methods, status)
+        if (is_error(status)) return
+        if (max_points < min_gap_points .or. max_points > most_gap_points) then
+            call set_status(status, st_bad_argument, 'room for fewer than 5 or more than a ' // &
+                            'million gap points asked')
+            return
+        end if
+        room = strip_room(methods)
+        ! Tried as a whole first: what the parts find missing would stop the program.
+        numbers = 20_int64*max_points + 100_int64*room
+        if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < room) &
+            numbers = numbers + 8_int64*room*room
+        allocate (trial(numbers), stat=failure)
+        if (failure /= 0) then
+            call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
+            return
+        end if
+        deallocate (trial)
+        workspace%solved_by = 0
+        call reserve_strips(workspace%strips, room, status)
+        if (is_error(status)) return
+        if (methods%normal == normal_hertz) then
+            call reserve_gap_curve(workspace%solver%curve, max_points, status)
+        else
+            call reserve_strip_workspace(workspace%solver, room, max_points, status)
+        end if
+    end subroutine reserve_workspace
+
+    !> Make room for the elements of a tangential method.
+    subroutine reserve_contact_field(field, methods, status)
+        type(tangential_field_t), intent(inout) :: field !! sized
+        type(contact_methods_t), intent(in) :: methods   !! what will be asked for
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`; `st_workspace_too_small`, not enough memory
+
+        real(wp), allocatable :: trial(:)
+        integer(int64) :: elements
+        integer :: failure
+
+        call check_contact_methods(methods, status)
+        if (is_error(status)) return
+        elements = max(int(strip_room(methods), int64)*methods%points_per_strip, &
+                       int(methods%fastsim_nx, int64)*methods%fastsim_ny*most_patches)
+        failure = 1
+        if (elements < huge(failure)) allocate (trial(9*elements), stat=failure)
+        if (failure /= 0) then
+            call set_status(status, st_workspace_too_small, 'not enough memory for a field')
+            return
+        end if
+        deallocate (trial)
+        call reserve_field(field, int(elements), status)
+    end subroutine reserve_contact_field
+
+    !> Hand over the gap that the next solutions are for.
+    subroutine set_contact_gap(workspace, y, h, inv2r, status)
+        type(workspace_t), intent(inout) :: workspace !! with room for as many points
+        real(wp), intent(in) :: y(:)          !! lateral coordinate, strictly increasing, mm
+        real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
+        real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), R the local radius along x, 1/mm
+        type(status_t), intent(out) :: status !! those of `check_gap`, `st_workspace_too_small`
+
+        type(environment_t) :: environment
+
+        call hold_environment(environment)
+        workspace%solved_by = 0
+        call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status)
+        call restore_environment(environment)
+    end subroutine set_contact_gap
+
+    !> Solve a contact: the normal problem and, unless the method is `tangential_none`, the
+    !> tangential one.
+    !>
+    !> A status below `first_error` is that of the normal solution: the result stands, with a named
+    !> limitation. With an error there is no result.
+    subroutine solve_contact(workspace, case, result, status, field)
+        type(workspace_t), intent(inout) :: workspace !! with room for the methods
+        type(contact_case_t), intent(in) :: case      !! what to solve
+        type(contact_result_t), intent(out) :: result !! figures
+        type(status_t), intent(out) :: status
+            !! those of `strip_solve`, `hertz_solve_gap`, `replace_by_ellipses`,
+            !! `faststrip_solve`, `fastsim_solve`, `check_material` and `check_gap`
+        type(tangential_field_t), intent(inout), optional :: field
+            !! elements, if wanted; see `reserve_contact_field`
+
+        type(environment_t) :: environment
+        type(status_t) :: forces
+
+        call hold_environment(environment)
+        call solve_normal(workspace, case, result%normal, status)
+        if (.not. is_error(status) .and. case%methods%tangential /= tangential_none) then
+            call solve_tangential(workspace, case, result%tangential, forces, field)
+            if (is_error(forces)) then
+                status = forces
+                result = contact_result_t()
+            end if
+        else if (present(field)) then
+            field%n = 0
+        end if
+        call restore_environment(environment)
+    end subroutine solve_contact
+
+    !> The normal problem alone; the strips are in the workspace.
+    subroutine solve_contact_normal(workspace, case, normal, status)
+        type(workspace_t), intent(inout) :: workspace !! with room for the method
+        type(contact_case_t), intent(in) :: case      !! gap, material, demand, method
+        type(normal_result_t), intent(out) :: normal  !! figures
+        type(status_t), intent(out) :: status         !! as `solve_contact`
+
+        type(environment_t) :: environment
+
+        call hold_environment(environment)
+        call solve_normal(workspace, case, normal, status)
+        call restore_environment(environment)
+    end subroutine solve_contact_normal
+
+    !> The tangential problem on the workspace's normal solution: other creepages, friction or
+    !> resolution without solving the normal problem again.
+    subroutine solve_contact_tangential(workspace, case, tangential, status, field)
+        type(workspace_t), intent(in) :: workspace            !! with a normal solution
+        type(contact_case_t), intent(in) :: case              !! material, mu, creepages, method
+        type(tangential_result_t), intent(out) :: tangential  !! figures
+        type(status_t), intent(out) :: status                 !! as `solve_contact`
+        type(tangential_field_t), intent(inout), optional :: field !! elements, if wanted
+
+        type(environment_t) :: environment
+
+        call hold_environment(environment)
+        call solve_tangential(workspace, case, tangential, status, field)
+        call restore_environment(environment)
+    end subroutine solve_contact_tangential
+
+    subroutine solve_normal(workspace, case, normal, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(normal_result_t), intent(out) :: normal
+        type(status_t), intent(out) :: status
+
+        workspace%solved_by = 0
+        call check_contact_methods(case%methods, status)
+        if (is_error(status)) return
+        call check_material(case%material, status)
+        if (is_error(status)) return
+        if (allocated(case%gap%y)) then
+            call set_gap_curve(workspace%solver%curve, case%gap, status)
+            if (is_error(status)) return
+        end if
+        if (case%methods%normal == normal_hertz) then
+            call solve_hertz(workspace, case, normal, status)
+        else
+            call solve_by_strips(workspace, case, normal, status)
+        end if
+        if (.not. is_error(status)) workspace%solved_by = case%methods%normal
+    end subroutine solve_normal
+
+    subroutine solve_by_strips(workspace, case, normal, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(normal_result_t), intent(out) :: normal
+        type(status_t), intent(out) :: status
+
+        type(strip_options_t) :: options
+        type(status_t) :: ellipses
+
+        options%strips_per_patch = case%methods%strips_per_patch
+        options%warm_start = case%warm_start
+        if (workspace%solver%max_strips < strip_room(case%methods)) then
+            call set_status(status, st_workspace_too_small, &
+                            'the workspace has room for fewer strips than the method may need')
+            return
+        end if
+        if (case%by_load) then
+            call strip_solve(workspace%solver, normal_compliance(case%material), case%load, &
+                             options, workspace%strips, normal, status)
+        else
+            call strip_solve_penetration(workspace%solver, normal_compliance(case%material), &
+                                         case%penetration, options, workspace%strips, normal, &
+                                         status)
+        end if
+        if (is_error(status) .or. case%methods%normal == normal_strip) return
+        call replace_by_ellipses( &
+            merge(equal_area, equal_moments, case%methods%normal == normal_equal_area), &
+            workspace%solver%curve, workspace%strips, normal, ellipses)
+        if (is_error(ellipses)) status = ellipses
+    end subroutine solve_by_strips
+
+    subroutine solve_hertz(workspace, case, normal, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(normal_result_t), intent(out) :: normal
+        type(status_t), intent(out) :: status
+
+        integer :: n
+
+        associate (hertz => workspace%hertz, curve => workspace%solver%curve)
+            if (case%by_load) then
+                call hertz_solve_gap(curve, normal_compliance(case%material), case%load, hertz, &
+                                     status)
+            else
+                call hertz_solve_gap_penetration(curve, normal_compliance(case%material), &
+                                                 case%penetration, hertz, status)
+            end if
+            if (is_error(status)) return
+            normal%load = hertz%load
+            normal%penetration = hertz%penetration + curve%h_lowest
+            normal%area = hertz%area
+            normal%pmax = hertz%pmax
+            normal%y_min = hertz%y - hertz%b
+            normal%y_max = hertz%y + hertz%b
+            normal%x_max = hertz%a
+            normal%n_patches = 1
+            n = case%methods%strips_per_patch
+            if (n == strips_auto) n = auto_hertz_strips
+            call hertz_strips(hertz, n, workspace%strips, status)
+        end associate
+    end subroutine solve_hertz
+
+    subroutine solve_tangential(workspace, case, tangential, status, field)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(tangential_result_t), intent(out) :: tangential
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        call check_contact_methods(case%methods, status)
+        if (is_error(status)) return
+        if (workspace%solved_by == 0) then
+            call set_status(status, st_bad_argument, 'no normal solution in the workspace')
+            return
+        end if
+        associate (methods => case%methods)
+            if (methods%tangential == tangential_none) then
+                call clear_status(status)
+                if (present(field)) field%n = 0
+            else if (methods%tangential == tangential_faststrip) then
+                call faststrip_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                                     methods%points_per_strip, tangential, status, field)
+            else if (workspace%solved_by == normal_hertz) then
+                call fastsim_solve(workspace%hertz, case%material, case%mu, case%creepage, &
+                                   methods%fastsim_nx, methods%fastsim_ny, tangential, status, &
+                                   field)
+            else
+                call fastsim_strips_solve(workspace%strips, case%material, case%mu, &
+                                          case%creepage, methods%fastsim_nx, methods%fastsim_ny, &
+                                          tangential, status, field)
+            end if
+        end associate
+    end subroutine solve_tangential
+
+    !> Room for the strips of all patches together.
+    pure integer function strip_room(methods)
+        type(contact_methods_t), intent(in) :: methods
+
+        strip_room = 2*methods%strips_per_patch + 60
+        if (methods%strips_per_patch == strips_auto) strip_room = 2*auto_most_strips + 60
+    end function strip_room
+end module faststrip_contact_solve
