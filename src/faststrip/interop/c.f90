@@ -1,0 +1,466 @@
+!> The C face: what `include/faststrip.h` declares, and where it is documented.
+!>
+!> Every function returns a code of `faststrip_status`. Pointers, sizes and handles are checked
+!> here; numbers are checked by the procedures that take them.
+module faststrip_interop_c
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_ptr, c_null_ptr, &
+                                           c_null_char, c_associated, c_f_pointer, c_sizeof
+    use faststrip_status, only: status_t, status_word, set_status, is_error, st_ok, &
+                                st_bad_argument, st_workspace_too_small
+    use faststrip_material, only: material_t
+    use faststrip_creepage, only: creepage_t
+    use faststrip_normal_hertz, only: hertz_t
+    use faststrip_tangential_kalker, only: kalker_coefficients_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_solve, only: contact_case_t, contact_result_t
+    use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
+                                        handle_gap, handle_solve, copy_handle
+    use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
+    implicit none
+    private
+
+    public :: c_case_t, c_result_t
+    public :: faststrip_version, faststrip_message, faststrip_default_case, faststrip_new
+    public :: faststrip_free, faststrip_copy, faststrip_set_gap, faststrip_solve
+    public :: faststrip_get_strips, faststrip_get_elements, faststrip_last_message
+    public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
+
+    character(len=*), parameter :: version = '0.1.0'
+
+    !> `faststrip_case` of the header.
+    type, bind(c) :: c_case_t
+        integer(c_size_t) :: size
+        integer(c_int) :: normal, tangential, strips_per_patch, points_per_strip
+        integer(c_int) :: fastsim_nx, fastsim_ny, by_load, warm_start, with_elements
+        real(c_double) :: e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration
+        real(c_double) :: cksi, ceta, cphi
+    end type c_case_t
+
+    !> `faststrip_result` of the header.
+    type, bind(c) :: c_result_t
+        integer(c_size_t) :: size
+        real(c_double) :: load, penetration, area, pmax, y_min, y_max, x_max
+        real(c_double) :: fx, fy, mz, friction_power, stick_fraction
+        integer(c_int) :: n_patches, n_strips, n_elements, iterations
+    end type c_result_t
+
+contains
+
+    !> The version of the library, three numbers with points between.
+    integer(c_int) function faststrip_version(text, length) bind(c) result(code)
+        type(c_ptr), value :: text           !! `length` characters, written
+        integer(c_size_t), value :: length   !! with the closing zero
+
+        code = put_text(version, text, length)
+    end function faststrip_version
+
+    !> The word of a status code.
+    integer(c_int) function faststrip_message(status, text, length) bind(c) result(code)
+        integer(c_int), value :: status      !! what a call returned
+        type(c_ptr), value :: text           !! `length` characters, written
+        integer(c_size_t), value :: length   !! with the closing zero
+
+        code = put_text(trim(status_word(status)), text, length)
+    end function faststrip_message
+
+    !> The words of a workspace's last call, with the offending value; empty when all was well.
+    integer(c_int) function faststrip_last_message(workspace, text, length) bind(c) result(code)
+        type(c_ptr), value :: workspace      !! a handle
+        type(c_ptr), value :: text           !! `length` characters, written
+        integer(c_size_t), value :: length   !! with the closing zero
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        code = put_text(trim(handle%status%message), text, length)
+    end function faststrip_last_message
+
+    !> Fill a case in with steel on steel, the methods of the project and nothing to solve.
+    integer(c_int) function faststrip_default_case(case, length) bind(c) result(code)
+        type(c_ptr), value :: case           !! a `faststrip_case`
+        integer(c_size_t), value :: length   !! its size as the caller knows it
+
+        type(c_case_t), pointer :: fields
+        type(contact_case_t) :: defaults
+
+        code = st_bad_argument
+        if (.not. c_associated(case)) return
+        call c_f_pointer(case, fields)
+        if (length /= c_sizeof(fields)) return
+        code = st_ok
+        fields%size = length
+        fields%normal = defaults%methods%normal
+        fields%tangential = defaults%methods%tangential
+        fields%strips_per_patch = defaults%methods%strips_per_patch
+        fields%points_per_strip = defaults%methods%points_per_strip
+        fields%fastsim_nx = defaults%methods%fastsim_nx
+        fields%fastsim_ny = defaults%methods%fastsim_ny
+        fields%by_load = merge(1, 0, defaults%by_load)
+        fields%warm_start = merge(1, 0, defaults%warm_start)
+        fields%with_elements = 0
+        fields%e_wheel = defaults%material%e_wheel
+        fields%e_rail = defaults%material%e_rail
+        fields%nu_wheel = defaults%material%nu_wheel
+        fields%nu_rail = defaults%material%nu_rail
+        fields%mu = defaults%mu
+        fields%load = defaults%load
+        fields%penetration = defaults%penetration
+        fields%cksi = defaults%creepage%cksi
+        fields%ceta = defaults%creepage%ceta
+        fields%cphi = defaults%creepage%cphi
+    end function faststrip_default_case
+
+    !> Make a workspace with room for the methods of a case.
+    integer(c_int) function faststrip_new(case, max_points, workspace) bind(c) result(code)
+        type(c_ptr), value :: case           !! a `faststrip_case`
+        integer(c_int), value :: max_points  !! most points of a gap
+        type(c_ptr), value :: workspace      !! where the handle goes
+
+        type(c_ptr), pointer :: address
+        type(c_case_t), pointer :: fields
+        type(status_t) :: status
+
+        code = st_bad_argument
+        if (.not. c_associated(workspace)) return
+        call c_f_pointer(workspace, address)
+        address = c_null_ptr
+        if (.not. is_case(case)) return
+        call c_f_pointer(case, fields)
+        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, address, status)
+        code = status%code
+    end function faststrip_new
+
+    !> Free a workspace and set the caller's pointer to null; a null one is left alone.
+    integer(c_int) function faststrip_free(workspace) bind(c) result(code)
+        type(c_ptr), value :: workspace !! where the handle is
+
+        type(c_ptr), pointer :: address
+        type(status_t) :: status
+
+        code = st_bad_argument
+        if (.not. c_associated(workspace)) return
+        call c_f_pointer(workspace, address)
+        code = st_ok
+        if (.not. c_associated(address)) return
+        call free_handle(address, status)
+        code = status%code
+        address = c_null_ptr
+    end function faststrip_free
+
+    !> Copy a workspace's gap and solution, for a step that may be taken back.
+    integer(c_int) function faststrip_copy(from, to) bind(c) result(code)
+        type(c_ptr), value :: from !! a handle
+        type(c_ptr), value :: to   !! another one
+
+        type(handle_t), pointer :: source, target
+        type(status_t) :: status
+
+        call find_handle(from, source, status)
+        code = status%code
+        if (is_error(status)) return
+        call find_handle(to, target, status)
+        code = status%code
+        if (is_error(status) .or. c_associated(from, to)) return
+        call copy_handle(source, target)
+    end function faststrip_copy
+
+    !> Hand over the gap that the next solutions are for.
+    integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r) bind(c) result(code)
+        type(c_ptr), value :: workspace   !! a handle
+        integer(c_int), value :: n        !! number of points
+        type(c_ptr), value :: y, h, inv2r !! `n` numbers each, mm, mm, 1/mm
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:)
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        if (n < 0 .or. .not. (c_associated(y) .and. c_associated(h) .and. c_associated(inv2r))) then
+            call set_status(handle%status, st_bad_argument, 'y, h or inv2r of the gap is missing')
+        else
+            call c_f_pointer(y, y_of, [n])
+            call c_f_pointer(h, h_of, [n])
+            call c_f_pointer(inv2r, inv2r_of, [n])
+            call handle_gap(handle, y_of, h_of, inv2r_of)
+        end if
+        code = handle%status%code
+    end function faststrip_set_gap
+
+    !> Solve one contact on the gap of the workspace.
+    integer(c_int) function faststrip_solve(workspace, case, result) bind(c) result(code)
+        type(c_ptr), value :: workspace !! a handle
+        type(c_ptr), value :: case      !! a `faststrip_case`
+        type(c_ptr), value :: result    !! a `faststrip_result`, written
+
+        type(handle_t), pointer :: handle
+        type(c_case_t), pointer :: fields
+        type(c_result_t), pointer :: figures
+        type(contact_result_t) :: solution
+        type(status_t) :: status
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        if (.not. (is_case(case) .and. c_associated(result))) then
+            call set_status(handle%status, st_bad_argument, 'no case or no result, or a case ' // &
+                            'not made by faststrip_default_case')
+            code = handle%status%code
+            return
+        end if
+        call c_f_pointer(case, fields)
+        call c_f_pointer(result, figures)
+        call handle_solve(handle, case_of(fields), fields%with_elements /= 0, solution)
+        code = handle%status%code
+        figures%size = c_sizeof(figures)
+        associate (normal => solution%normal, tangential => solution%tangential)
+            figures%load = normal%load
+            figures%penetration = normal%penetration
+            figures%area = normal%area
+            figures%pmax = normal%pmax
+            figures%y_min = normal%y_min
+            figures%y_max = normal%y_max
+            figures%x_max = normal%x_max
+            figures%fx = tangential%fx
+            figures%fy = tangential%fy
+            figures%mz = tangential%mz
+            figures%friction_power = tangential%friction_power
+            figures%stick_fraction = tangential%stick_fraction
+            figures%n_patches = normal%n_patches
+            figures%n_strips = merge(handle%workspace%strips%n, 0, normal%n_patches > 0)
+            figures%n_elements = handle%field%n
+            figures%iterations = normal%iterations
+        end associate
+    end function faststrip_solve
+
+    !> The strips of the last contact.
+    integer(c_int) function faststrip_get_strips(workspace, room, n, y_left, y_right, half_length, &
+                                                 p0, patch) bind(c) result(code)
+        type(c_ptr), value :: workspace                        !! a handle
+        integer(c_int), value :: room                          !! length of the arrays
+        type(c_ptr), value :: n                                !! number of strips, written
+        type(c_ptr), value :: y_left, y_right, half_length, p0 !! mm, mm, mm, MPa, written
+        type(c_ptr), value :: patch                            !! number of the patch, written
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+        integer :: count
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        associate (strips => handle%workspace%strips)
+            count = merge(strips%n, 0, handle%workspace%solved_by > 0)
+            call check_room(handle, room, count, n, [y_left, y_right, half_length, p0, patch])
+            code = handle%status%code
+            if (is_error(handle%status)) return
+            call put_numbers(strips%y_left(:count), y_left)
+            call put_numbers(strips%y_right(:count), y_right)
+            call put_numbers(strips%half_length(:count), half_length)
+            call put_numbers(strips%p0(:count), p0)
+            call put_integers(strips%patch(:count), patch)
+        end associate
+    end function faststrip_get_strips
+
+    !> The elements of the last contact, if they were asked for.
+    integer(c_int) function faststrip_get_elements(workspace, room, n, x, y, area, pn, px, py, sx, &
+                                                   sy, state) bind(c) result(code)
+        type(c_ptr), value :: workspace !! a handle
+        integer(c_int), value :: room   !! length of the arrays
+        type(c_ptr), value :: n         !! number of elements, written
+        type(c_ptr), value :: x, y      !! middle of the element, mm, written
+        type(c_ptr), value :: area      !! mm^2, written
+        type(c_ptr), value :: pn        !! pressure, MPa, written
+        type(c_ptr), value :: px, py    !! traction on the rail, MPa, written
+        type(c_ptr), value :: sx, sy    !! slip over rolling speed, written
+        type(c_ptr), value :: state     !! 1 adhesion, 2 slip, written
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+        integer :: count
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        associate (field => handle%field)
+            count = field%n
+            call check_room(handle, room, count, n, [x, y, area, pn, px, py, sx, sy, state])
+            code = handle%status%code
+            if (is_error(handle%status) .or. count == 0) return
+            call put_numbers(field%x(:count), x)
+            call put_numbers(field%y(:count), y)
+            call put_numbers(field%area(:count), area)
+            call put_numbers(field%pn(:count), pn)
+            call put_numbers(field%px(:count), px)
+            call put_numbers(field%py(:count), py)
+            call put_numbers(field%sx(:count), sx)
+            call put_numbers(field%sy(:count), sy)
+            call put_integers(field%state(:count), state)
+        end associate
+    end function faststrip_get_elements
+
+    !> FASTSIM with the caller's ellipse and creepage coefficients.
+    integer(c_int) function faststrip_fastsim(a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load, &
+                                              nx, ny, forces) bind(c) result(code)
+        real(c_double), value :: a, b             !! semi-axes along x and y, mm
+        real(c_double), value :: g                !! combined shear modulus, MPa
+        real(c_double), value :: c11, c22, c23    !! Kalker's coefficients
+        real(c_double), value :: cksi, ceta, cphi !! creepages, -, -, rad/mm
+        real(c_double), value :: mu               !! coefficient of friction
+        real(c_double), value :: load             !! normal force, N
+        integer(c_int), value :: nx, ny           !! points along a row, rows
+        type(c_ptr), value :: forces              !! Fx, Fy, Mz on the rail, N, N, N mm, written
+
+        type(tangential_result_t) :: result
+        type(status_t) :: status
+
+        code = st_bad_argument
+        if (.not. c_associated(forces)) return
+        call classic_fastsim(a, b, g, kalker_coefficients_t(c11, c22, c23, 0.0_c_double), &
+                             creepage_t(cksi, ceta, cphi), mu, load, nx, ny, result, status)
+        code = status%code
+        call put_numbers([result%fx, result%fy, result%mz], forces)
+    end function faststrip_fastsim
+
+    !> Hertz's ellipse of two curvatures.
+    integer(c_int) function faststrip_hertz(e_wheel, e_rail, nu_wheel, nu_rail, inv2r_x, inv2r_y, &
+                                            load, figures) bind(c) result(code)
+        real(c_double), value :: e_wheel, e_rail   !! Young's moduli, MPa
+        real(c_double), value :: nu_wheel, nu_rail !! Poisson's ratios
+        real(c_double), value :: inv2r_x, inv2r_y  !! gap per x^2 and per y^2, 1/mm
+        real(c_double), value :: load              !! normal force, N
+        type(c_ptr), value :: figures  !! a, b, penetration, pmax: mm, mm, mm, MPa, written
+
+        type(hertz_t) :: hertz
+        type(status_t) :: status
+
+        code = st_bad_argument
+        if (.not. c_associated(figures)) return
+        call classic_hertz(material_t(e_wheel, e_rail, nu_wheel, nu_rail), inv2r_x, inv2r_y, load, &
+                           hertz, status)
+        code = status%code
+        call put_numbers([hertz%a, hertz%b, hertz%penetration, hertz%pmax], figures)
+    end function faststrip_hertz
+
+    !> Kalker's creepage coefficients.
+    integer(c_int) function faststrip_kalker(a_over_b, nu, coefficients) bind(c) result(code)
+        real(c_double), value :: a_over_b !! semi-axis along x over that along y
+        real(c_double), value :: nu       !! combined Poisson's ratio
+        type(c_ptr), value :: coefficients !! c11, c22, c23, c33, written
+
+        type(kalker_coefficients_t) :: c
+        type(status_t) :: status
+
+        code = st_bad_argument
+        if (.not. c_associated(coefficients)) return
+        call classic_kalker(a_over_b, nu, c, status)
+        code = status%code
+        call put_numbers([c%c11, c%c22, c%c23, c%c33], coefficients)
+    end function faststrip_kalker
+
+    !> Is there a case of the size this library knows?
+    logical function is_case(case)
+        type(c_ptr), intent(in) :: case
+
+        type(c_case_t), pointer :: fields
+
+        is_case = c_associated(case)
+        if (.not. is_case) return
+        call c_f_pointer(case, fields)
+        is_case = fields%size == c_sizeof(fields)
+    end function is_case
+
+    pure type(contact_methods_t) function methods_of(fields) result(methods)
+        type(c_case_t), intent(in) :: fields
+
+        methods = contact_methods_t(fields%normal, fields%tangential, fields%strips_per_patch, &
+                                    fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
+    end function methods_of
+
+    pure type(contact_case_t) function case_of(fields) result(case)
+        type(c_case_t), intent(in) :: fields
+
+        case%material = material_t(fields%e_wheel, fields%e_rail, fields%nu_wheel, fields%nu_rail)
+        case%mu = fields%mu
+        case%by_load = fields%by_load /= 0
+        case%load = fields%load
+        case%penetration = fields%penetration
+        case%creepage = creepage_t(fields%cksi, fields%ceta, fields%cphi)
+        case%methods = methods_of(fields)
+        case%warm_start = fields%warm_start /= 0
+    end function case_of
+
+    !> Tell how many there are, and refuse arrays that are missing or too short.
+    subroutine check_room(handle, room, count, n, arrays)
+        type(handle_t), intent(inout) :: handle
+        integer(c_int), intent(in) :: room
+        integer, intent(in) :: count
+        type(c_ptr), intent(in) :: n, arrays(:)
+
+        integer(c_int), pointer :: number
+        integer :: i
+
+        handle%status = status_t()
+        if (c_associated(n)) then
+            call c_f_pointer(n, number)
+            number = count
+        else
+            call set_status(handle%status, st_bad_argument, 'nowhere to put the number')
+            return
+        end if
+        if (room < count) then
+            call set_status(handle%status, st_workspace_too_small, 'the arrays are too short')
+            return
+        end if
+        do i = 1, size(arrays)
+            if (c_associated(arrays(i))) cycle
+            call set_status(handle%status, st_bad_argument, 'an array is missing')
+            return
+        end do
+    end subroutine check_room
+
+    subroutine put_numbers(values, address)
+        real(c_double), intent(in) :: values(:)
+        type(c_ptr), intent(in) :: address
+
+        real(c_double), pointer :: array(:)
+
+        call c_f_pointer(address, array, [size(values)])
+        array = values
+    end subroutine put_numbers
+
+    subroutine put_integers(values, address)
+        integer, intent(in) :: values(:)
+        type(c_ptr), intent(in) :: address
+
+        integer(c_int), pointer :: array(:)
+
+        call c_f_pointer(address, array, [size(values)])
+        array = values
+    end subroutine put_integers
+
+    !> Write words and the closing zero; what does not fit is cut.
+    integer(c_int) function put_text(words, address, length) result(code)
+        character(len=*), intent(in) :: words
+        type(c_ptr), intent(in) :: address
+        integer(c_size_t), intent(in) :: length
+
+        character(kind=c_char), pointer :: text(:)
+        integer :: i, n
+
+        code = st_bad_argument
+        if (.not. c_associated(address) .or. length < 1) return
+        call c_f_pointer(address, text, [length])
+        n = int(min(int(len(words), c_size_t), length - 1))
+        do i = 1, n
+            text(i) = words(i:i)
+        end do
+        text(n + 1) = c_null_char
+        code = merge(st_ok, st_workspace_too_small, n == len(words))
+    end function put_text
+end module faststrip_interop_c

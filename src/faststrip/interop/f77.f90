@@ -1,0 +1,419 @@
+!> The F77 face: external subroutines with plain arguments, names of at most six letters.
+!>
+!> INTEGER is four bytes, DOUBLE PRECISION eight. Names carry the trailing underscore most Fortran
+!> compilers add; the installed library has them without it too. A workspace is an INTEGER array
+!> `IWORK` of the caller (`FSINIT` with `LIWORK = -1` tells its length) that holds a handle: FSINIT
+!> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
+!> own. `INFO` is a code of `faststrip_status`: 0, below 100 a result with a named limitation, from
+!> 100 on no result.
+!>
+!> ```
+!> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments
+!> IOPT(2) tangential method: 0 none, 1 faststrip, 2 fastsim
+!> IOPT(3) strips per patch, 0: left to the solver     IOPT(4) points per strip
+!> IOPT(5) points along a row of FASTSIM               IOPT(6) rows of FASTSIM
+!> IOPT(7) 1: PAR(6) is the load, 0: the penetration   IOPT(8) 1: warm start
+!> IOPT(9) 1: elements wanted
+!> PAR(1), PAR(2) Young's modulus of wheel and rail, MPa
+!> PAR(3), PAR(4) Poisson's ratio of wheel and rail    PAR(5) coefficient of friction
+!> PAR(6) load, N, or penetration, mm                  PAR(7) longitudinal creepage
+!> PAR(8) lateral creepage                             PAR(9) spin, rad/mm
+!> RES(1) load, N           RES(2) penetration, mm     RES(3) area, mm^2
+!> RES(4) largest pressure  RES(5), RES(6) ends, mm    RES(7) largest half-length, mm
+!> RES(8) Fx, N             RES(9) Fy, N               RES(10) Mz, N mm, all on the rail
+!> RES(11) friction power over rolling speed, N        RES(12) share in adhesion
+!> RES(13) number of patches                           RES(14) number of strips
+!> ```
+module faststrip_interop_f77
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
+                                           c_null_ptr
+    use faststrip_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
+                                st_workspace_too_small
+    use faststrip_material, only: material_t
+    use faststrip_creepage, only: creepage_t
+    use faststrip_normal_hertz, only: hertz_t
+    use faststrip_tangential_kalker, only: kalker_coefficients_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_solve, only: contact_case_t, contact_result_t
+    use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
+                                        handle_gap, handle_solve, copy_handle
+    use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
+    implicit none
+    private
+
+    public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
+    public :: fscopy, fsfree, fsmsg, fslast
+
+    integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14
+
+    ! A workspace array: two marks around the handle.
+    integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
+
+contains
+
+    !> CALL FSTSIM(A, B, G, C11, C22, C23, CKSI, CETA, CPHI, AMU, FN, NX, NY, FX, FY, FMZ, INFO)
+    !>
+    !> FASTSIM on an ellipse: what a vehicle code's own FASTSIM takes and gives.
+    subroutine fstsim(a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load, nx, ny, fx, fy, mz, &
+                      info) bind(c, name='fstsim_')
+        real(c_double), intent(in) :: a, b             !! semi-axes along x and y, mm
+        real(c_double), intent(in) :: g                !! combined shear modulus, MPa
+        real(c_double), intent(in) :: c11, c22, c23    !! Kalker's coefficients
+        real(c_double), intent(in) :: cksi, ceta, cphi !! creepages, -, -, rad/mm
+        real(c_double), intent(in) :: mu               !! coefficient of friction
+        real(c_double), intent(in) :: load             !! normal force, N
+        integer(c_int), intent(in) :: nx, ny           !! points along a row, rows
+        real(c_double), intent(out) :: fx, fy, mz      !! on the rail, N, N, N mm
+        integer(c_int), intent(out) :: info            !! status
+
+        type(tangential_result_t) :: result
+        type(status_t) :: status
+
+        call classic_fastsim(a, b, g, kalker_coefficients_t(c11, c22, c23, 0.0_c_double), &
+                             creepage_t(cksi, ceta, cphi), mu, load, nx, ny, result, status)
+        fx = result%fx
+        fy = result%fy
+        mz = result%mz
+        info = status%code
+    end subroutine fstsim
+
+    !> CALL FSKALK(AOVERB, PNU, C, INFO)
+    !>
+    !> Kalker's coefficients C11, C22, C23, C33 of an ellipse.
+    subroutine fskalk(a_over_b, nu, c, info) bind(c, name='fskalk_')
+        real(c_double), intent(in) :: a_over_b !! semi-axis along x over that along y
+        real(c_double), intent(in) :: nu       !! combined Poisson's ratio
+        real(c_double), intent(out) :: c(4)    !! C11, C22, C23, C33
+        integer(c_int), intent(out) :: info    !! status
+
+        type(kalker_coefficients_t) :: coefficients
+        type(status_t) :: status
+
+        call classic_kalker(a_over_b, nu, coefficients, status)
+        c = [coefficients%c11, coefficients%c22, coefficients%c23, coefficients%c33]
+        info = status%code
+    end subroutine fskalk
+
+    !> CALL FSHERZ(PAR, AX, BY, FN, A, B, PEN, PMAX, INFO)
+    !>
+    !> Hertz's ellipse of the gap AX x^2 + BY y^2; PAR as elsewhere, of which the first four count.
+    subroutine fsherz(par, inv2r_x, inv2r_y, load, a, b, penetration, pmax, info) &
+        bind(c, name='fsherz_')
+        real(c_double), intent(in) :: par(4)             !! moduli, MPa, and Poisson's ratios
+        real(c_double), intent(in) :: inv2r_x, inv2r_y   !! 1/mm
+        real(c_double), intent(in) :: load               !! normal force, N
+        real(c_double), intent(out) :: a, b, penetration !! mm
+        real(c_double), intent(out) :: pmax              !! MPa
+        integer(c_int), intent(out) :: info              !! status
+
+        type(hertz_t) :: hertz
+        type(status_t) :: status
+
+        call classic_hertz(material_t(par(1), par(2), par(3), par(4)), inv2r_x, inv2r_y, load, &
+                           hertz, status)
+        a = hertz%a
+        b = hertz%b
+        penetration = hertz%penetration
+        pmax = hertz%pmax
+        info = status%code
+    end subroutine fsherz
+
+    !> CALL FSDFLT(IOPT, PAR)
+    !>
+    !> Steel on steel, mu 0.3, strips and FASTSTRIP; load and creepages zero.
+    subroutine fsdflt(iopt, par) bind(c, name='fsdflt_')
+        integer(c_int), intent(out) :: iopt(n_iopt) !! choices
+        real(c_double), intent(out) :: par(n_par)   !! numbers
+
+        type(contact_case_t) :: case
+
+        associate (methods => case%methods)
+            iopt = [methods%normal, methods%tangential, methods%strips_per_patch, &
+                    methods%points_per_strip, methods%fastsim_nx, methods%fastsim_ny, 1, 0, 0]
+        end associate
+        par(:4) = [case%material%e_wheel, case%material%e_rail, case%material%nu_wheel, &
+                   case%material%nu_rail]
+        par(5) = case%mu
+        par(6:) = 0.0_c_double
+    end subroutine fsdflt
+
+    !> CALL FSINIT(IOPT, MPTS, IWORK, LIWORK, INFO)
+    !>
+    !> Make a workspace for gaps of up to MPTS points and the methods of IOPT. With LIWORK = -1 only
+    !> IWORK(1) is set, to the length of IWORK that is needed.
+    subroutine fsinit(iopt, max_points, iwork, liwork, info) bind(c, name='fsinit_')
+        integer(c_int), intent(in) :: iopt(n_iopt)  !! choices
+        integer(c_int), intent(in) :: max_points    !! most points of a gap
+        integer(c_int), intent(inout) :: iwork(*)   !! the caller's workspace array
+        integer(c_int), intent(in) :: liwork        !! its length, or -1
+        integer(c_int), intent(out) :: info         !! status
+
+        type(status_t) :: status
+        type(c_ptr) :: address
+
+        info = 0
+        if (liwork == -1) then
+            iwork(1) = n_iwork
+            return
+        end if
+        if (liwork < n_iwork) then
+            info = st_workspace_too_small
+            return
+        end if
+        iwork(:n_iwork) = 0
+        call new_handle(methods_of(iopt), max_points, iopt(9) /= 0, address, status)
+        info = status%code
+        if (is_error(status)) return
+        iwork(1) = first_mark
+        iwork(2:n_iwork - 1) = transfer([transfer(address, 0_c_intptr_t), 0_c_intptr_t, &
+                                         0_c_intptr_t], iwork(:1), n_iwork - 2)
+        iwork(n_iwork) = last_mark
+    end subroutine fsinit
+
+    !> CALL FSGAP(IWORK, N, Y, H, A, INFO)
+    !>
+    !> Hand over the gap that the next calls of FSSOLV are for: h(x, y) = H + A x^2 at Y.
+    subroutine fsgap(iwork, n, y, h, a, info) bind(c, name='fsgap_')
+        integer(c_int), intent(in) :: iwork(n_iwork)      !! made by FSINIT
+        integer(c_int), intent(in) :: n                   !! number of points
+        real(c_double), intent(in) :: y(*), h(*), a(*)    !! mm, mm, 1/mm
+        integer(c_int), intent(out) :: info               !! status
+
+        type(handle_t), pointer :: handle
+
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        if (n < 0) then
+            call set_status(handle%status, st_bad_argument, 'a gap of fewer than no points')
+        else
+            call handle_gap(handle, y(:n), h(:n), a(:n))
+        end if
+        info = handle%status%code
+    end subroutine fsgap
+
+    !> CALL FSSOLV(IWORK, IOPT, PAR, RES, INFO)
+    !>
+    !> Solve one contact on the gap that was handed over.
+    subroutine fssolv(iwork, iopt, par, res, info) bind(c, name='fssolv_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! with a gap
+        integer(c_int), intent(in) :: iopt(n_iopt)   !! choices
+        real(c_double), intent(in) :: par(n_par)     !! numbers
+        real(c_double), intent(out) :: res(n_res)    !! figures; zero when there is an error
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+        type(contact_case_t) :: case
+        type(contact_result_t) :: result
+
+        res = 0.0_c_double
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        case%material = material_t(par(1), par(2), par(3), par(4))
+        case%mu = par(5)
+        case%by_load = iopt(7) /= 0
+        case%load = par(6)
+        case%penetration = par(6)
+        case%creepage = creepage_t(par(7), par(8), par(9))
+        case%methods = methods_of(iopt)
+        case%warm_start = iopt(8) /= 0
+        call handle_solve(handle, case, iopt(9) /= 0, result)
+        info = handle%status%code
+        if (is_error(handle%status)) return
+        associate (normal => result%normal, tangential => result%tangential)
+            res = [normal%load, normal%penetration, normal%area, normal%pmax, normal%y_min, &
+                   normal%y_max, normal%x_max, tangential%fx, tangential%fy, tangential%mz, &
+                   tangential%friction_power, tangential%stick_fraction, &
+                   real(normal%n_patches, c_double), &
+                   real(handle%workspace%strips%n, c_double)]
+        end associate
+    end subroutine fssolv
+
+    !> CALL FSCONT(IWORK, N, Y, H, A, IOPT, PAR, RES, INFO)
+    !>
+    !> FSGAP and FSSOLV in one.
+    subroutine fscont(iwork, n, y, h, a, iopt, par, res, info) bind(c, name='fscont_')
+        integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSINIT
+        integer(c_int), intent(in) :: n                !! number of points
+        real(c_double), intent(in) :: y(*), h(*), a(*) !! mm, mm, 1/mm
+        integer(c_int), intent(in) :: iopt(n_iopt)     !! choices
+        real(c_double), intent(in) :: par(n_par)       !! numbers
+        real(c_double), intent(out) :: res(n_res)      !! figures; zero when there is an error
+        integer(c_int), intent(out) :: info            !! status
+
+        res = 0.0_c_double
+        call fsgap(iwork, n, y, h, a, info)
+        if (info == 0) call fssolv(iwork, iopt, par, res, info)
+    end subroutine fscont
+
+    !> CALL FSSTRP(IWORK, M, N, YL, YR, XD, P0, IPATCH, INFO)
+    !>
+    !> The strips of the last contact.
+    subroutine fsstrp(iwork, room, n, y_left, y_right, half_length, p0, patch, info) &
+        bind(c, name='fsstrp_')
+        integer(c_int), intent(in) :: iwork(n_iwork)         !! with a solution
+        integer(c_int), intent(in) :: room                   !! length of the arrays
+        integer(c_int), intent(out) :: n                     !! number of strips
+        real(c_double), intent(inout) :: y_left(*), y_right(*) !! edges, mm
+        real(c_double), intent(inout) :: half_length(*)      !! mm
+        real(c_double), intent(inout) :: p0(*)               !! pressure on the centre line, MPa
+        integer(c_int), intent(inout) :: patch(*)            !! number of the patch
+        integer(c_int), intent(out) :: info                  !! status
+
+        type(handle_t), pointer :: handle
+
+        n = 0
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        if (handle%workspace%solved_by == 0) return
+        associate (strips => handle%workspace%strips)
+            n = strips%n
+            if (room < n) then
+                info = st_workspace_too_small
+                return
+            end if
+            y_left(:n) = strips%y_left(:n)
+            y_right(:n) = strips%y_right(:n)
+            half_length(:n) = strips%half_length(:n)
+            p0(:n) = strips%p0(:n)
+            patch(:n) = strips%patch(:n)
+        end associate
+    end subroutine fsstrp
+
+    !> CALL FSELEM(IWORK, M, N, X, Y, AREA, PN, PX, PY, SX, SY, ISTATE, INFO)
+    !>
+    !> The elements of the last contact, if IOPT(9) asked for them.
+    subroutine fselem(iwork, room, n, x, y, area, pn, px, py, sx, sy, state, info) &
+        bind(c, name='fselem_')
+        integer(c_int), intent(in) :: iwork(n_iwork)   !! with a solution
+        integer(c_int), intent(in) :: room             !! length of the arrays
+        integer(c_int), intent(out) :: n               !! number of elements
+        real(c_double), intent(inout) :: x(*), y(*)    !! middle of the element, mm
+        real(c_double), intent(inout) :: area(*)       !! mm^2
+        real(c_double), intent(inout) :: pn(*)         !! pressure, MPa
+        real(c_double), intent(inout) :: px(*), py(*)  !! traction on the rail, MPa
+        real(c_double), intent(inout) :: sx(*), sy(*)  !! slip over rolling speed
+        integer(c_int), intent(inout) :: state(*)      !! 1 adhesion, 2 slip
+        integer(c_int), intent(out) :: info            !! status
+
+        type(handle_t), pointer :: handle
+
+        n = 0
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        associate (field => handle%field)
+            n = field%n
+            if (room < n) info = st_workspace_too_small
+            if (n == 0 .or. room < n) return
+            x(:n) = field%x(:n)
+            y(:n) = field%y(:n)
+            area(:n) = field%area(:n)
+            pn(:n) = field%pn(:n)
+            px(:n) = field%px(:n)
+            py(:n) = field%py(:n)
+            sx(:n) = field%sx(:n)
+            sy(:n) = field%sy(:n)
+            state(:n) = field%state(:n)
+        end associate
+    end subroutine fselem
+
+    !> CALL FSCOPY(IFROM, ITO, INFO)
+    !>
+    !> Copy gap and solution of one workspace into another, for a step that may be taken back.
+    subroutine fscopy(from, to, info) bind(c, name='fscopy_')
+        integer(c_int), intent(in) :: from(n_iwork) !! made by FSINIT
+        integer(c_int), intent(in) :: to(n_iwork)   !! made by another call of FSINIT
+        integer(c_int), intent(out) :: info         !! status
+
+        type(handle_t), pointer :: source, target
+
+        call find(from, source, info)
+        if (.not. associated(source)) return
+        call find(to, target, info)
+        if (.not. associated(target)) return
+        if (.not. associated(source, target)) call copy_handle(source, target)
+    end subroutine fscopy
+
+    !> CALL FSFREE(IWORK, INFO)
+    !>
+    !> Free what FSINIT allocated.
+    subroutine fsfree(iwork, info) bind(c, name='fsfree_')
+        integer(c_int), intent(inout) :: iwork(n_iwork) !! made by FSINIT; zero afterwards
+        integer(c_int), intent(out) :: info             !! status
+
+        type(status_t) :: status
+
+        call free_handle(address_of(iwork), status)
+        info = status%code
+        iwork = 0
+    end subroutine fsfree
+
+    !> CALL FSMSG(INFO, TEXT)
+    !>
+    !> The word of a status.
+    subroutine fsmsg(info, text, length) bind(c, name='fsmsg_')
+        integer(c_int), intent(in) :: info                         !! status of a call
+        character(kind=c_char), intent(out) :: text(*)             !! CHARACTER*(*), blank-padded
+        integer(c_size_t), value :: length                         !! passed by the compiler
+
+        call put_text(trim(status_word(info)), text, length)
+    end subroutine fsmsg
+
+    !> CALL FSLAST(IWORK, TEXT)
+    !>
+    !> The words of the workspace's last call, with the offending value; blank when all was well.
+    subroutine fslast(iwork, text, length) bind(c, name='fslast_')
+        integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSINIT
+        character(kind=c_char), intent(out) :: text(*) !! CHARACTER*(*), blank-padded
+        integer(c_size_t), value :: length             !! passed by the compiler
+
+        type(handle_t), pointer :: handle
+        integer(c_int) :: info
+
+        call find(iwork, handle, info)
+        if (associated(handle)) then
+            call put_text(trim(handle%status%message), text, length)
+        else
+            call put_text('no workspace, or one that was freed', text, length)
+        end if
+    end subroutine fslast
+
+    !> The handle in a workspace array; null, and an error, if there is none.
+    subroutine find(iwork, handle, info)
+        integer(c_int), intent(in) :: iwork(n_iwork)
+        type(handle_t), pointer, intent(out) :: handle
+        integer(c_int), intent(out) :: info
+
+        type(status_t) :: status
+
+        call find_handle(address_of(iwork), handle, status)
+        info = status%code
+    end subroutine find
+
+    pure type(c_ptr) function address_of(iwork)
+        integer(c_int), intent(in) :: iwork(n_iwork)
+
+        address_of = c_null_ptr
+        if (iwork(1) == first_mark .and. iwork(n_iwork) == last_mark) &
+            address_of = transfer(iwork(2:n_iwork - 1), address_of)
+    end function address_of
+
+    pure type(contact_methods_t) function methods_of(iopt) result(methods)
+        integer(c_int), intent(in) :: iopt(n_iopt)
+
+        methods = contact_methods_t(iopt(1), iopt(2), iopt(3), iopt(4), iopt(5), iopt(6))
+    end function methods_of
+
+    subroutine put_text(words, text, length)
+        character(len=*), intent(in) :: words
+        character(kind=c_char), intent(inout) :: text(*)
+        integer(c_size_t), intent(in) :: length
+
+        integer(c_size_t) :: i
+
+        do i = 1, length
+            text(i) = ' '
+            if (i <= len(words)) text(i) = words(i:i)
+        end do
+    end subroutine put_text
+end module faststrip_interop_f77
