@@ -104,6 +104,7 @@ class Installing(Project):
                 self.assertRegex(
                     result.stderr,
                     r"\n +sudo apt-get install -y gfortran pkg-config libopenblas-dev libgsl-dev"
+                    r" libfftw3-dev"
                     r"( python3-venv)?\n",
                 )
                 self.assertFalse((self.folder / ".venv").exists())
