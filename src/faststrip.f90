@@ -2,8 +2,8 @@
 !>
 !> Needs LAPACK and nothing else: no file is read or written, nothing is printed, nothing stops.
 !> Readers (`faststrip_profile_file`, `faststrip_profile_gap_file`, `faststrip_csv`), GSL's
-!> quadrature (`faststrip_influence_quadrature`) and what needs FFTW (`faststrip_numerics_convolution`
-!> and Kalker's variational methods) are modules of their own.
+!> quadrature (`faststrip_influence_quadrature`) and what needs FFTW
+!> (`faststrip_numerics_convolution`, Kalker's variational methods) are modules of their own.
 module faststrip
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, status_word, message_length, st_ok, first_error, &
