@@ -30,8 +30,9 @@ module faststrip_normal_lattice
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
                                 st_no_contact, st_out_of_range, st_edge_of_data, &
                                 st_linear_algebra, st_workspace_too_small
-    use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_influence_offcentre, only: strip_influence_at
+    use faststrip_influence_row, only: center_influence_column, &
+                                       center_influence_column_gradient, &
+                                       influence_column_gradient
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_strips, only: contact_strips_t, strip_load
@@ -44,14 +45,22 @@ module faststrip_normal_lattice
     !> More strips across the largest patch are not used, however many are asked for.
     integer, parameter :: most_lattice_strips = 101
 
+    integer, parameter :: most_cells = 162       ! all patches together
+    real(wp), parameter :: cells_per_strip = 1.5_wp ! all patches together, of the strips asked
+    integer, parameter :: spare_cells = 10       ! and so many more
+    integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
     integer, parameter :: fewest_cells = 5       ! across a patch, if there is room
     integer, parameter :: max_ranges = 64
-    integer, parameter :: max_layings = 20
-    integer, parameter :: max_length_steps = 60
-    integer, parameter :: max_block_rounds = 8
-    ! Influence numbers off the centre line until the lattice is taken as it is: about a second
-    real(wp), parameter :: max_work = 4.0e6_wp
-    real(wp), parameter :: loose_tolerance = 1.0e-3_wp, tight_tolerance = 1.0e-6_wp ! of ln xd
+    integer, parameter :: max_layings = 10
+    integer, parameter :: max_length_steps = 40  ! of one lattice
+    integer, parameter :: most_plain_steps = 80  ! of all lattices, on as many cells as strips
+                                                 ! are asked for; fewer on more cells
+    integer, parameter :: fewest_steps = 12      ! in any case
+    integer, parameter :: max_block_rounds = 8   ! then strips are added one by one
+    integer, parameter :: max_adding_rounds = 16 ! then they are only dropped
+    integer, parameter :: max_failures = 2       ! of Newton's steps on one lattice
+    integer, parameter :: block = 64             ! points evaluated together
+    real(wp), parameter :: loose_tolerance = 1.0e-2_wp, tight_tolerance = 1.0e-5_wp ! of ln xd
     real(wp), parameter :: largest_length_step = 0.7_wp ! of ln xd
     real(wp), parameter :: shortest_ratio = 0.1_wp   ! of a strip to its longer neighbour
     real(wp), parameter :: end_tolerance = 0.02_wp   ! of a cell
@@ -69,11 +78,16 @@ module faststrip_normal_lattice
         integer :: n_ranges = 0    ! ranges of y, each divided into even cells
         real(wp) :: y_from(max_ranges) = 0.0_wp, y_to(max_ranges) = 0.0_wp ! mm
         integer :: cells(max_ranges) = 0
-        real(wp) :: work = 0.0_wp  ! done so far, in influence numbers off the centre line
-        real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:), p0(:)
-        real(wp), allocatable :: half_length(:), factor(:), last_step(:)
+        integer :: steps = 0       ! of the lengths, all lattices together
+        real(wp) :: work = 0.0_wp  ! spent, and how much may be; see `step_work`
+        real(wp) :: most_work = 0.0_wp
+        real(wp), allocatable :: y_left(:), y_right(:), y(:), height(:), inv2r(:), p0(:)
+        real(wp), allocatable :: half_length(:), factor(:), last_step(:), tip(:)
         real(wp), allocatable :: old_y(:), old_half_length(:)
-        real(wp), allocatable :: influence(:, :), matrix(:, :), column(:, :)
+        real(wp), allocatable :: at_x(:), at_y(:) ! tips of the strips that press
+        ! Displacements on the centre lines and their derivatives in the sources' ln xd
+        real(wp), allocatable :: influence(:, :), influence_slope(:, :)
+        real(wp), allocatable :: matrix(:, :), column(:, :), tips(:, :) ! of a linear system
         integer, allocatable :: pivot(:), at(:)
         logical, allocatable :: presses(:)
     end type lattice_workspace_t
@@ -91,23 +105,26 @@ contains
             call set_status(status, st_bad_argument, 'room for fewer than 3 strips asked')
             return
         end if
-        if (workspace%max_strips >= max_strips) return
+        if (workspace%max_strips >= min(max_strips, most_cells)) return
         if (allocated(workspace%p0)) deallocate ( &
-            workspace%y_left, workspace%y_right, workspace%height, workspace%inv2r, workspace%p0, &
-            workspace%half_length, workspace%factor, workspace%last_step, workspace%old_y, &
-            workspace%old_half_length, workspace%influence, workspace%matrix, workspace%column, &
-            workspace%pivot, workspace%at, workspace%presses)
-        associate (m => max_strips)
-            allocate (workspace%y_left(m), workspace%y_right(m), workspace%height(m), &
-                      workspace%inv2r(m), workspace%p0(m), workspace%half_length(m), &
-                      workspace%factor(m), workspace%last_step(m), workspace%old_y(m), &
-                      workspace%old_half_length(m), source=0.0_wp)
-            allocate (workspace%influence(m, m), workspace%matrix(m, m), workspace%column(m, 2), &
-                      source=0.0_wp)
-            allocate (workspace%pivot(m), workspace%at(m), source=0)
+            workspace%y_left, workspace%y_right, workspace%y, workspace%height, workspace%inv2r, &
+            workspace%p0, workspace%half_length, workspace%factor, workspace%last_step, &
+            workspace%tip, workspace%old_y, workspace%old_half_length, workspace%at_x, &
+            workspace%at_y, workspace%influence, workspace%influence_slope, workspace%matrix, &
+            workspace%column, workspace%tips, workspace%pivot, workspace%at, workspace%presses)
+        associate (m => min(max_strips, most_cells))
+            allocate (workspace%y_left(m), workspace%y_right(m), workspace%y(m), &
+                      workspace%height(m), workspace%inv2r(m), workspace%p0(m), &
+                      workspace%half_length(m), workspace%factor(m), workspace%last_step(m), &
+                      workspace%tip(m), workspace%old_y(m), workspace%old_half_length(m), &
+                      workspace%at_x(m), workspace%at_y(m), source=0.0_wp)
+            allocate (workspace%influence(m, m), workspace%influence_slope(m, m), &
+                      workspace%matrix(2*m + 1, 2*m + 1), workspace%column(2*m + 1, 2), &
+                      workspace%tips(m, 3), source=0.0_wp)
+            allocate (workspace%pivot(2*m + 1), workspace%at(m), source=0)
             allocate (workspace%presses(m), source=.false.)
         end associate
-        workspace%max_strips = max_strips
+        workspace%max_strips = min(max_strips, most_cells)
     end subroutine reserve_lattice
 
     !> Strips that carry a load.
@@ -260,7 +277,7 @@ contains
         type(status_t), intent(out) :: status
 
         real(wp) :: move, overlap, worth, best_worth, best_depth, residual, tolerance
-        integer :: laying, room, wanted
+        integer :: laying, best_laying, room, wanted
         logical :: done
 
         call clear_status(status)
@@ -270,13 +287,17 @@ contains
                             'penetration ' // trim(number_text(depth)) // ' mm')
             return
         end if
-        room = min(workspace%max_strips, size(strips%p0))
         wanted = min(n_strips, most_lattice_strips)
+        room = min(workspace%max_strips, size(strips%p0), &
+                   nint(cells_per_strip*wanted) + spare_cells)
         call first_ranges(workspace, curve, depth)
         workspace%n = 0
+        workspace%steps = 0
         workspace%work = 0.0_wp
+        workspace%most_work = most_plain_steps*step_work(max(wanted, room/2), 2)
         best_worth = huge(1.0_wp)
         best_depth = depth
+        best_laying = 0
         tolerance = loose_tolerance
         do laying = 1, max_layings
             call lay(workspace, curve, wanted, room, depth)
@@ -284,17 +305,19 @@ contains
                                 residual, done)
             if (.not. done) exit
             call next_ranges(workspace, curve, compliance, depth, move, overlap)
-            worth = max(move, 10.0_wp*overlap, residual)
-            if (worth < best_worth) then
+            worth = move + 10.0_wp*overlap + residual
+            if (worth < 0.9_wp*best_worth) then
                 best_worth = worth
                 best_depth = depth
+                best_laying = laying
                 call record(workspace, strips)
             end if
+            if (laying > best_laying + 2) exit
             if (move < end_tolerance .and. overlap < overlap_tolerance) then
                 if (tolerance <= tight_tolerance) exit
                 tolerance = tight_tolerance
             end if
-            if (workspace%work > max_work) exit
+            if (is_exhausted(workspace)) exit
         end do
         depth = best_depth
         if (strips%n == 0) then
@@ -348,6 +371,12 @@ contains
         end do
         associate (from => workspace%y_from, to => workspace%y_to, cells => workspace%cells, &
                    m => workspace%n_ranges)
+            do while (m > max(1, room/range_cells))
+                r = minloc(from(2:m) - to(:m - 1), dim=1)
+                to(r:m - 1) = to(r + 1:m)
+                from(r + 1:m - 1) = from(r + 2:m)
+                m = m - 1
+            end do
             widest = maxval(to(:m) - from(:m))
             fewest = min(fewest_cells, wanted)
             do share = wanted, 1, -1
@@ -357,7 +386,6 @@ contains
                 end do
                 if (sum(cells(:m)) <= room) exit
             end do
-            m = min(m, room)
             i = 0
             do r = 1, m
                 width = (to(r) - from(r))/cells(r)
@@ -369,6 +397,7 @@ contains
                     if (k > 1) workspace%y_right(i - 1) = workspace%y_left(i)
                     y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
                     call gap_at(curve, y, h, a)
+                    workspace%y(i) = y
                     workspace%height(i) = h - curve%h_lowest
                     workspace%inv2r(i) = max(a, flattest)
                     if (n_old > 0) then
@@ -385,7 +414,8 @@ contains
         workspace%presses(:i) = .true.
     end subroutine lay
 
-    !> Alternate between pressures for given lengths and steps of the lengths.
+    !> Alternate between pressures for given lengths and steps of the lengths: those of Newton's
+    !> method, and each strip's own after Newton has failed.
     subroutine settle_lengths(workspace, compliance, target, by_load, tolerance, depth, &
                               residual, done)
         type(lattice_workspace_t), intent(inout) :: workspace
@@ -396,79 +426,249 @@ contains
         real(wp), intent(out) :: residual ! last change of a length, relative
         logical, intent(out) :: done
 
-        real(wp) :: step, y, tip, shortest
-        integer :: i, k, s, n
+        real(wp) :: before
+        integer :: i, k, m, n, rounds, failures
+        logical :: found
 
         n = workspace%n
         workspace%factor(:n) = 1.0_wp
         workspace%last_step(:n) = 0.0_wp
         residual = huge(1.0_wp)
+        failures = 0
         do i = 1, max_length_steps
-            do s = 1, n
-                do k = 1, n
-                    y = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
-                    workspace%influence(k, s) = compliance*workspace%half_length(s) &
-                        *strip_influence_edges((workspace%y_left(s) - y)/workspace%half_length(s), &
-                                               (workspace%y_right(s) - y)/workspace%half_length(s))
-                end do
-            end do
-            call find_pressures(workspace, target, by_load, depth, done)
+            call fill_centre_lines(workspace, compliance)
+            call find_pressures(workspace, target, by_load, depth, rounds, done)
             if (.not. done) return
-            residual = 0.0_wp
+            m = 0
             do k = 1, n
                 if (.not. workspace%presses(k)) cycle
-                y = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
-                tip = depth - workspace%height(k)
-                do s = 1, n
-                    if (.not. workspace%presses(s)) cycle
-                    tip = tip - compliance*workspace%p0(s)*workspace%half_length(s) &
-                          *strip_influence_at(workspace%half_length(k)/workspace%half_length(s), &
-                                              (workspace%y_left(s) - y)/workspace%half_length(s), &
-                                              (workspace%y_right(s) - y)/workspace%half_length(s))
-                end do
-                step = tip/(workspace%inv2r(k)*workspace%half_length(k)**2)
-                step = 0.5_wp*log(max(step, 0.2_wp))
-                residual = max(residual, abs(step))
-                if (step*workspace%last_step(k) < 0.0_wp) then
-                    workspace%factor(k) = max(0.5_wp*workspace%factor(k), 0.05_wp)
-                else
-                    workspace%factor(k) = min(1.2_wp*workspace%factor(k), 2.0_wp)
-                end if
-                workspace%last_step(k) = step
+                m = m + 1
+                workspace%at(m) = k
+                workspace%at_x(m) = workspace%half_length(k)
+                workspace%at_y(m) = workspace%y(k)
             end do
-            workspace%work = workspace%work + real(count(workspace%presses(:n)), wp)**2
+            call fill_newton(workspace, compliance, by_load, depth, m)
+            before = residual
+            call own_steps(workspace, depth, m, residual)
+            workspace%steps = workspace%steps + 1
+            workspace%work = workspace%work + step_work(m, rounds)
             if (residual < tolerance .or. i == max_length_steps) exit
-            if (workspace%work > max_work) exit
-            do k = 1, n
-                if (.not. workspace%presses(k)) cycle
-                step = workspace%factor(k)*workspace%last_step(k)
-                step = max(-largest_length_step, min(largest_length_step, step))
-                workspace%half_length(k) = workspace%half_length(k)*exp(step)
+            if (is_exhausted(workspace)) exit
+            if (residual > 0.9_wp*before) failures = failures + 1
+            if (residual < 0.5_wp*before) failures = 0
+            found = .false.
+            if (failures < max_failures) call newton_steps(workspace, m, found)
+            do k = 1, m
+                associate (half_length => workspace%half_length(workspace%at(k)))
+                    if (found) then
+                        half_length = half_length*exp(workspace%tip(k))
+                    else
+                        half_length = half_length*exp(max(-largest_length_step, &
+                            min(largest_length_step, workspace%factor(workspace%at(k)) &
+                                                     *workspace%last_step(workspace%at(k)))))
+                    end if
+                end associate
             end do
             do k = 1, n
-                shortest = 0.0_wp
-                if (k > 1) shortest = max(shortest, workspace%half_length(k - 1))
-                if (k < n) shortest = max(shortest, workspace%half_length(k + 1))
-                workspace%half_length(k) = max(workspace%half_length(k), shortest_ratio*shortest)
+                workspace%half_length(k) = max(workspace%half_length(k), &
+                                               shortest_length(workspace, k))
             end do
         end do
     end subroutine settle_lengths
 
+    !> What a step of the lengths costs, in operations of linear algebra; an influence number off
+    !> the centre line takes the time of about 400.
+    pure real(wp) function step_work(m, rounds) result(work)
+        integer, intent(in) :: m      ! strips that press
+        integer, intent(in) :: rounds ! systems solved for the pressures
+
+        work = 400.0_wp*real(m, wp)**2 + (16.0_wp + 2.0_wp*rounds)/3.0_wp*real(m, wp)**3
+    end function step_work
+
+    !> Is it time to take the lattice as it is?
+    pure logical function is_exhausted(workspace)
+        type(lattice_workspace_t), intent(in) :: workspace
+
+        is_exhausted = workspace%steps >= fewest_steps .and. workspace%work > workspace%most_work
+    end function is_exhausted
+
+    !> Displacements on all centre lines by a unit of pressure on each strip.
+    subroutine fill_centre_lines(workspace, compliance)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+
+        integer :: n, s
+
+        n = workspace%n
+        do s = 1, n
+            call center_influence_column_gradient( &
+                workspace%half_length(s), workspace%y_left(s), workspace%y_right(s), &
+                workspace%y(:n), workspace%influence(:n, s), workspace%influence_slope(:n, s))
+            workspace%influence(:n, s) = compliance*workspace%influence(:n, s)
+            workspace%influence_slope(:n, s) = compliance*workspace%half_length(s) &
+                                               *workspace%influence_slope(:n, s)
+        end do
+    end subroutine fill_centre_lines
+
+    !> Gaps at the tips of the strips that press, and the system of Newton's method: unknowns are
+    !> the changes of p0 over the largest, of ln xd, and of the penetration over itself.
+    subroutine fill_newton(workspace, compliance, by_load, depth, m)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance, depth
+        logical, intent(in) :: by_load
+        integer, intent(in) :: m ! strips that press, `at(:m)`
+
+        real(wp) :: p_scale, p, force, largest
+        integer :: i, j, k, s
+
+        p_scale = maxval(workspace%p0(:workspace%n))
+        do i = 1, m
+            k = workspace%at(i)
+            workspace%tip(i) = 1.0_wp - workspace%height(k)/depth
+        end do
+        associate (a => workspace%matrix, tips => workspace%tips)
+            a(:2*m + 1, 2*m + 1) = -1.0_wp
+            a(2*m + 1, :) = 0.0_wp
+            do i = 1, m
+                k = workspace%at(i)
+                a(m + 1:2*m, m + i) = 0.0_wp
+            end do
+            do j = 1, m
+                s = workspace%at(j)
+                p = workspace%p0(s)
+                call influence_column_gradient( &
+                    workspace%half_length(s), workspace%y_left(s), workspace%y_right(s), &
+                    workspace%at_x(:m), workspace%at_y(:m), tips(:m, 1), tips(:m, 2), tips(:m, 3))
+                do i = 1, m
+                    k = workspace%at(i)
+                    a(i, j) = workspace%influence(k, s)*(p_scale/depth)
+                    a(i, m + j) = workspace%influence_slope(k, s)*(p/depth)
+                    a(m + i, j) = compliance*(p_scale/depth)*tips(i, 1)
+                    a(m + i, m + j) = a(m + i, m + j) &
+                        + compliance*(p/depth)*workspace%half_length(s)*tips(i, 3)
+                    workspace%tip(i) = workspace%tip(i) - compliance*(p/depth)*tips(i, 1)
+                end do
+                do i = 1, m
+                    k = workspace%at(i)
+                    a(m + i, m + i) = a(m + i, m + i) &
+                        + compliance*(p/depth)*workspace%half_length(k)*tips(i, 2)
+                end do
+            end do
+            do i = 1, m
+                k = workspace%at(i)
+                a(m + i, m + i) = a(m + i, m + i) &
+                    + 2.0_wp*workspace%inv2r(k)*(workspace%half_length(k)**2/depth)
+            end do
+            if (.not. by_load) then
+                a(2*m + 1, 2*m + 1) = 1.0_wp
+                return
+            end if
+            a(2*m + 1, 2*m + 1) = 0.0_wp
+            largest = maxval(workspace%half_length(workspace%at(:m)) &
+                             *(workspace%y_right(workspace%at(:m)) &
+                               - workspace%y_left(workspace%at(:m))))
+            do j = 1, m
+                s = workspace%at(j)
+                force = workspace%half_length(s) &
+                        *((workspace%y_right(s) - workspace%y_left(s))/largest)
+                a(2*m + 1, j) = force
+                a(2*m + 1, m + j) = force*(workspace%p0(s)/p_scale)
+            end do
+        end associate
+    end subroutine fill_newton
+
+    !> The steps in ln xd that would close the gap at each tip if all else stayed, with factors
+    !> that shrink where a step turns around.
+    subroutine own_steps(workspace, depth, m, residual)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: depth
+        integer, intent(in) :: m
+        real(wp), intent(out) :: residual ! largest step
+
+        real(wp) :: step, rise
+        integer :: i, k
+
+        residual = 0.0_wp
+        do i = 1, m
+            k = workspace%at(i)
+            rise = workspace%inv2r(k)*(workspace%half_length(k)**2/depth)
+            step = 0.5_wp*log(max(workspace%tip(i)/rise, 0.2_wp))
+            workspace%tip(i) = workspace%tip(i) - rise
+            if (step < 0.0_wp .and. workspace%half_length(k) &
+                <= 1.001_wp*shortest_length(workspace, k)) then
+                ! It stays as short as may be.
+                workspace%last_step(k) = 0.0_wp
+                workspace%tip(i) = 0.0_wp
+                workspace%matrix(m + i, :2*m + 1) = 0.0_wp
+                workspace%matrix(m + i, m + i) = 1.0_wp
+                cycle
+            end if
+            residual = max(residual, abs(step))
+            if (step*workspace%last_step(k) < 0.0_wp) then
+                workspace%factor(k) = max(0.5_wp*workspace%factor(k), 0.05_wp)
+            else
+                workspace%factor(k) = min(1.2_wp*workspace%factor(k), 2.0_wp)
+            end if
+            workspace%last_step(k) = step
+        end do
+    end subroutine own_steps
+
+    !> Newton's steps in ln xd, in the place of the gaps at the tips.
+    subroutine newton_steps(workspace, m, found)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: m
+        logical, intent(out) :: found
+
+        real(wp) :: largest
+        integer :: info
+
+        found = .false.
+        workspace%column(:m, 1) = 0.0_wp
+        workspace%column(m + 1:2*m, 1) = workspace%tip(:m)
+        workspace%column(2*m + 1, 1) = 0.0_wp
+        call dgetrf(2*m + 1, 2*m + 1, workspace%matrix, size(workspace%matrix, 1), &
+                    workspace%pivot, info)
+        if (info /= 0) return
+        call dgetrs('N', 2*m + 1, 1, workspace%matrix, size(workspace%matrix, 1), &
+                    workspace%pivot, workspace%column, size(workspace%column, 1), info)
+        largest = maxval(abs(workspace%column(m + 1:2*m, 1)))
+        if (.not. largest < huge(1.0_wp)) return
+        workspace%tip(:m) = workspace%column(m + 1:2*m, 1) &
+                            *min(1.0_wp, largest_length_step/max(largest, tiny(1.0_wp)))
+        found = .true.
+    end subroutine newton_steps
+
+    !> Least length of a strip: one far shorter than a neighbour would find no way back.
+    pure real(wp) function shortest_length(workspace, k) result(shortest)
+        type(lattice_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: k
+
+        shortest = 0.0_wp
+        if (k > 1) then
+            if (workspace%presses(k - 1)) shortest = workspace%half_length(k - 1)
+        end if
+        if (k < workspace%n) then
+            if (workspace%presses(k + 1)) shortest = max(shortest, workspace%half_length(k + 1))
+        end if
+        shortest = shortest_ratio*shortest
+    end function shortest_length
+
     !> Pressures for given lengths: closed gap where a strip presses, open gap where not.
-    subroutine find_pressures(workspace, target, by_load, depth, done)
+    subroutine find_pressures(workspace, target, by_load, depth, rounds, done)
         type(lattice_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: target
         logical, intent(in) :: by_load
         real(wp), intent(inout) :: depth
+        integer, intent(out) :: rounds ! systems solved
         logical, intent(out) :: done
 
         real(wp) :: force, load_per_depth, load_of_heights, overlap, deepest
-        integer :: round, n, m, i, j, k, info, add
+        integer :: n, m, i, j, k, info, add
         logical :: changed
 
         n = workspace%n
         done = .false.
-        do round = 1, 5*n + 20
+        do rounds = 1, max_adding_rounds + n + 1
             m = 0
             do k = 1, n
                 if (.not. workspace%presses(k)) cycle
@@ -484,7 +684,6 @@ contains
             end do
             call dgetrf(m, m, workspace%matrix, size(workspace%matrix, 1), workspace%pivot, info)
             if (info /= 0) return
-            workspace%work = workspace%work + 1.0e-3_wp*real(m, wp)**3
             call dgetrs('N', m, 2, workspace%matrix, size(workspace%matrix, 1), workspace%pivot, &
                         workspace%column, size(workspace%column, 1), info)
             load_per_depth = 0.0_wp
@@ -523,7 +722,7 @@ contains
                 if (.not. any(workspace%presses(:n))) return
                 cycle
             end if
-            if (round > 3*n + 10) exit
+            if (rounds > max_adding_rounds) exit
             ! Strips that carry nothing have to press where they overlap: all of them at first,
             ! later only the one that overlaps most.
             add = 0
@@ -534,7 +733,7 @@ contains
                           - dot_product(workspace%influence(k, :n), workspace%p0(:n))
                 if (overlap <= deepest) cycle
                 add = k
-                if (round > max_block_rounds) then
+                if (rounds > max_block_rounds) then
                     deepest = overlap
                 else
                     workspace%presses(k) = .true.
@@ -548,7 +747,7 @@ contains
 
     !> The ranges of the next lattice: the patches found, with their ends carried on, and places
     !> where the surfaces overlap.
-    pure subroutine next_ranges(workspace, curve, compliance, depth, move, overlap)
+    subroutine next_ranges(workspace, curve, compliance, depth, move, overlap)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
@@ -560,6 +759,7 @@ contains
 
         m = 0
         move = 0.0_wp
+        overlap = 0.0_wp
         last = 0
         do
             first = last + 1
@@ -576,8 +776,10 @@ contains
             end do
             if (m == max_ranges) exit
             m = m + 1
-            call carry_on(workspace, curve, first, last, 1, from(m), move)
-            call carry_on(workspace, curve, last, first, -1, to(m), move)
+            call carry_on(workspace, curve, compliance, depth, first, last, 1, from(m), move, &
+                          overlap)
+            call carry_on(workspace, curve, compliance, depth, last, first, -1, to(m), move, &
+                          overlap)
         end do
         call add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
         ! In the order of y, joined where they meet.
@@ -608,15 +810,20 @@ contains
     end subroutine next_ranges
 
     !> Where the squared length, carried on from the strips at an end of a patch, vanishes.
-    pure subroutine carry_on(workspace, curve, outer, inner, inward, y_end, move)
+    !>
+    !> Half a cell beyond the last strip the gap tells more than the curve through the lengths:
+    !> where it is open the end lies before, where the surfaces overlap it lies beyond.
+    subroutine carry_on(workspace, curve, compliance, depth, outer, inner, inward, y_end, move, &
+                        overlap)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth
         integer, intent(in) :: outer, inner ! the strips at this end and at the other
         integer, intent(in) :: inward       ! 1 at a left end, -1 at a right one
         real(wp), intent(out) :: y_end
-        real(wp), intent(inout) :: move
+        real(wp), intent(inout) :: move, overlap
 
-        real(wp) :: width, q2, q3, bend, slope, discriminant, s
+        real(wp) :: width, middle, q2, q3, bend, slope, discriminant, s, reach, y(1), beyond(1)
         integer :: n
 
         n = abs(inner - outer) + 1
@@ -641,7 +848,25 @@ contains
             end if
             s = max(0.0_wp, min(2.0_wp, s))
         end if
-        y_end = 0.5_wp*(workspace%y_left(outer) + workspace%y_right(outer)) - inward*s*width
+        middle = workspace%y(outer)
+        y = max(curve%y(1), min(curve%y(curve%n), middle - inward*width))
+        call find_overlaps(workspace, curve, compliance, depth, y, beyond)
+        if (abs(y(1) - middle) > 0.75_wp*width) then
+            overlap = max(overlap, beyond(1)/depth)
+            if (beyond(1) <= 0.0_wp) then
+                s = min(s, 1.0_wp)
+            else
+                reach = 1.0_wp
+                do while (beyond(1) > overlap_tolerance*depth .and. reach < 100.0_wp)
+                    s = max(s, reach)
+                    reach = 1.5_wp*reach
+                    y = max(curve%y(1), min(curve%y(curve%n), middle - inward*reach*width))
+                    call find_overlaps(workspace, curve, compliance, depth, y, beyond)
+                    overlap = max(overlap, beyond(1)/depth)
+                end do
+            end if
+        end if
+        y_end = middle - inward*s*width
         y_end = max(curve%y(1), min(curve%y(curve%n), y_end))
         if (inward > 0) then
             move = max(move, abs(y_end - workspace%y_left(outer))/width)
@@ -652,18 +877,17 @@ contains
     end subroutine carry_on
 
     !> Add a range around the deepest overlap of each stretch outside the strips that press.
-    pure subroutine add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
+    subroutine add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
         real(wp), intent(inout) :: from(:), to(:)
         integer, intent(inout) :: m
-        real(wp), intent(out) :: overlap
+        real(wp), intent(inout) :: overlap
 
         integer :: r, n_solved
         real(wp) :: low, high, solved_from(size(from)), solved_to(size(to))
 
-        overlap = 0.0_wp
         n_solved = m
         solved_from(:m) = from(:m)
         solved_to(:m) = to(:m)
@@ -678,7 +902,7 @@ contains
         end do
     end subroutine add_overlaps
 
-    pure subroutine add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, &
+    subroutine add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, &
                                 overlap)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
@@ -688,12 +912,12 @@ contains
         real(wp), intent(inout) :: overlap
 
         integer, parameter :: n_places = 32
-        real(wp) :: y, deepest, y_deepest, here
-        integer :: j, first, last, middle
+        real(wp) :: place(block), here(block), deepest, y_deepest
+        integer :: j, n, first, last, middle
 
         deepest = overlap_tolerance*depth
         y_deepest = low
-        ! Nodes of the curve in the stretch, its minima among them
+        ! Valleys of the curve in the stretch, and even places
         first = 1
         last = curve%n_pieces + 1
         do while (last - first > 1)
@@ -704,22 +928,21 @@ contains
                 last = middle
             end if
         end do
-        do j = first, curve%n_pieces + 1
+        n = 0
+        do j = first + 1, curve%n_pieces
             if (curve%y_node(j) >= high) exit
-            if (curve%y_node(j) <= low) cycle
             if (curve%h_node(j) - curve%h_lowest >= depth - deepest) cycle
-            here = overlap_at(workspace, curve, compliance, depth, curve%y_node(j))
-            if (here <= deepest) cycle
-            deepest = here
-            y_deepest = curve%y_node(j)
+            if (curve%h_node(j) > min(curve%h_node(j - 1), curve%h_node(j + 1))) cycle
+            n = n + 1
+            place(n) = curve%y_node(j)
+            if (n == block) call look(place, n)
         end do
         do j = 1, n_places
-            y = low + (high - low)*(j - 0.5_wp)/n_places
-            here = overlap_at(workspace, curve, compliance, depth, y)
-            if (here <= deepest) cycle
-            deepest = here
-            y_deepest = y
+            n = n + 1
+            place(n) = low + (high - low)*(j - 0.5_wp)/n_places
+            if (n == block) call look(place, n)
         end do
+        call look(place, n)
         if (y_deepest <= low) return
         overlap = max(overlap, deepest/depth)
         m = m + 1
@@ -728,40 +951,63 @@ contains
 
     contains
 
+        !> Take the places that were gathered.
+        subroutine look(places, number)
+            real(wp), intent(in) :: places(:)
+            integer, intent(inout) :: number
+
+            integer :: deep
+
+            if (number == 0) return
+            call find_overlaps(workspace, curve, compliance, depth, places(:number), &
+                               here(:number))
+            deep = maxloc(here(:number), dim=1)
+            if (here(deep) > deepest) then
+                deepest = here(deep)
+                y_deepest = places(deep)
+            end if
+            number = 0
+        end subroutine look
+
         !> Where the overlap ends, found within a factor of two.
-        pure real(wp) function edge_of_overlap(direction) result(y_edge)
+        real(wp) function edge_of_overlap(direction) result(y_edge)
             real(wp), intent(in) :: direction
 
             real(wp) :: reach
             integer :: i
 
             reach = max(high - y_deepest, y_deepest - low)
-            do i = 1, 40
-                y_edge = min(max(y_deepest + direction*reach, low), high)
-                if (overlap_at(workspace, curve, compliance, depth, y_edge) > 0.0_wp) exit
+            do i = 1, 20
+                place(1) = min(max(y_deepest + direction*reach, low), high)
+                call find_overlaps(workspace, curve, compliance, depth, place(:1), here(:1))
+                if (here(1) > 0.0_wp) exit
                 reach = 0.5_wp*reach
             end do
+            y_edge = place(1)
         end function edge_of_overlap
     end subroutine add_overlap
 
     !> By how much the deformed surfaces overlap, mm; less than zero: the gap.
-    pure real(wp) function overlap_at(workspace, curve, compliance, depth, y) result(overlap)
+    pure subroutine find_overlaps(workspace, curve, compliance, depth, y, overlap)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, depth, y
+        real(wp), intent(in) :: compliance, depth, y(:)
+        real(wp), intent(out) :: overlap(:)
 
-        real(wp) :: h, inv2r
-        integer :: s
+        real(wp) :: h, inv2r, influence(block)
+        integer :: i, s
 
-        call gap_at(curve, y, h, inv2r)
-        overlap = depth - (h - curve%h_lowest)
-        do s = 1, workspace%n
-            if (.not. workspace%presses(s) .or. overlap <= 0.0_wp) cycle
-            overlap = overlap - compliance*workspace%p0(s)*workspace%half_length(s) &
-                      *strip_influence_edges((workspace%y_left(s) - y)/workspace%half_length(s), &
-                                             (workspace%y_right(s) - y)/workspace%half_length(s))
+        do i = 1, size(y)
+            call gap_at(curve, y(i), h, inv2r)
+            overlap(i) = depth - (h - curve%h_lowest)
         end do
-    end function overlap_at
+        do s = 1, workspace%n
+            if (.not. workspace%presses(s)) cycle
+            call center_influence_column(workspace%half_length(s), workspace%y_left(s), &
+                                         workspace%y_right(s), y, influence(:size(y)))
+            overlap = overlap - compliance*workspace%p0(s)*influence(:size(y))
+        end do
+    end subroutine find_overlaps
 
     !> Hand over the strips that press.
     pure subroutine record(workspace, strips)
