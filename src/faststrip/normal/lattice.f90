@@ -48,6 +48,7 @@ module faststrip_normal_lattice
     integer, parameter :: most_cells = 162       ! all patches together
     real(wp), parameter :: cells_per_strip = 1.5_wp ! all patches together, of the strips asked
     integer, parameter :: spare_cells = 10       ! and so many more
+    real(wp), parameter :: enough_cells = 0.7_wp ! that press, of the strips asked for
     integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
     integer, parameter :: fewest_cells = 5       ! across a patch, if there is room
     integer, parameter :: max_ranges = 64
@@ -305,14 +306,16 @@ contains
                                 residual, done)
             if (.not. done) exit
             call next_ranges(workspace, curve, compliance, depth, move, overlap)
-            worth = move + 10.0_wp*overlap + residual
+            worth = move + 10.0_wp*overlap + residual &
+                    + max(0.0_wp, 1.0_wp - count(workspace%presses(:workspace%n)) &
+                                           /(enough_cells*wanted))
             if (worth < 0.9_wp*best_worth) then
                 best_worth = worth
                 best_depth = depth
                 best_laying = laying
                 call record(workspace, strips)
             end if
-            if (laying > best_laying + 2) exit
+            if (laying > best_laying + 3) exit
             if (move < end_tolerance .and. overlap < overlap_tolerance) then
                 if (tolerance <= tight_tolerance) exit
                 tolerance = tight_tolerance
