@@ -8,29 +8,12 @@ import matplotlib
 import numpy as np
 
 from faststrip_plots import command, scales, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.curves import ABSCISSA, GROUPS, RANGE, colour_of, read_curves
 
 CURVES = "out/curves.csv"
-COLUMNS = ("n", "L", "b", "exact", "published", "rel_err")
-RANGE = (-2.0, 1.0)  # of L, where the published polynomials hold
-GROUPS = ((0, 0), (1, 4), (5, 20))  # of strip distances n, as the paper's figures have them
-NEAR = {0: "#4a86c8", 1: "#4a86c8", 2: "#a8326e", 3: "#f08519", 4: "#4b8f3c"}
 ERROR_AXIS = (1e-5, 1e3)  # relative errors shown outside the range
-ABSCISSA = r"$L = \log_{10} b$"
 SHADE = "#e8eef6"
 PUBLISHED = dict(color="black", linewidth=1.0, linestyle=(0, (4, 2.4)), zorder=4)
-
-
-class Curve:
-    """One strip distance: columns by ascending L."""
-
-    def __init__(self, n, values):
-        order = np.argsort(values["L"], kind="stable")
-        self.n = n
-        for name in COLUMNS[1:]:
-            setattr(self, name, values[name][order])
-        self.inside = (self.L >= RANGE[0] - 1e-9) & (self.L <= RANGE[1] + 1e-9)
 
 
 def main(arguments=None):
@@ -52,33 +35,6 @@ def main(arguments=None):
         path = os.path.join(options.folder, name)
         style.save(figure, path, [stamp], note)
         print(path)
-
-
-def read_curves(path):
-    """The curves by ascending strip distance, and the revision."""
-    table = read_table(path, COLUMNS)
-    values = {name: table.numbers(name) for name in COLUMNS[:4]}
-    values.update({name: table.numbers(name, missing=True) for name in COLUMNS[4:]})
-    for name, least in (("n", 0.0), ("b", np.nextafter(0.0, 1.0)),
-                        ("exact", np.nextafter(0.0, 1.0))):
-        for row in np.flatnonzero(values[name] < least):
-            raise InputError(
-                f"{name} out of range: {values[name][row]:g} ({path}:{table.lines[row]})"
-            )
-    for row in np.flatnonzero((values["n"] != np.round(values["n"])) | (values["n"] > 20)):
-        raise InputError(
-            f"n is not one of 0 to 20: {values['n'][row]:g} ({path}:{table.lines[row]})"
-        )
-    curves = [
-        Curve(int(n), {name: column[rows] for name, column in values.items()})
-        for n, rows in scales.groups(values["n"])
-    ]
-    for curve in curves:
-        if not curve.inside.any():
-            raise InputError(
-                f"no L from {RANGE[0]:g} to {RANGE[1]:g} for n = {curve.n}: {path}"
-            )
-    return sorted(curves, key=lambda curve: curve.n), revision(table)
 
 
 def value_figure(parts):
@@ -190,13 +146,6 @@ def abscissae(curves):
     """From the least to the largest L of some curves, the range of the table at least."""
     return (min(RANGE[0], *(curve.L[0] for curve in curves)),
             max(RANGE[1], *(curve.L[-1] for curve in curves)))
-
-
-def colour_of(n):
-    """Own colours for near strips, a colour map from the fifth on."""
-    if n in NEAR:
-        return NEAR[n]
-    return matplotlib.colors.to_hex(matplotlib.colormaps[style.MAP](0.18 + 0.82 * (n - 5) / 15.0))
 
 
 def group_title(first, last):

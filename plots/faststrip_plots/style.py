@@ -37,6 +37,8 @@ METHOD = {
     ("strip", "faststrip"): Look("strips + FASTSTRIP", "#0b3c78", "-", 2.0),
     ("hertz", "fastsim"): Look("Hertz + FASTSIM", "#f08519", (0, (5, 1.8)), 1.8),
     ("strip", "fastsim"): Look("strips + FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
+    ("strip", "paper"): Look("strips + FASTSTRIP as printed", "#4b8f3c", (0, (1.2, 1.2)), 1.8),
+    ("strip", "corrected"): Look("strips + FASTSTRIP corrected", "#7d6ad0", (0, (3, 1, 1, 1)), 1.6),
 }
 _OTHERS = (("#4b8f3c", (0, (1.2, 1.2))), ("#5f4ba8", (0, (3, 1, 1, 1, 1, 1))), ("#8a8a8a", "-"))
 CONTACT = dict(
@@ -131,10 +133,11 @@ def legend_above(figure, *axes) -> None:
     )
 
 
-def save(figure, path: str, stamps, note: str = "") -> None:
+def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
     """Stamp the revisions the figure was made from into its corner and write it as PNG.
 
-    A `note` goes into the other corner.
+    A `note` goes into the other corner. With `vector` the same is also written as SVG, under the
+    same name with that ending.
     """
     known = list(dict.fromkeys(stamp for stamp in stamps if stamp))
     text = "; ".join(known) if known else "faststrip, revision not given"
@@ -143,6 +146,11 @@ def save(figure, path: str, stamps, note: str = "") -> None:
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         figure.savefig(path, dpi=DPI, format="png")
+        if vector:
+            # neither date nor random names: the same data give the same file
+            with matplotlib.rc_context({"svg.hashsalt": "faststrip"}):
+                figure.savefig(os.path.splitext(path)[0] + ".svg", format="svg",
+                               metadata={"Date": None})
     except OSError as error:
         raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
     finally:
