@@ -60,8 +60,10 @@ contains
         call put_origin(writer)
         call put_comment(writer, 'errors: relative, of forces in mu N, of the moment in mu N c; ' &
                          // 'times: medians of the stage')
-        call put_header(writer, [character(len=15) :: 'set', 'case', 'stage', 'method', 'normal', &
-                                 'tangential', 'status', 'us', 'err_' // figure_names])
+        call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
+                                  'normal', 'tangential', 'status', 'us'], &
+                                 [character(len=15) :: 'err_' // figure_names], &
+                                 [character(len=15) :: 'misfit', 'saturation', 'spin_share']])
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
             if (quick .and. entries(i)%when /= 'always') cycle
@@ -122,6 +124,9 @@ contains
                         call put_cell(writer, '')
                     end if
                 end do
+                call put_cell(writer, case%indicators%misfit)
+                call put_cell(writer, case%indicators%saturation)
+                call put_cell(writer, case%indicators%spin_share)
                 call end_row(writer)
             end associate
         end do

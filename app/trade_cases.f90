@@ -8,7 +8,9 @@ module faststrip_app_trade_cases
     use faststrip_creepage, only: creepage_t
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
     use faststrip_profile_gap, only: gap_t
+    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_profile_gap_file, only: read_gap_file
+    use faststrip_contact_indicators, only: indicators_t, find_indicators
     implicit none
     private
 
@@ -28,7 +30,8 @@ module faststrip_app_trade_cases
         real(wp) :: mu = 0.0_wp               !! coefficient of friction
         real(wp) :: load = 0.0_wp             !! normal force, N
         type(creepage_t) :: creepage          !! about y = 0
-        real(wp) :: truth(n_figures) = 0.0_wp !! in the order of `figure_names`: mm, MPa, mm2, N, N mm
+        real(wp) :: truth(n_figures) = 0.0_wp !! as `figure_names`: mm, MPa, mm2, N, N, N mm
+        type(indicators_t) :: indicators      !! what is told before solving
     end type trade_case_t
 
     integer, parameter :: hertz_points = 401
@@ -62,6 +65,8 @@ contains
             cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))
             cases(i)%truth = values(i, 5:10)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
+            if (is_error(status)) return
+            call tell(cases(i), status)
             if (is_error(status)) return
         end do
     end subroutine read_wheelset_cases
@@ -107,6 +112,8 @@ contains
                     case%gap%inv2r(k) = inv2r_x
                 end do
             end associate
+            call tell(cases(i), status)
+            if (is_error(status)) return
         end do
     end subroutine read_hertz_cases
 
@@ -128,6 +135,21 @@ contains
         inv2r_y = merge(across, along, a >= b)
         penetration = 1.5_wp*load_compliance*k/long
     end subroutine ellipse_gap
+
+    !> Fill the indicators in.
+    subroutine tell(case, status)
+        type(trade_case_t), intent(inout) :: case
+        type(status_t), intent(out) :: status
+
+        type(gap_curve_t) :: curve
+
+        call reserve_gap_curve(curve, size(case%gap%y), status)
+        if (is_error(status)) return
+        call set_gap_curve(curve, case%gap, status)
+        if (is_error(status)) return
+        call find_indicators(curve, case%material, case%mu, .true., case%load, 0.0_wp, &
+                             case%creepage, case%indicators, status)
+    end subroutine tell
 
     subroutine read_columns(file, names, table, values, status)
         character(len=*), intent(in) :: file, names(:)

@@ -1,0 +1,138 @@
+!> What can be told of a contact before it is solved: how far from an ellipse, how far from linear.
+!>
+!> A few evaluations of the gap and one Hertz contact: microseconds, against which the choice of a
+!> method (`faststrip_contact_choice`) has to pay.
+module faststrip_contact_indicators
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: status_t, is_error, clear_status
+    use faststrip_material, only: material_t, normal_compliance, combined_shear_modulus, &
+                                  combined_poisson_ratio
+    use faststrip_creepage, only: creepage_t
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration
+    use faststrip_normal_strip_patches, only: patches_t
+    use faststrip_normal_strip_start, only: goal_t, start_patches
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    implicit none
+    private
+
+    public :: indicators_t, find_indicators, no_ellipse, no_friction
+
+    !> Numbers that errors are predicted from.
+    type :: indicators_t
+        real(wp) :: misfit = 0.0_wp
+            !! largest distance of the gap from the Hertz parabola on and just beyond the Hertz
+            !! ellipse, over the penetration; `no_ellipse` if there is no ellipse
+        real(wp) :: saturation = 0.0_wp !! linear force over mu N; `no_friction` without friction
+        real(wp) :: spin_share = 0.0_wp !! squared share of the linear force that comes from spin
+        real(wp) :: aspect = 1.0_wp     !! a/b of the patch as it is estimated
+    end type indicators_t
+
+    real(wp), parameter :: no_ellipse = 1.0e3_wp  !! misfit without an ellipse, and the most told
+    real(wp), parameter :: no_friction = 1.0e3_wp !! saturation without friction, and the most told
+
+    ! Where the gap is looked at, in half-widths of the ellipse.
+    real(wp), parameter :: places(5) = [0.3_wp, 0.6_wp, 0.85_wp, 1.0_wp, 1.15_wp]
+    ! Beyond this misfit the size of the patch is taken from the width of the gap.
+    real(wp), parameter :: large_misfit = 0.2_wp
+
+contains
+
+    !> Indicators of a contact under a load or a penetration.
+    pure subroutine find_indicators(curve, material, mu, by_load, load, penetration, creepage, &
+                                    indicators, status)
+        type(gap_curve_t), intent(in) :: curve   !! a gap that was set
+        type(material_t), intent(in) :: material !! moduli in MPa, checked
+        real(wp), intent(in) :: mu               !! coefficient of friction, >= 0
+        logical, intent(in) :: by_load           !! is the load given, or the penetration?
+        real(wp), intent(in) :: load             !! N, > 0 if it is given
+        real(wp), intent(in) :: penetration      !! approach from h = 0, mm
+        type(creepage_t), intent(in) :: creepage !! about y = 0
+        type(indicators_t), intent(out) :: indicators !! of this contact
+        type(status_t), intent(out) :: status
+            !! `st_no_contact`, `st_out_of_range`, `st_not_finite`: there is no contact to tell of
+
+        type(hertz_t) :: hertz
+        type(patches_t) :: patches
+        type(status_t) :: ellipse
+        type(goal_t) :: goal
+
+        call clear_status(status)
+        if (by_load) then
+            call hertz_solve_gap(curve, normal_compliance(material), load, hertz, ellipse)
+        else
+            call hertz_solve_gap_penetration(curve, normal_compliance(material), penetration, &
+                                             hertz, ellipse)
+        end if
+        indicators%misfit = no_ellipse
+        if (.not. is_error(ellipse)) indicators%misfit = misfit_of(curve, hertz)
+        if (indicators%misfit > large_misfit) then
+            goal = goal_t(by_load, load, penetration - curve%h_lowest)
+            if (.not. by_load .and. goal%penetration <= 0.0_wp) then
+                status = ellipse
+                return
+            end if
+            call start_patches(curve, normal_compliance(material), goal, patches, &
+                               hertz%penetration)
+            hertz%a = patches%at(1)%seed_length
+            hertz%b = 0.5_wp*sum(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)
+            hertz%y = 0.5_wp*(patches%at(1)%y_from + patches%at(patches%n)%y_to)
+            hertz%load = load
+            if (.not. by_load) hertz%load = 2.0_wp/3.0_wp*patches%at(1)%seed_pressure &
+                                            *acos(-1.0_wp)*hertz%a*hertz%b
+        end if
+        call set_saturation(hertz, material, mu, creepage, indicators, status)
+    end subroutine find_indicators
+
+    !> Largest distance from the parabola, over the penetration.
+    pure real(wp) function misfit_of(curve, hertz) result(misfit)
+        type(gap_curve_t), intent(in) :: curve
+        type(hertz_t), intent(in) :: hertz
+
+        real(wp) :: h, inv2r, h0, inv2r0, b, y
+        integer :: i, side
+
+        call gap_at(curve, hertz%y, h0, inv2r0)
+        b = gap_curvature(curve, hertz%y)
+        misfit = 0.0_wp
+        do i = 1, size(places)
+            do side = -1, 1, 2
+                y = side*places(i)*hertz%b
+                call gap_at(curve, hertz%y + y, h, inv2r)
+                misfit = max(misfit, abs(h - h0 - b*y*y) + abs(inv2r - inv2r0)*hertz%a**2 &
+                             *max(1.0_wp - places(i)**2, 0.0_wp))
+            end do
+        end do
+        misfit = min(misfit/hertz%penetration, no_ellipse)
+    end function misfit_of
+
+    !> Kalker's linear forces of the estimated ellipse over mu N.
+    pure subroutine set_saturation(size, material, mu, creepage, indicators, status)
+        type(hertz_t), intent(in) :: size
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(indicators_t), intent(inout) :: indicators
+        type(status_t), intent(out) :: status
+
+        type(kalker_coefficients_t) :: c
+        real(wp) :: scale, ab, along, across, turning
+
+        indicators%aspect = size%a/size%b
+        call kalker_coefficients(indicators%aspect, combined_poisson_ratio(material), c, status)
+        if (is_error(status)) return
+        indicators%saturation = no_friction
+        ab = size%a*size%b
+        scale = combined_shear_modulus(material)*ab
+        along = c%c11*abs(creepage%cksi - size%y*creepage%cphi)
+        across = c%c22*abs(creepage%ceta)
+        turning = c%c23*sqrt(ab)*abs(creepage%cphi)
+        if (max(along, across, turning) <= 0.0_wp) then
+            indicators%saturation = 0.0_wp
+            return
+        end if
+        indicators%spin_share = turning**2/(along**2 + across**2 + turning**2)
+        if (mu*size%load > scale*sqrt(along**2 + across**2 + turning**2)/no_friction) &
+            indicators%saturation = scale*sqrt(along**2 + across**2 + turning**2)/(mu*size%load)
+    end subroutine set_saturation
+end module faststrip_contact_indicators
