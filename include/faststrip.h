@@ -1,0 +1,174 @@
+/* faststrip: wheel/rail contact by the modified strip method, for C and C++.
+ *
+ * Units mm, N, MPa, rad. x is the rolling direction, y points to the right, z into the rail.
+ * Creepages are the velocity of the rail surface relative to the wheel surface over the rolling
+ * speed; forces act on the rail, Fx = -C11 G a b cksi, Fy = -C22 G a b ceta - C23 G (ab)^1.5 cphi.
+ *
+ * Every function returns a status: 0, all is well; below FASTSTRIP_FIRST_ERROR a result with a
+ * named limitation; from there on no result, and the figures are zero. faststrip_message gives the
+ * word of a status, faststrip_last_message says what was wrong with which value.
+ *
+ * A workspace serves one thread at a time; different workspaces are independent, and the library
+ * remembers nothing outside of them. faststrip_new and faststrip_copy allocate, faststrip_free
+ * frees, nothing else touches memory. No function stops, prints, reads or writes a file, changes
+ * the locale, or leaves floating-point flags, traps or rounding other than it found them. Handing
+ * over a pointer that is neither null nor what it should be cannot always be noticed. */
+#ifndef FASTSTRIP_H
+#define FASTSTRIP_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FASTSTRIP_VERSION "0.1.0"
+
+/* Room for any text of this library, characters. */
+#define FASTSTRIP_TEXT 257
+
+enum faststrip_status {
+    FASTSTRIP_OK = 0,
+    FASTSTRIP_FALLBACK_USED = 1, /* ends of patches did not settle: a fixed lattice gave the answer */
+    FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */
+    FASTSTRIP_FEWER_STRIPS = 3,  /* more strips did not settle */
+    FASTSTRIP_OVERLAP_LEFT = 4,  /* a rough gap's valleys overlap beside the patches */
+    FASTSTRIP_FIRST_ERROR = 100,
+    FASTSTRIP_BAD_ARGUMENT = 100,
+    FASTSTRIP_NOT_FINITE = 101,
+    FASTSTRIP_NOT_INCREASING = 102,
+    FASTSTRIP_TOO_FEW_POINTS = 103,
+    FASTSTRIP_BAD_MATERIAL = 104,
+    FASTSTRIP_BAD_LOAD = 105,
+    FASTSTRIP_NO_CONTACT = 106,
+    FASTSTRIP_NO_HERTZ_ELLIPSE = 107,
+    FASTSTRIP_NO_CONVERGENCE = 108,
+    FASTSTRIP_OUT_OF_RANGE = 109,
+    FASTSTRIP_WORKSPACE_TOO_SMALL = 110,
+    FASTSTRIP_LINEAR_ALGEBRA = 111
+};
+
+enum faststrip_normal {
+    FASTSTRIP_NORMAL_STRIP = 1,        /* strips: any patch, any number of patches */
+    FASTSTRIP_NORMAL_HERTZ = 2,        /* the Hertz ellipse where the gap is lowest */
+    FASTSTRIP_NORMAL_EQUAL_AREA = 3,   /* the strips' patches as ellipses, proportions of Hertz */
+    FASTSTRIP_NORMAL_EQUAL_MOMENTS = 4 /* the same, proportions of the second moments */
+};
+
+enum faststrip_tangential {
+    FASTSTRIP_TANGENTIAL_NONE = 0,      /* no creep forces */
+    FASTSTRIP_TANGENTIAL_FASTSTRIP = 1, /* marching in the strips */
+    FASTSTRIP_TANGENTIAL_FASTSIM = 2    /* Kalker's FASTSIM on the patches' ellipses */
+};
+
+/* One contact. Fill it in with faststrip_default_case first. */
+typedef struct faststrip_case {
+    size_t size;          /* of this struct; set by faststrip_default_case */
+    int normal;           /* enum faststrip_normal */
+    int tangential;       /* enum faststrip_tangential */
+    int strips_per_patch; /* 3 to 1000 across the largest patch, or 0: left to the solver */
+    int points_per_strip; /* 1 to 1000, FASTSTRIP */
+    int fastsim_nx;       /* points along a row, FASTSIM */
+    int fastsim_ny;       /* rows, FASTSIM */
+    int by_load;          /* 1: the load is given; 0: the penetration */
+    int warm_start;       /* 1: start from the workspace's last solution, if it has one */
+    int with_elements;    /* 1: keep tractions and slip of every element */
+    double e_wheel;       /* Young's modulus, MPa */
+    double e_rail;        /* Young's modulus, MPa */
+    double nu_wheel;      /* Poisson's ratio */
+    double nu_rail;       /* Poisson's ratio */
+    double mu;            /* coefficient of friction */
+    double load;          /* N */
+    double penetration;   /* from h = 0, mm */
+    double cksi;          /* longitudinal creepage about y = 0 */
+    double ceta;          /* lateral creepage */
+    double cphi;          /* spin, rad/mm */
+} faststrip_case;
+
+/* Figures of one contact. */
+typedef struct faststrip_result {
+    size_t size;           /* of this struct, set by faststrip_solve */
+    double load;           /* N */
+    double penetration;    /* mm */
+    double area;           /* mm^2 */
+    double pmax;           /* largest pressure, MPa */
+    double y_min;          /* left end of the contact, mm */
+    double y_max;          /* right end of the contact, mm */
+    double x_max;          /* largest half-length along x, mm */
+    double fx;             /* longitudinal force on the rail, N */
+    double fy;             /* lateral force on the rail, N */
+    double mz;             /* moment on the rail about the reference point, N mm */
+    double friction_power; /* heat over rolling speed, N */
+    double stick_fraction; /* share of the area in adhesion */
+    int n_patches;
+    int n_strips;
+    int n_elements;
+    int iterations;        /* of the normal solution */
+} faststrip_result;
+
+typedef struct faststrip_workspace faststrip_workspace;
+
+/* The library's version, three numbers with points between. */
+int faststrip_version(char *text, size_t length);
+
+/* The word of a status, for example "no_contact". What does not fit is cut, with status 110. */
+int faststrip_message(int status, char *text, size_t length);
+
+/* What the workspace's last call had to say; empty when all was well. */
+int faststrip_last_message(const faststrip_workspace *workspace, char *text, size_t length);
+
+/* Steel on steel, mu = 0.3, strips and FASTSTRIP, no load: to be filled in further.
+ * length is sizeof(faststrip_case), by which header and library know that they fit. */
+int faststrip_default_case(faststrip_case *contact, size_t length);
+
+/* Make a workspace with room for the methods of a case, gaps of up to max_points points and, if
+ * with_elements, the elements. *workspace is null when there is an error. */
+int faststrip_new(const faststrip_case *contact, int max_points, faststrip_workspace **workspace);
+
+/* Free a workspace; *workspace becomes null. One that is null already is left alone. */
+int faststrip_free(faststrip_workspace **workspace);
+
+/* Copy gap, solution and room of one workspace into another, for a step that may be taken back. */
+int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
+
+/* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
+ * n >= 5 points, y strictly increasing, mm, mm, 1/mm. The numbers are copied. */
+int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
+                      const double *inv2r);
+
+/* Solve one contact on the gap of the workspace. */
+int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,
+                    faststrip_result *result);
+
+/* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in MPa,
+ * number of the patch. room is the length of the arrays; *n becomes the number of strips even if
+ * that is more. */
+int faststrip_get_strips(faststrip_workspace *workspace, int room, int *n, double *y_left,
+                         double *y_right, double *half_length, double *p0, int *patch);
+
+/* The elements of the last contact, if with_elements asked for them: middle (mm), area (mm^2),
+ * pressure and traction on the rail (MPa), slip over rolling speed, state (1 adhesion, 2 slip). */
+int faststrip_get_elements(faststrip_workspace *workspace, int room, int *n, double *x, double *y,
+                           double *area, double *pn, double *px, double *py, double *sx,
+                           double *sy, int *state);
+
+/* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear modulus,
+ * MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces becomes Fx, Fy
+ * (N), Mz (N mm). */
+int faststrip_fastsim(double a, double b, double g, double c11, double c22, double c23, double cksi,
+                      double ceta, double cphi, double mu, double load, int nx, int ny,
+                      double forces[3]);
+
+/* Hertz's contact of the gap inv2r_x x^2 + inv2r_y y^2. figures becomes a, b, penetration (mm), pmax
+ * (MPa). */
+int faststrip_hertz(double e_wheel, double e_rail, double nu_wheel, double nu_rail, double inv2r_x,
+                    double inv2r_y, double load, double figures[4]);
+
+/* Kalker's coefficients C11, C22, C23, C33 for any a/b; nu is the combined Poisson's ratio. */
+int faststrip_kalker(double a_over_b, double nu, double coefficients[4]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,42 @@
+"""Wheel/rail contact by the modified strip method.
+
+Units are mm, N, MPa, rad; x is the rolling direction, y points to the right, z into the rail.
+Creepages are the velocity of the rail surface relative to the wheel surface over the rolling speed;
+forces act on the rail.
+
+>>> import numpy, faststrip
+>>> y = numpy.linspace(-15.0, 15.0, 601)
+>>> contact = faststrip.Contact()
+>>> contact.set_gap(y, 0.002 * y**2, 1.0 / 920.0)
+>>> result = contact.solve(load=1e5, creepage=(1e-3, 0.0, 0.0), mu=0.3)
+>>> round(result.penetration, 3), round(result.fx / 1e3, 1)
+(0.108, -12.2)
+"""
+
+from ._contact import (
+    Contact,
+    Elements,
+    Material,
+    Result,
+    Strips,
+    fastsim,
+    hertz,
+    kalker,
+    library_version,
+)
+from ._library import FaststripError, LibraryNotFound
+
+__all__ = [
+    "Contact",
+    "Elements",
+    "FaststripError",
+    "LibraryNotFound",
+    "Material",
+    "Result",
+    "Strips",
+    "fastsim",
+    "hertz",
+    "kalker",
+    "library_version",
+]
+__version__ = "0.1.0"

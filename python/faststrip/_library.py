@@ -1,0 +1,143 @@
+"""The shared library: where it is, what it exports, how its statuses become exceptions."""
+
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+import pathlib
+import subprocess
+import sys
+from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
+from typing import Iterator, Optional
+
+FILE = "libfaststrip.so.0"
+TEXT = 257
+FIRST_ERROR = 100
+
+
+class LibraryNotFound(ImportError):
+    """There is no libfaststrip where it was looked for."""
+
+
+class FaststripError(Exception):
+    """A call without a result.
+
+    ``status`` is its number, ``word`` the word for it (``no_contact``, ``not_finite``, ...), the
+    text says which value was wrong.
+    """
+
+    def __init__(self, status: int, word: str, message: str = "") -> None:
+        super().__init__(f"{word}: {message}" if message else word)
+        self.status = status
+        self.word = word
+
+
+class Case(ctypes.Structure):
+    """``faststrip_case`` of the header."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        *((name, c_int) for name in (
+            "normal", "tangential", "strips_per_patch", "points_per_strip", "fastsim_nx",
+            "fastsim_ny", "by_load", "warm_start", "with_elements")),
+        *((name, c_double) for name in (
+            "e_wheel", "e_rail", "nu_wheel", "nu_rail", "mu", "load", "penetration", "cksi",
+            "ceta", "cphi")),
+    ]
+
+
+class Figures(ctypes.Structure):
+    """``faststrip_result`` of the header."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        *((name, c_double) for name in (
+            "load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
+            "friction_power", "stick_fraction")),
+        *((name, c_int) for name in ("n_patches", "n_strips", "n_elements", "iterations")),
+    ]
+
+
+def _pkg_config_folder() -> Optional[str]:
+    try:
+        done = subprocess.run(["pkg-config", "--variable=libdir", "faststrip"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              encoding="utf-8", check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip() or None
+
+
+def _candidates() -> Iterator[str]:
+    """Where the library may be; what the environment names is not searched past."""
+    if "FASTSTRIP_LIBRARY" in os.environ:
+        yield os.environ["FASTSTRIP_LIBRARY"]
+        return
+    if "FASTSTRIP_PREFIX" in os.environ:
+        yield str(pathlib.Path(os.environ["FASTSTRIP_PREFIX"]) / "lib" / FILE)
+        return
+    folders = [_pkg_config_folder(), str(pathlib.Path(sys.prefix) / "lib")]
+    yield from (str(pathlib.Path(folder) / FILE) for folder in folders if folder)
+    yield FILE
+    found = ctypes.util.find_library("faststrip")
+    if found:
+        yield found
+
+
+def _load() -> ctypes.CDLL:
+    tried = []
+    for name in _candidates():
+        try:
+            return ctypes.CDLL(name)
+        except OSError as problem:
+            tried.append(f"{name} ({problem})")
+    raise LibraryNotFound(
+        "no libfaststrip: install it with ./run install --prefix FOLDER and set FASTSTRIP_PREFIX "
+        "to that folder, or FASTSTRIP_LIBRARY to the file; tried " + ", ".join(tried))
+
+
+def _declare(library: ctypes.CDLL) -> None:
+    handle = c_void_p
+    number = c_double
+    arguments = {
+        "version": [c_char_p, c_size_t],
+        "message": [c_int, c_char_p, c_size_t],
+        "last_message": [handle, c_char_p, c_size_t],
+        "default_case": [POINTER(Case), c_size_t],
+        "new": [POINTER(Case), c_int, POINTER(handle)],
+        "free": [POINTER(handle)],
+        "copy": [handle, handle],
+        "set_gap": [handle, c_int, *[c_void_p] * 3],
+        "solve": [handle, POINTER(Case), POINTER(Figures)],
+        "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
+        "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
+        "fastsim": [*[number] * 11, c_int, c_int, POINTER(number)],
+        "hertz": [*[number] * 7, POINTER(number)],
+        "kalker": [number, number, POINTER(number)],
+    }
+    for name, types in arguments.items():
+        function = getattr(library, f"faststrip_{name}")
+        function.argtypes = types
+        function.restype = c_int
+
+
+library = _load()
+_declare(library)
+
+
+def word_of(status: int) -> str:
+    """The word of a status."""
+    text = ctypes.create_string_buffer(TEXT)
+    library.faststrip_message(status, text, TEXT)
+    return text.value.decode("ascii")
+
+
+def check(status: int, workspace: Optional[c_void_p] = None) -> int:
+    """Raise what is an error; give other statuses back."""
+    if status < FIRST_ERROR:
+        return status
+    text = ctypes.create_string_buffer(TEXT)
+    if workspace:
+        library.faststrip_last_message(workspace, text, TEXT)
+    raise FaststripError(status, word_of(status), text.value.decode("ascii"))

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Install faststrip below a prefix: program, library, modules, header, pkg-config file, man page.
+
+    install.py --stage FOLDER --prefix FOLDER
+
+FOLDER of --stage is what `fpm install` made. Its archive holds everything, also what needs GSL; from
+it only what the public names need is linked into one object, in which only they stay visible.
+Static and shared library are both made of that object. Public are the procedures `use faststrip`
+gives, and those of the C and F77 faces; the latter also get their names without underscore.
+"""
+
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+
+from man_page import man_page
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PKG_CONFIG = """\
+prefix={prefix}
+libdir=${{prefix}}/lib
+includedir=${{prefix}}/include
+
+Name: faststrip
+Description: Wheel/rail contact by the modified strip method
+Version: {version}
+Cflags: -I${{includedir}} -I${{includedir}}/faststrip
+Libs: -L${{libdir}} -lfaststrip
+Libs.private: -lgfortran -lm
+Requires.private: openblas
+"""
+
+
+def command(*words):
+    done = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, encoding="utf-8", check=False)
+    if done.returncode != 0:
+        sys.exit(f"install: {words[0]} failed\n{done.stdout}")
+    return done.stdout
+
+
+def defined_names(archive):
+    """All global functions and data of an archive."""
+    names = set()
+    for line in command("nm", "--defined-only", "--extern-only", archive).splitlines():
+        words = line.split()
+        if len(words) == 3 and words[1] in "TDBR":
+            names.add(words[2])
+    return names
+
+
+def umbrella_names():
+    """The linker's names of what `use faststrip` gives, whether they are procedures or not."""
+    text = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
+    text = re.sub(r"&\s*\n\s*", "", text)
+    names = set()
+    for module, only in re.findall(r"^\s*use (\w+), only: (.*)$", text, re.MULTILINE):
+        names.update(f"__{module}_MOD_{name.strip()}" for name in only.split(","))
+    return names
+
+
+def public_names(archive):
+    """Names that stay visible, and those that get a second name without underscore."""
+    defined = defined_names(archive)
+    c_face = {name for name in defined if re.fullmatch(r"faststrip_[a-z_]+", name)}
+    f77_face = {name for name in defined if re.fullmatch(r"fs[a-z]{1,4}_", name)}
+    if not c_face or not f77_face:
+        sys.exit(f"install: {archive} has no C or F77 face")
+    return (umbrella_names() & defined) | c_face | f77_face, f77_face
+
+
+def link_object(archive, names, aliases, target):
+    """One object of what the names need, with nothing else visible."""
+    listed = target.with_suffix(".names")
+    listed.write_text("".join(f"{name}\n" for name in sorted(names | plain(aliases))),
+                      encoding="utf-8")
+    undefined = [word for name in sorted(names) for word in ("-u", name)]
+    second = [f"--defsym={name[:-1]}={name}" for name in sorted(aliases)]
+    command("ld", "-r", *undefined, *second, archive, "-o", target)
+    command("objcopy", f"--keep-global-symbols={listed}", target)
+
+
+def plain(aliases):
+    return {name[:-1] for name in aliases}
+
+
+def install_library(stage, prefix, version):
+    library = prefix / "lib"
+    library.mkdir(parents=True, exist_ok=True)
+    work = stage / "link"
+    work.mkdir(exist_ok=True)
+    archive = stage / "lib" / "libfaststrip.a"
+    names, aliases = public_names(archive)
+    whole = work / "faststrip.o"
+    link_object(archive, names, aliases, whole)
+    static = library / "libfaststrip.a"
+    static.unlink(missing_ok=True)
+    command("ar", "rcs", static, whole)
+    major, minor, _ = version.split(".")
+    script = work / "faststrip.map"
+    listed = "".join(f"        {name};\n" for name in sorted(names | plain(aliases)))
+    script.write_text(f"FASTSTRIP_{major}.{minor} {{\n    global:\n{listed}    local: *;\n}};\n",
+                      encoding="utf-8")
+    soname = f"libfaststrip.so.{major}"
+    shared = library / f"libfaststrip.so.{version}"
+    shared.unlink(missing_ok=True)
+    command("gfortran", "-shared", whole, f"-Wl,-soname,{soname}", f"-Wl,--version-script={script}",
+            "-Wl,--no-undefined", "-Wl,--as-needed", "-lopenblas", "-o", shared)
+    for link in (soname, "libfaststrip.so"):
+        (library / link).unlink(missing_ok=True)
+        (library / link).symlink_to(shared.name)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--stage", required=True, type=pathlib.Path)
+    parser.add_argument("--prefix", required=True, type=pathlib.Path)
+    options = parser.parse_args()
+    prefix = options.prefix.absolute()
+    with open(ROOT / "fpm.toml", "rb") as file:
+        version = tomllib.load(file)["version"]
+    copies = (
+        (options.stage / "bin" / "faststrip", "bin/faststrip"),
+        (options.stage / "include" / "faststrip.mod", "include/faststrip/faststrip.mod"),
+        (ROOT / "include" / "faststrip.h", "include/faststrip.h"),
+        (ROOT / "LICENSE", "share/doc/faststrip/LICENSE"),
+    )
+    for source, target in copies:
+        (prefix / target).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, prefix / target)
+    page = prefix / "share" / "man" / "man1" / "faststrip.1"
+    page.parent.mkdir(parents=True, exist_ok=True)
+    page.write_text(man_page(prefix / "bin" / "faststrip", version), encoding="utf-8")
+    install_library(options.stage, prefix, version)
+    described = prefix / "lib" / "pkgconfig" / "faststrip.pc"
+    described.parent.mkdir(parents=True, exist_ok=True)
+    described.write_text(PKG_CONFIG.format(prefix=prefix, version=version), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
