@@ -128,11 +128,11 @@ contains
         end function place
 
         ! Vertical distance of wheel and rail but for a constant, and its slope.
-        pure real(wp) function distance(at)
+        pure real(wp) function distance(at) result(value)
             real(wp), intent(in) :: at
             real(wp) :: slope
 
-            call distance_and_slope(at, distance, slope)
+            call distance_and_slope(at, value, slope)
         end function distance
 
         pure subroutine distance_and_slope(at, value, slope)
