@@ -50,10 +50,10 @@ def draw_value(axes, sweep, reference, name):
     style.title(axes, quantity.name.capitalize())
 
 
-def draw_ratio(axes, sweep, reference, name, mu):
+def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
     """A quantity over CONTACT's; forces and moments only where the reference is not near zero.
 
-    Returns whether some ratio lies beyond the axis, where a triangle stands for it.
+    Near zero is below `least`, as a part of mu N or mu N c. Returns whether some ratio lies beyond the axis, where a triangle stands for it.
     """
     quantity = QUANTITIES[name]
     base = reference.base(name, mu)
@@ -63,7 +63,7 @@ def draw_ratio(axes, sweep, reference, name, mu):
         pairs = compare(sweep, method, reference)
         expected = reference.values[name][pairs.reference_rows]
         ratio = np.full(len(method.yw), np.nan)
-        enough = np.abs(expected) >= NEAR_ZERO * base[pairs.reference_rows]
+        enough = np.abs(expected) >= least * base[pairs.reference_rows]
         rows = pairs.rows[enough]
         ratio[rows] = method.values[quantity.column][rows] / expected[enough]
         _line(axes, method.yw, ratio, look)

@@ -16,12 +16,16 @@ from .tables import InputError, read_table
 CHAPTER = "The paper, redone"
 WIDTH = 9.0  # inches: text of 10 points is still read at the width of a page
 PUBLISHED = dict(linestyle="none", marker="D", markersize=4.4, markerfacecolor="white",
-                 markeredgecolor="black", markeredgewidth=1.0, zorder=4,
+                 markeredgecolor="black", markeredgewidth=1.0, zorder=4, clip_on=False,
                  label="polynomial of Table 1")
+ERROR_LINES = {2: (0, (5, 1.8)), 3: (0, (6, 1.6, 1.2, 1.6)), 4: (0, (1.2, 1.2))}  # by n
 EVERY = 0.25  # of L, from one symbol to the next
 INTEGRAL_FIGURES = ((5, 6), (7, 8), (9, 10))  # of the paper, one pair for each of GROUPS
 FORCE_FIGURES = {"Fx": (21, 25), "Fy": (22, 26), "Mz": (23, 24)}
 PAPER_SYMBOLS = {"Fx": "$T_x$", "Fy": "$T_y$", "Mz": "$M_z$"}
+JUMP = 0.25  # of the larger value: from here on two neighbours are not joined
+LEAST = 0.01  # of mu N (c): ratios to CONTACT's values from here on
+RATIO_SPANS = (0.1, 0.25, 0.5, 1.0)  # about 1, of the axis of ratios
 CREEPAGES = ("cksi", "ceta", "cphi_rad_per_mm")
 CREEPAGE_TOLERANCE = 1e-3  # relative
 
@@ -67,7 +71,7 @@ def _integral_picture(left, right, curves, stamp):
             axes.plot(L[symbols], change(0.5 * curve.published[inside][symbols]),
                       **{**PUBLISHED, "markersize": 2.8 if many else 4.4})
         error.plot(L, 100.0 * curve.rel_err[inside], color=colour, linewidth=1.2 if many else 1.8,
-                   zorder=3)
+                   linestyle=ERROR_LINES.get(curve.n, "-"), zorder=3, label=f"{2 * curve.n}")
     for axes in (value, power, error):
         axes.set_xlim(*RANGE)
         axes.set_xlabel(ABSCISSA + ",  $b = y_d / x_d$")
@@ -84,13 +88,12 @@ def _integral_picture(left, right, curves, stamp):
     if len(curves) > 1:
         order = [curves[0], curves[-1], *curves[1:-1]]
         for axes, change in ((value, np.array), (power, np.log10)):
-            scales.label_ends(axes, RANGE[1], [
+            scales.label_ends(axes, RANGE[1] + 0.03, [
                 (change(0.5 * _last(c.exact, c)), f"{2 * c.n}", colour_of(c.n)) for c in order
             ])
-        scales.label_ends(error, RANGE[1], [
-            (100.0 * _last(c.rel_err, c), f"{2 * c.n}", colour_of(c.n)) for c in order
-            if np.isfinite(_last(c.rel_err, c))
-        ])
+        error.legend(loc="upper right", ncols=8 if many else 4, fontsize=style.SMALL,
+                     handlelength=1.4 if many else 3.0, columnspacing=1.0, labelspacing=0.2, borderaxespad=0.2)
+        error.set_ylim(top=1.25 * error.get_ylim()[1])
     worst = max(curves, key=_largest)
     columns = _columns(curves)
     caption = (
@@ -99,7 +102,7 @@ def _integral_picture(left, right, curves, stamp):
         f" and below the relative error of the published polynomial of degree 6:"
         f" {_percent(_largest(worst))} at most, for |s-k| = {2 * worst.n}."
     )
-    note = "" if len(curves) == 1 else "numbers at the curves: |s−k| of Table 1"
+    note = "" if len(curves) == 1 else "numbers: |s−k| of Table 1"
     return Picture(f"fig{left:02d}_{right:02d}",
                    f"Figs {left} and {right}: influence integral, {columns}", caption, figure,
                    [stamp], note)
@@ -133,9 +136,9 @@ def shift_pictures(fine, reference):
             for method in fine.normals():
                 use = side * method.yw >= -1e-9
                 look = style.normal_look(method.normal)
-                axes.plot(method.yw[use], method.values[quantity.column][use] * quantity.scale,
-                          color=look.colour, linestyle=look.line, linewidth=look.width,
-                          label=look.label, zorder=3)
+                values = method.values[quantity.column][use] * quantity.scale
+                axes.plot(*broken(method.yw[use], values), color=look.colour,
+                          linestyle=look.line, linewidth=look.width, label=look.label, zorder=3)
             use = side * reference.yw >= -1e-9
             axes.plot(reference.yw[use], reference.values[name][use] * quantity.scale, zorder=4,
                       **style.CONTACT)
@@ -148,12 +151,18 @@ def shift_pictures(fine, reference):
         caption = (
             f"{quantity.name.capitalize()} against the lateral shift, the wheel moving away from"
             f" its flange (left) and towards it (right): lines in steps of"
-            f" {min(steps, default=0.0):.2g} mm, CONTACT's normal solution at the shifts of"
-            " Table 2."
+            f" {min(steps, default=0.0):.2g} mm, broken where the point of contact jumps; CONTACT's"
+            " normal solution at the shifts of Table 2."
         )
         yield Picture(f"fig{left}_{right}",
                       f"Figs {left} and {right}: {quantity.name} against shift", caption, figure,
                       [fine.stamp])
+
+
+def broken(x, y):
+    """A line with a hole wherever it jumps by more than a part of its height from step to step."""
+    at = 1 + np.flatnonzero(np.abs(np.diff(y)) > JUMP * np.maximum(np.abs(y[1:]), np.abs(y[:-1])))
+    return np.insert(x, at, np.nan), np.insert(y, at, np.nan)
 
 
 # --------------------------------------------- Figs 17 to 26: the 20 contacts of Table 2
@@ -201,16 +210,18 @@ def force_pictures(sweep, reference, mu, sign_set):
         figure = style.new_figure(WIDTH, 4.4)
         value, ratio = figure.subplots(1, 2)
         panels.draw_value(value, sweep, reference, name)
-        beyond = panels.draw_ratio(ratio, sweep, reference, name, mu)
+        beyond = panels.draw_ratio(ratio, sweep, reference, name, mu, LEAST)
         symbol = PAPER_SYMBOLS[name]
         style.title(value, f"Fig. {left} redone: {symbol}")
         style.title(ratio, f"Fig. {right} redone: {symbol} over TANG's")
         for axes in (value, ratio):
             axes.set_xlabel(panels.SHIFT_LABEL)
+        ratio.set_xlim(value.get_xlim())
+        fit_ratios(ratio)
         value.set_ylabel(f"{symbol}, {quantity.unit}")
         ratio.set_ylabel(f"{symbol} over CONTACT's {symbol}")
         _legend_in_rows(figure, value)
-        least = f"{panels.NEAR_ZERO:.0%}"
+        least = f"{100.0 * LEAST:g} %"
         base = "µNc" if quantity.base == "mu N c" else "µN"
         notes = [f"ratios where CONTACT's value is at least {least} of {base}"]
         if beyond:
@@ -223,6 +234,16 @@ def force_pictures(sweep, reference, mu, sign_set):
         )
         yield Picture(f"fig{left}_{right}", f"Figs {left} and {right}: {quantity.name}", caption,
                       figure, [sweep.stamp], "; ".join(notes))
+
+
+def fit_ratios(axes):
+    """The narrowest of some spans about 1 that holds all that is drawn."""
+    drawn = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in axes.lines])
+    off = np.nanmax(np.abs(drawn - 1.0))
+    for span in RATIO_SPANS:
+        if off <= span:
+            axes.set_ylim(1.0 - span, 1.0 + span)
+            break
 
 
 def _force_errors(sweep, reference, name, mu):
