@@ -53,7 +53,8 @@ def draw_value(axes, sweep, reference, name):
 def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
     """A quantity over CONTACT's; forces and moments only where the reference is not near zero.
 
-    Near zero is below `least`, as a part of mu N or mu N c. Returns whether some ratio lies beyond the axis, where a triangle stands for it.
+    Near zero is below `least`, as a part of mu N or mu N c. Returns whether some ratio lies beyond
+    the axis, where a triangle stands for it.
     """
     quantity = QUANTITIES[name]
     base = reference.base(name, mu)

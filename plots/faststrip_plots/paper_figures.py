@@ -92,7 +92,8 @@ def _integral_picture(left, right, curves, stamp):
                 (change(0.5 * _last(c.exact, c)), f"{2 * c.n}", colour_of(c.n)) for c in order
             ])
         error.legend(loc="upper right", ncols=8 if many else 4, fontsize=style.SMALL,
-                     handlelength=1.4 if many else 3.0, columnspacing=1.0, labelspacing=0.2, borderaxespad=0.2)
+                     handlelength=1.4 if many else 3.0, columnspacing=1.0, labelspacing=0.2,
+                     borderaxespad=0.2)
         error.set_ylim(top=1.25 * error.get_ylim()[1])
     worst = max(curves, key=_largest)
     columns = _columns(curves)

@@ -496,7 +496,7 @@ def _tangential_times(data):
             yield judged(
                 f"S3.{letter}.{key[1]}", "3.1, 5", "FASTSTRIP computes about as fast as FASTSIM",
                 f"{style.method_look(*key).label}, {words}", "median of times over FASTSIM's",
-                ratio, "", Limits(2.0, 5.0), times, where,
+                ratio, "", Limits(2.0, 10.0), times, where,
             )
     start = np.array(data.normal.words("start"))
     use = (start == "warm_shift") & (data.normal.numbers("strips") == STRIPS)
