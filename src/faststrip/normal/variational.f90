@@ -28,7 +28,8 @@ module faststrip_normal_variational
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y, &
                                                  take_pressures, count_patches
     use faststrip_normal_variational_place, only: extent_t, guess_extent, extent_of_strips, &
-                                                  place_grid, rows_suffice, columns_suffice, &
+                                                  extent_of_grid, place_grid, &
+                                                  take_missing_rows, columns_suffice, &
                                                   reaches_end_of_data, guess_pressures
     use faststrip_normal_variational_rows, only: pressures_of_strips
     use faststrip_normal_variational_solver, only: minimiser_t, size_minimiser, task_t, minimise, &
@@ -47,6 +48,7 @@ module faststrip_normal_variational
     real(wp), parameter :: enlargement = 1.3_wp   ! of the half-length, when columns are missing
     integer, parameter :: max_levels = 12         ! of spacing, for a target
     integer, parameter :: first_elements = 6      ! across the shorter half of the first level
+    real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
     real(wp), parameter :: spacing_unit = 0.1_wp  ! mm; with a target, spacings are this by 2^k
 
     ! Sizes beyond which nothing is promised.
@@ -58,7 +60,8 @@ module faststrip_normal_variational
         real(wp) :: dy = 0.2_wp           !! side of the elements along y, mm
         real(wp) :: error_target = 0.0_wp !! estimated relative error of penetration and largest
                                           !! pressure; the sides are chosen if it is positive
-        logical :: estimate = .false.     !! solve with sides twice as long before, for errors
+        logical :: two_levels = .true.    !! solve with sides twice as long before: a better start
+                                          !! and an estimate of the errors
         real(wp) :: tolerance = 1.0e-9_wp !! largest |gap| in contact over the approach
         integer :: max_iterations = 300   !! of conjugate gradients on one grid
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
@@ -71,15 +74,16 @@ module faststrip_normal_variational
     type :: norm_workspace_t
         type(contact_grid_t) :: grid       !! heights and pressures of the last solution
         type(certificate_t) :: certificate !! how well it fulfils the contact condition; errors
-                                           !! are estimated if the options ask for it, else 0
+                                           !! are estimated where there were two levels, else 0
         logical :: is_estimated = .false.  !! are they?
         integer :: convolutions = 0        !! of the last solution, all grids
         integer :: plans = 0               !! how often plans and kernels were made since reserved
         type(gap_curve_t), private :: curve
         type(contact_grid_t), private :: last
         type(minimiser_t), private :: minimiser
-        type(convolution_t), private :: convolution
-        real(wp), private :: aspect = 0.0_wp ! dy/dx of the kernels
+        ! Plans and kernels; two, so that two levels keep theirs from one solution to the next.
+        type(convolution_t), private :: convolution(2)
+        real(wp), private :: aspect(2) = 0.0_wp ! dy/dx of the kernels
         integer, allocatable, private :: stack(:)
     end type norm_workspace_t
 
@@ -104,7 +108,8 @@ contains
     end subroutine set_norm_gap
 
     !> Solve the normal problem of the gap in the workspace under a load. It starts from the strips
-    !> given, from the last solution, or from the ellipse that fits the gap's width.
+    !> given, from the last solution, or from the ellipse that fits the gap's width; with two levels
+    !> that is the start of the coarser one.
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, no memory), `st_out_of_range` (more elements than
@@ -228,7 +233,7 @@ contains
         end if
         call set_task(goal, 0.0_wp, compliance, dy, options, task, status)
         if (is_error(status)) return
-        call solve_on_grid(workspace, compliance, task, found, result, status)
+        call solve_on_grid(workspace, 1, compliance, task, found, result, status)
         if (is_error(status)) return
         call take_figures(workspace, compliance, found, result)
         associate (p => workspace%grid%pressure, nx => workspace%grid%nx, ny => workspace%grid%ny)
@@ -251,7 +256,7 @@ contains
         type(extent_t) :: extent, guess
         type(normal_result_t) :: coarse
         type(status_t) :: estimate
-        real(wp) :: dx, dy
+        real(wp) :: dx, dy, tolerance
         integer :: level, levels
         logical :: from_strips
 
@@ -262,11 +267,13 @@ contains
         from_strips = .false.
         if (present(strips)) from_strips = strips%n > 0
         if (from_strips) then
-            call extent_of_strips(workspace%curve, compliance, strips, extent)
-        else if (.not. options%warm_start) then
+            call extent_of_strips(strips, extent)
+        else if (options%warm_start .and. workspace%last%nx > 0) then
+            call extent_of_grid(workspace%last, extent)
+        else
             workspace%last%nx = 0
         end if
-        levels = merge(2, 1, options%estimate)
+        levels = merge(2, 1, options%two_levels)
         dx = levels*options%dx
         dy = levels*options%dy
         if (options%error_target > 0.0_wp) then
@@ -277,8 +284,13 @@ contains
         end if
         do level = 1, levels
             coarse = result
-            call solve_spacing(workspace, compliance, goal, options, dx, dy, extent, guess, &
-                               result, status, strips, from_strips .and. level == 1)
+            tolerance = options%tolerance
+            ! A coarse grid is for a start and for estimates.
+            if (level < levels .and. .not. options%error_target > 0.0_wp) &
+                tolerance = max(tolerance, coarse_tolerance)
+            call solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
+                               extent, guess, result, status, strips, &
+                               from_strips .and. level == 1)
             if (is_error(status)) then
                 workspace%last%nx = 0
                 workspace%grid%nx = 0
@@ -293,9 +305,8 @@ contains
                         workspace%certificate%est_err_pmax) <= options%error_target) exit
             end if
             if (level == levels) exit
-            extent%depth = result%penetration - workspace%curve%h_lowest
-            extent%half_length = result%x_max
             call keep(workspace)
+            call extent_of_grid(workspace%last, extent)
             dx = 0.5_wp*dx
             dy = 0.5_wp*dy
         end do
@@ -304,13 +315,14 @@ contains
     end subroutine solve_gap
 
     !> Solve on grids of one spacing, each larger than the one before, until it holds the contact.
-    subroutine solve_spacing(workspace, compliance, goal, options, dx, dy, extent, guess, result, &
-                             status, strips, from_strips)
+    subroutine solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
+                             extent, guess, result, status, strips, from_strips)
         type(norm_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(goal_t), intent(in) :: goal
         type(norm_options_t), intent(in) :: options
-        real(wp), intent(in) :: dx, dy
+        integer, intent(in) :: level
+        real(wp), intent(in) :: tolerance, dx, dy
         type(extent_t), intent(inout) :: extent
         type(extent_t), intent(in) :: guess
         type(normal_result_t), intent(inout) :: result
@@ -321,10 +333,11 @@ contains
         type(task_t) :: task
         type(minimised_t) :: found
         integer :: placing
-        logical :: enough
+        logical :: is_missing
 
         call set_task(goal, workspace%curve%h_lowest, compliance, dy, options, task, status)
         if (is_error(status)) return
+        task%tolerance = tolerance
         do placing = 1, max_placings
             call place_grid(workspace%curve, extent, dx, dy, options%most_elements, &
                             workspace%grid, status)
@@ -341,19 +354,18 @@ contains
             else
                 call guess_pressures(workspace%curve, guess, workspace%grid)
             end if
-            call solve_on_grid(workspace, compliance, task, found, result, status)
+            call solve_on_grid(workspace, 1 + modulo(level, 2), compliance, task, found, result, status)
             if (is_error(status)) return
-            enough = rows_suffice(workspace%curve, found%approach - workspace%curve%h_lowest, &
-                                  workspace%grid)
-            if (.not. enough) extent%depth = found%approach - workspace%curve%h_lowest
+            call take_missing_rows(workspace%curve, compliance, workspace%grid, found%approach, &
+                                   extent, is_missing)
             if (.not. columns_suffice(workspace%grid)) then
-                enough = .false.
+                is_missing = .true.
                 extent%half_length = enlargement*max(extent%half_length, dx)
             end if
-            if (enough) exit
+            if (.not. is_missing) exit
             call keep(workspace)
         end do
-        if (.not. enough) then
+        if (is_missing) then
             call set_status(status, st_no_convergence, 'no grid was found that holds the contact')
             return
         end if
@@ -406,20 +418,22 @@ contains
     end subroutine set_task
 
     !> Plans and kernels for the grid, then the minimisation.
-    subroutine solve_on_grid(workspace, compliance, task, found, result, status)
+    subroutine solve_on_grid(workspace, which, compliance, task, found, result, status)
         type(norm_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: which ! of the two convolutions
         real(wp), intent(in) :: compliance
         type(task_t), intent(in) :: task
         type(minimised_t), intent(out) :: found
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
-        call prepare_kernels(workspace, status)
+        call prepare_kernels(workspace, which, status)
         if (is_error(status)) return
         associate (grid => workspace%grid)
             call size_minimiser(workspace%minimiser, grid%nx, grid%ny)
             workspace%minimiser%s = grid%pressure
-            call minimise(workspace%convolution, grid%height, task, workspace%minimiser, found)
+            call minimise(workspace%convolution(which), grid%height, task, workspace%minimiser, &
+                          found)
             grid%pressure = workspace%minimiser%s/(compliance*grid%dx)
         end associate
         result%passes = result%passes + 1
@@ -432,8 +446,9 @@ contains
     end subroutine solve_on_grid
 
     !> Influence numbers of the grid and their inverse, unless they are there.
-    subroutine prepare_kernels(workspace, status)
+    subroutine prepare_kernels(workspace, which, status)
         type(norm_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: which ! 1 or 2
         type(status_t), intent(out) :: status
 
         real(wp), allocatable :: influence(:, :)
@@ -441,11 +456,11 @@ contains
         integer :: i, j, half_x, half_y, before(2)
 
         aspect = workspace%grid%dy/workspace%grid%dx
-        associate (convolution => workspace%convolution, grid => workspace%grid)
+        associate (convolution => workspace%convolution(which), grid => workspace%grid)
             before = [convolution%nx, convolution%ny]
             call reserve_convolution(convolution, grid%nx, grid%ny, 2, 1, status)
             if (is_error(status)) return
-            if (all(before == [grid%nx, grid%ny]) .and. workspace%aspect == aspect) return
+            if (all(before == [grid%nx, grid%ny]) .and. workspace%aspect(which) == aspect) return
             half_x = convolution%mx/2
             half_y = convolution%my/2
             allocate (influence(0:half_x, 0:half_y))
@@ -458,7 +473,7 @@ contains
             if (is_error(status)) return
             call set_inverse_kernel(convolution, kernel_inverse, kernel_influence, status)
         end associate
-        workspace%aspect = aspect
+        workspace%aspect(which) = aspect
         workspace%plans = workspace%plans + 1
     end subroutine prepare_kernels
 

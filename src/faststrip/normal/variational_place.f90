@@ -1,16 +1,18 @@
 !> Where the grid of a gap h(y) + A(y) x^2 has to lie, and what pressures to start from.
 !>
 !> Middles of elements lie at odd multiples of half a side, x = 0 and y = 0 between elements, as
-!> CONTACT's grids of the reference do. Displacements are positive, so that all contact is where the
-!> undeformed gap is below the approach: these rows are all taken. Columns are taken as the start
-!> has them, with room; whether they suffice is seen by the outermost.
+!> CONTACT's grids of the reference do. Rows and columns are taken as the start has them, with
+!> room. Displacements are positive, so that all contact is where the undeformed gap is below the
+!> approach: rows of which that holds and that are not in the grid are looked at afterwards, on the
+!> line x = 0, with the rows of the solution as strips. Whether the columns suffice is seen by the
+!> outermost.
 module faststrip_normal_variational_place
-    use faststrip_kinds, only: wp
+    use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_no_contact, st_out_of_range
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at
-    use faststrip_normal_strip_patches, only: patches_t
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_start, only: goal_t, start_patches
     use faststrip_normal_strip_state, only: flattest
     use faststrip_normal_strips, only: contact_strips_t
@@ -18,19 +20,23 @@ module faststrip_normal_variational_place
     implicit none
     private
 
-    public :: extent_t, guess_extent, extent_of_strips, place_grid, rows_suffice
-    public :: columns_suffice, reaches_end_of_data, guess_pressures
+    public :: extent_t, guess_extent, extent_of_strips, extent_of_grid, place_grid
+    public :: take_missing_rows, columns_suffice, reaches_end_of_data, guess_pressures
 
     !> What a grid has to hold.
     type :: extent_t
-        real(wp) :: depth = 0.0_wp       !! approach above the lowest height, mm
+        real(wp) :: y_from = 0.0_wp      !! left end of the contact, mm
+        real(wp) :: y_to = 0.0_wp        !! right end, mm
         real(wp) :: half_length = 0.0_wp !! largest |x| in contact, mm
-        real(wp) :: half_width = 0.0_wp  !! half the width of the contact along y, mm
-        real(wp) :: level = 0.0_wp       !! height of the gap at the contact's ends, from the lowest
+        real(wp) :: half_width = 0.0_wp  !! half the width of all patches together, mm
+        real(wp) :: level = 0.0_wp       !! height of the gap at the ends, from the lowest, mm
     end type extent_t
 
-    real(wp), parameter :: depth_room = 1.02_wp  ! of the approach, for rows
-    real(wp), parameter :: length_room = 1.15_wp ! of the half-length, for columns
+    real(wp), parameter :: guess_room = 1.3_wp   ! of the level, for rows of a guess
+    real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
+    real(wp), parameter :: strips_room = 0.02_wp ! of the extent of a strip solution
+    ! A row is missing if its gap is below this of the approach: strips are not exact.
+    real(wp), parameter :: doubtful = 1.0e-3_wp
     real(wp), parameter :: most_rows = 1.0e6_wp  ! along the gap's data
 
 contains
@@ -44,8 +50,8 @@ contains
         type(status_t), intent(out) :: status    !! `st_no_contact`
 
         type(patches_t) :: patches
-        real(wp) :: depth, h, a_lowest, a, y
-        integer :: i
+        real(wp) :: depth, h, a_lowest, a, y, low(max_patches), high(max_patches)
+        integer :: i, n
 
         call clear_status(status)
         call start_patches(curve, compliance, goal, patches, depth)
@@ -53,9 +59,10 @@ contains
             call set_status(status, st_no_contact, 'no place where the bodies touch was found')
             return
         end if
-        extent%depth = depth
-        if (.not. goal%by_load) extent%depth = goal%penetration
         extent%level = patches%at(1)%seed_level
+        call level_intervals(curve, curve%h_lowest + guess_room*extent%level, low, high, n)
+        extent%y_from = low(1)
+        extent%y_to = high(n)
         extent%half_width = 0.5_wp*sum(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)
         ! A x^2 at the tip of the lowest place; further on A may be smaller, the gap is larger.
         call gap_at(curve, curve%y_lowest, h, a_lowest)
@@ -68,30 +75,47 @@ contains
             extent%half_length = max(extent%half_length, patches%at(1)%seed_length*sqrt( &
                 (1.0_wp - (h - curve%h_lowest)/extent%level)*(a_lowest/max(a, flattest))))
         end do
+        extent%half_length = guess_length*extent%half_length
     end subroutine guess_extent
 
     !> Extent of a strip solution.
-    pure subroutine extent_of_strips(curve, compliance, strips, extent)
-        type(gap_curve_t), intent(in) :: curve       !! a gap that was set
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+    pure subroutine extent_of_strips(strips, extent)
         type(contact_strips_t), intent(in) :: strips !! a solution with a strip at least
-        type(extent_t), intent(inout) :: extent      !! a guess that is replaced where known better
+        type(extent_t), intent(inout) :: extent      !! a guess, replaced where it is known better
 
-        real(wp) :: h, a, y, u
-        integer :: k, s
+        real(wp) :: room
 
-        k = maxloc(strips%p0(:strips%n), dim=1)
-        y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-        call gap_at(curve, y, h, a)
-        u = 0.0_wp
-        do s = 1, strips%n
-            u = u + compliance*strips%p0(s)*strips%half_length(s)*strip_influence_edges( &
-                (strips%y_left(s) - y)/strips%half_length(s), &
-                (strips%y_right(s) - y)/strips%half_length(s))
-        end do
-        extent%depth = h - curve%h_lowest + u
-        extent%half_length = maxval(strips%half_length(:strips%n))
+        associate (left => strips%y_left(1), right => strips%y_right(strips%n))
+            room = strips_room*(right - left)
+            extent%y_from = left - room
+            extent%y_to = right + room
+        end associate
+        extent%half_length = (1.0_wp + strips_room)*maxval(strips%half_length(:strips%n))
     end subroutine extent_of_strips
+
+    !> Extent of a solution on another grid, with room for one of its elements.
+    pure subroutine extent_of_grid(grid, extent)
+        type(contact_grid_t), intent(in) :: grid !! with pressures
+        type(extent_t), intent(inout) :: extent  !! a guess, replaced where it is known better
+
+        integer :: i, j, first, last
+
+        first = grid%ny
+        last = 1
+        extent%half_length = 0.0_wp
+        do j = 1, grid%ny
+            if (.not. any(grid%pressure(:, j) > 0.0_wp)) cycle
+            first = min(first, j)
+            last = j
+            do i = 1, grid%nx
+                if (grid%pressure(i, j) > 0.0_wp) &
+                    extent%half_length = max(extent%half_length, abs(element_x(grid, i)))
+            end do
+        end do
+        extent%half_length = extent%half_length + grid%dx
+        extent%y_from = element_y(grid, first) - grid%dy
+        extent%y_to = element_y(grid, last) + grid%dy
+    end subroutine extent_of_grid
 
     !> Place a grid that holds an extent, as far as the gap has data, and take the heights.
     subroutine place_grid(curve, extent, dx, dy, most_elements, grid, status)
@@ -105,10 +129,11 @@ contains
         integer :: first, last, i, j
         real(wp) :: columns, rows, h, a
 
-        call clear_status(status)
-        call rows_below(curve, dy, depth_room*extent%depth, first, last, status)
+        call rows_of_data(curve, dy, first, last, status)
         if (is_error(status)) return
-        columns = 2.0_wp*(aint(length_room*extent%half_length/dx) + 2.0_wp)
+        first = max(first, min(floor(extent%y_from/dy - 0.5_wp), last))
+        last = min(last, max(ceiling(extent%y_to/dy - 0.5_wp), first))
+        columns = 2.0_wp*(aint(extent%half_length/dx) + 2.0_wp)
         rows = real(last, wp) - first + 1.0_wp
         if (columns*rows > most_elements) then
             call set_status(status, st_out_of_range, 'the contact takes more elements than ' &
@@ -128,41 +153,6 @@ contains
             end do
         end do
     end subroutine place_grid
-
-    !> The first and the last row, of middles (j + 1/2) dy, with a height below a level; where the
-    !> elements are longer than what is below it, the row of the lowest place.
-    pure subroutine rows_below(curve, dy, level, first, last, status)
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: dy, level ! mm, from the lowest height
-        integer, intent(out) :: first, last
-        type(status_t), intent(out) :: status
-
-        integer :: from, to
-
-        first = 0
-        last = 0
-        call rows_of_data(curve, dy, from, to, status)
-        if (is_error(status)) return
-        do first = from, to
-            if (is_below(first)) exit
-        end do
-        if (first > to) first = min(max(floor(curve%y_lowest/dy), from), to)
-        do last = to, first, -1
-            if (is_below(last)) exit
-        end do
-        last = max(last, first)
-
-    contains
-
-        pure logical function is_below(j)
-            integer, intent(in) :: j
-
-            real(wp) :: h, a
-
-            call gap_at(curve, (j + 0.5_wp)*dy, h, a)
-            is_below = h - curve%h_lowest < level
-        end function is_below
-    end subroutine rows_below
 
     !> The rows whose middles the gap's points enclose.
     pure subroutine rows_of_data(curve, dy, from, to, status)
@@ -191,19 +181,45 @@ contains
                             //' mm are longer than the gap')
     end subroutine rows_of_data
 
-    !> Does the grid hold all rows that an approach can bring into contact?
-    pure logical function rows_suffice(curve, depth, grid)
-        type(gap_curve_t), intent(in) :: curve  !! the gap of the grid
-        real(wp), intent(in) :: depth           !! approach above the lowest height, mm
-        type(contact_grid_t), intent(in) :: grid !! placed by `place_grid`
+    !> Make an extent hold the rows outside a grid in which its solution would overlap.
+    pure subroutine take_missing_rows(curve, compliance, grid, approach, extent, is_missing)
+        type(gap_curve_t), intent(in) :: curve   !! the gap of the grid
+        real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
+        type(contact_grid_t), intent(in) :: grid !! placed by `place_grid`, with pressures
+        real(wp), intent(in) :: approach         !! D of its solution, mm
+        type(extent_t), intent(inout) :: extent  !! grows
+        logical, intent(out) :: is_missing       !! is there such a row?
 
-        integer :: first, last, held
+        real(wp) :: p0(grid%ny), xd(grid%ny), y, h, a, u
+        integer :: from, to, held, j, k
         type(status_t) :: status
 
-        call rows_below(curve, grid%dy, depth, first, last, status)
+        do k = 1, grid%ny
+            p0(k) = maxval(grid%pressure(:, k))
+            xd(k) = 0.0_wp
+            if (p0(k) > 0.0_wp) xd(k) = sum(grid%pressure(:, k))*grid%dx/(0.5_wp*pi*p0(k))
+        end do
+        is_missing = .false.
+        call rows_of_data(curve, grid%dy, from, to, status)
         held = nint(grid%y_first/grid%dy - 0.5_wp)
-        rows_suffice = first >= held .and. last <= held + grid%ny - 1
-    end function rows_suffice
+        do j = from, to
+            if (j >= held .and. j < held + grid%ny) cycle
+            y = (j + 0.5_wp)*grid%dy
+            call gap_at(curve, y, h, a)
+            if (h >= approach) cycle
+            u = 0.0_wp
+            do k = 1, grid%ny
+                if (xd(k) == 0.0_wp) cycle
+                u = u + compliance*p0(k)*xd(k)*strip_influence_edges( &
+                    (element_y(grid, k) - 0.5_wp*grid%dy - y)/xd(k), &
+                    (element_y(grid, k) + 0.5_wp*grid%dy - y)/xd(k))
+            end do
+            if (h + u - approach >= doubtful*(approach - curve%h_lowest)) cycle
+            is_missing = .true.
+            extent%y_from = min(extent%y_from, y)
+            extent%y_to = max(extent%y_to, y)
+        end do
+    end subroutine take_missing_rows
 
     !> Are the outermost columns free of contact?
     pure logical function columns_suffice(grid)
@@ -239,7 +255,7 @@ contains
         integer :: i, j
 
         call gap_at(curve, curve%y_lowest, h, a_lowest)
-        rise = max(a_lowest, flattest)*extent%half_length**2
+        rise = max(a_lowest, flattest)*(extent%half_length/guess_length)**2
         do j = 1, grid%ny
             call gap_at(curve, element_y(grid, j), h, a)
             do i = 1, grid%nx

@@ -3,7 +3,7 @@
 !>     result(i, j) = sum over (k, l) of kernel(i - k, j - l) source(k, l)
 !>
 !> The grid is doubled and filled up with zeros, so that the transform's periodic images do not
-!> reach the result. Plans and kernels are made once and kept in a workspace of the caller; applying
+!> reach the result; the transforms along x pass over the rows of zeros. Plans and kernels are made once and kept in a workspace of the caller; applying
 !> them allocates nothing (FFTW may take a buffer of its own for large grids).
 !>
 !> Plans are made with FFTW_ESTIMATE. A plan chosen by measuring is somewhat faster, but which one
@@ -11,13 +11,15 @@
 !> order: the last bits of a result would change from run to run.
 module faststrip_numerics_convolution
     use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_double_complex, &
-                                           c_f_pointer, c_int, c_null_ptr, c_ptr, c_size_t
+                                           c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                 st_workspace_too_small
-    use faststrip_numerics_fftw, only: fftw_estimate, fftw_alloc_real, fftw_alloc_complex, &
-                                       fftw_free, fftw_plan_dft_r2c_2d, fftw_plan_dft_c2r_2d, &
-                                       fftw_destroy_plan, fftw_execute_dft_r2c, &
+    use faststrip_numerics_fftw, only: fftw_estimate, fftw_forward, fftw_backward, &
+                                       fftw_alloc_real, fftw_alloc_complex, fftw_free, &
+                                       fftw_plan_many_dft, fftw_plan_many_dft_r2c, &
+                                       fftw_plan_many_dft_c2r, fftw_destroy_plan, &
+                                       fftw_execute_dft, fftw_execute_dft_r2c, &
                                        fftw_execute_dft_c2r
     implicit none
     private
@@ -45,10 +47,12 @@ module faststrip_numerics_convolution
         real(c_double), pointer, contiguous, private :: field(:, :) => null()
         complex(c_double_complex), pointer, contiguous, private :: spectrum(:, :) => null()
         complex(c_double_complex), pointer, contiguous, private :: source(:, :, :) => null()
-        complex(c_double_complex), pointer, contiguous, private :: kernel(:, :, :) => null()
+        real(c_double), pointer, contiguous, private :: kernel(:, :, :) => null()
+        logical, allocatable, private :: is_imaginary(:) ! the transform of each kernel, else real
         type(c_ptr), private :: field_room = c_null_ptr, spectrum_room = c_null_ptr
         type(c_ptr), private :: source_room = c_null_ptr, kernel_room = c_null_ptr
-        type(c_ptr), private :: forward = c_null_ptr, backward = c_null_ptr
+        ! Along x forward and backward, along y forward and backward.
+        type(c_ptr), private :: plans(4) = c_null_ptr
     contains
         final :: release_convolution
     end type convolution_t
@@ -65,7 +69,7 @@ contains
         integer, intent(in) :: n_sources  !! sources transformed at a time, >= 1
         type(status_t), intent(out) :: status !! `st_bad_argument`; `st_workspace_too_small`, no
                                               !! memory
-        integer :: half
+        integer :: half, i
 
         call clear_status(status)
         if (min(nx, ny, n_kernels, n_sources) < 1 .or. max(nx, ny) > largest_size/2) then
@@ -83,7 +87,7 @@ contains
             convolution%field_room = fftw_alloc_real(int(mx, c_size_t)*my)
             convolution%spectrum_room = fftw_alloc_complex(int(half, c_size_t)*my)
             convolution%source_room = fftw_alloc_complex(int(half, c_size_t)*my*n_sources)
-            convolution%kernel_room = fftw_alloc_complex(int(half, c_size_t)*my*n_kernels)
+            convolution%kernel_room = fftw_alloc_real(int(half, c_size_t)*my*n_kernels)
             if (.not. (c_associated(convolution%field_room) .and. &
                        c_associated(convolution%spectrum_room) .and. &
                        c_associated(convolution%source_room) .and. &
@@ -95,26 +99,41 @@ contains
             call c_f_pointer(convolution%spectrum_room, convolution%spectrum, [half, my])
             call c_f_pointer(convolution%source_room, convolution%source, [half, my, n_sources])
             call c_f_pointer(convolution%kernel_room, convolution%kernel, [half, my, n_kernels])
-            convolution%forward = fftw_plan_dft_r2c_2d( &
-                int(my, c_int), int(mx, c_int), convolution%field, convolution%source, &
+            convolution%plans(1) = fftw_plan_many_dft_r2c( &
+                1_c_int, [int(mx, c_int)], int(ny, c_int), convolution%field, c_null_ptr, 1_c_int, &
+                int(mx, c_int), convolution%source, c_null_ptr, 1_c_int, int(half, c_int), &
                 fftw_estimate)
-            convolution%backward = fftw_plan_dft_c2r_2d( &
-                int(my, c_int), int(mx, c_int), convolution%spectrum, convolution%field, &
-                fftw_estimate)
+            convolution%plans(2) = fftw_plan_many_dft_c2r( &
+                1_c_int, [int(mx, c_int)], int(ny, c_int), convolution%spectrum, c_null_ptr, &
+                1_c_int, int(half, c_int), convolution%field, c_null_ptr, 1_c_int, &
+                int(mx, c_int), fftw_estimate)
+            convolution%plans(3) = plan_along_y(convolution%source_room, fftw_forward)
+            convolution%plans(4) = plan_along_y(convolution%spectrum_room, fftw_backward)
         end associate
-        if (.not. (c_associated(convolution%forward) .and. &
-                   c_associated(convolution%backward))) then
+        do i = 1, size(convolution%plans)
+            if (c_associated(convolution%plans(i))) cycle
             call refuse()
             return
-        end if
+        end do
         convolution%source = (0.0_wp, 0.0_wp)
-        convolution%kernel = (0.0_wp, 0.0_wp)
+        convolution%kernel = 0.0_wp
+        allocate (convolution%is_imaginary(n_kernels), source=.false.)
         convolution%nx = nx
         convolution%ny = ny
         convolution%n_kernels = n_kernels
         convolution%n_sources = n_sources
 
     contains
+
+        type(c_ptr) function plan_along_y(room, sign)
+            type(c_ptr), intent(in) :: room
+            integer(c_int), intent(in) :: sign
+
+            plan_along_y = fftw_plan_many_dft( &
+                1_c_int, [int(convolution%my, c_int)], int(half, c_int), room, c_null_ptr, &
+                int(half, c_int), 1_c_int, room, c_null_ptr, int(half, c_int), 1_c_int, sign, &
+                fftw_estimate)
+        end function plan_along_y
 
         subroutine refuse()
             call release_convolution(convolution)
@@ -126,18 +145,21 @@ contains
     impure elemental subroutine release_convolution(convolution)
         type(convolution_t), intent(inout) :: convolution !! empty afterwards
 
-        if (c_associated(convolution%forward)) call fftw_destroy_plan(convolution%forward)
-        if (c_associated(convolution%backward)) call fftw_destroy_plan(convolution%backward)
+        integer :: i
+
+        do i = 1, size(convolution%plans)
+            if (c_associated(convolution%plans(i))) call fftw_destroy_plan(convolution%plans(i))
+            convolution%plans(i) = c_null_ptr
+        end do
         call fftw_free(convolution%field_room)
         call fftw_free(convolution%spectrum_room)
         call fftw_free(convolution%source_room)
         call fftw_free(convolution%kernel_room)
-        convolution%forward = c_null_ptr
-        convolution%backward = c_null_ptr
         convolution%field_room = c_null_ptr
         convolution%spectrum_room = c_null_ptr
         convolution%source_room = c_null_ptr
         convolution%kernel_room = c_null_ptr
+        if (allocated(convolution%is_imaginary)) deallocate (convolution%is_imaginary)
         nullify (convolution%field, convolution%spectrum, convolution%source, convolution%kernel)
         convolution%nx = 0
         convolution%ny = 0
@@ -168,7 +190,8 @@ contains
     end function good_size
 
     !> Give kernel k its values at the distances from (0, 0) on; those at negative distances follow
-    !> from its parity, and those further than the values given are zero.
+    !> from its parity, and those further than the values given are zero. Transformed source 1 is
+    !> overwritten.
     subroutine set_kernel(convolution, k, values, parity_x, parity_y, status)
         type(convolution_t), intent(inout) :: convolution !! reserved
         integer, intent(in) :: k             !! which kernel, 1 to `n_kernels`
@@ -178,7 +201,8 @@ contains
         integer, intent(in) :: parity_y      !! `even` or `odd`; values(:, 0) of an odd one are 0
         type(status_t), intent(out) :: status !! `st_bad_argument`
 
-        integer :: i, j, k_x, k_y
+        real(wp) :: scale
+        integer :: i, j, k_x, k_y, from
 
         call clear_status(status)
         if (k < 1 .or. k > convolution%n_kernels) then
@@ -207,10 +231,23 @@ contains
                 end do
             end do
         end associate
-        call fftw_execute_dft_r2c(convolution%forward, convolution%field, convolution%spectrum)
-        ! The backward transform leaves the factor out.
-        convolution%kernel(:, :, k) = convolution%spectrum &
-                                      /(real(convolution%mx, wp)*convolution%my)
+        ! The plan along x is for ny rows; it may go over some twice.
+        do j = 1, convolution%my, convolution%ny
+            from = min(j, convolution%my - convolution%ny + 1)
+            call fftw_execute_dft_r2c(convolution%plans(1), convolution%field(:, from), &
+                                      convolution%source(:, from, 1))
+        end do
+        call fftw_execute_dft(convolution%plans(3), convolution%source_room, &
+                              convolution%source_room)
+        ! Even and odd along both axes: the transform is real; mixed: it is imaginary. Backward
+        ! transforms leave the factor out.
+        scale = 1.0_wp/(real(convolution%mx, wp)*convolution%my)
+        convolution%is_imaginary(k) = parity_x /= parity_y
+        if (convolution%is_imaginary(k)) then
+            convolution%kernel(:, :, k) = scale*aimag(convolution%source(:, :, 1))
+        else
+            convolution%kernel(:, :, k) = scale*real(convolution%source(:, :, 1), wp)
+        end if
     end subroutine set_kernel
 
     !> Make kernel k the inverse of another one on the doubled, periodic grid: a preconditioner.
@@ -231,13 +268,13 @@ contains
             return
         end if
         scale = (real(convolution%mx, wp)*convolution%my)**2
-        floor = 1.0e-6_wp*maxval(real(convolution%kernel(:, :, other), wp))
-        if (floor <= tiny(floor)*scale) then
+        floor = 1.0e-6_wp*maxval(convolution%kernel(:, :, other))
+        if (convolution%is_imaginary(other) .or. floor <= tiny(floor)*scale) then
             call set_status(status, st_bad_argument, 'a kernel without a positive transform')
             return
         end if
-        convolution%kernel(:, :, k) = cmplx( &
-            1.0_wp/(scale*max(real(convolution%kernel(:, :, other), wp), floor)), 0.0_wp, wp)
+        convolution%is_imaginary(k) = .false.
+        convolution%kernel(:, :, k) = 1.0_wp/(scale*max(convolution%kernel(:, :, other), floor))
     end subroutine set_inverse_kernel
 
     !> Transform a source, to be used by any number of `collect`s.
@@ -246,6 +283,7 @@ contains
         integer, intent(in) :: s             !! where to keep it, 1 to `n_sources`
         real(wp), intent(in) :: source(:, :) !! shape (nx, ny)
 
+        type(c_ptr) :: room
         integer :: j
 
         associate (nx => convolution%nx, ny => convolution%ny)
@@ -253,10 +291,12 @@ contains
                 convolution%field(:nx, j) = source(:nx, j)
                 convolution%field(nx + 1:, j) = 0.0_wp
             end do
-            convolution%field(:, ny + 1:) = 0.0_wp
+            call fftw_execute_dft_r2c(convolution%plans(1), convolution%field, &
+                                      convolution%source(:, :, s))
+            convolution%source(:, ny + 1:, s) = (0.0_wp, 0.0_wp)
         end associate
-        call fftw_execute_dft_r2c(convolution%forward, convolution%field, &
-                                  convolution%source(:, :, s))
+        room = c_loc(convolution%source(1, 1, s))
+        call fftw_execute_dft(convolution%plans(3), room, room)
     end subroutine transform_source
 
     !> The sum of convolutions of transformed sources, `sum factors(i) kernels(i) * sources(i)`.
@@ -269,22 +309,59 @@ contains
 
         integer :: i, j
 
-        associate (spectrum => convolution%spectrum, nx => convolution%nx, ny => convolution%ny)
-            do j = 1, convolution%my
-                spectrum(:, j) = factors(1)*(convolution%kernel(:, j, kernels(1)) &
-                                             *convolution%source(:, j, sources(1)))
-                do i = 2, size(kernels)
-                    spectrum(:, j) = spectrum(:, j) &
-                                     + factors(i)*(convolution%kernel(:, j, kernels(i)) &
-                                                   *convolution%source(:, j, sources(i)))
-                end do
-            end do
-            call fftw_execute_dft_c2r(convolution%backward, spectrum, convolution%field)
-            do j = 1, ny
-                result(:nx, j) = convolution%field(:nx, j)
-            end do
-        end associate
+        do i = 1, size(kernels)
+            call multiply(convolution%kernel(:, :, kernels(i)), &
+                          convolution%is_imaginary(kernels(i)), &
+                          convolution%source(:, :, sources(i)), factors(i), i == 1, &
+                          convolution%spectrum)
+        end do
+        call fftw_execute_dft(convolution%plans(4), convolution%spectrum_room, &
+                              convolution%spectrum_room)
+        call fftw_execute_dft_c2r(convolution%plans(2), convolution%spectrum, convolution%field)
+        do j = 1, convolution%ny
+            result(:convolution%nx, j) = convolution%field(:convolution%nx, j)
+        end do
     end subroutine collect
+
+    !> Put or add the product of a kernel, a source and a factor.
+    pure subroutine multiply(kernel, is_imaginary, source, factor, is_first, spectrum)
+        real(wp), intent(in), contiguous :: kernel(:, :)
+        logical, intent(in) :: is_imaginary, is_first
+        complex(wp), intent(in), contiguous :: source(:, :)
+        real(wp), intent(in) :: factor
+        complex(wp), intent(inout), contiguous :: spectrum(:, :)
+
+        integer :: i, j
+
+        do j = 1, size(kernel, 2)
+            if (is_first) then
+                if (is_imaginary) then
+                    !$omp simd
+                    do i = 1, size(kernel, 1)
+                        spectrum(i, j) = cmplx(-factor*kernel(i, j)*aimag(source(i, j)), &
+                                               factor*kernel(i, j)*real(source(i, j), wp), wp)
+                    end do
+                else
+                    !$omp simd
+                    do i = 1, size(kernel, 1)
+                        spectrum(i, j) = (factor*kernel(i, j))*source(i, j)
+                    end do
+                end if
+            else if (is_imaginary) then
+                !$omp simd
+                do i = 1, size(kernel, 1)
+                    spectrum(i, j) = spectrum(i, j) &
+                                     + cmplx(-factor*kernel(i, j)*aimag(source(i, j)), &
+                                             factor*kernel(i, j)*real(source(i, j), wp), wp)
+                end do
+            else
+                !$omp simd
+                do i = 1, size(kernel, 1)
+                    spectrum(i, j) = spectrum(i, j) + (factor*kernel(i, j))*source(i, j)
+                end do
+            end if
+        end do
+    end subroutine multiply
 
     !> The convolution of one source with one kernel; overwrites transformed source 1.
     subroutine convolve(convolution, k, source, result)
