@@ -45,7 +45,8 @@ module faststrip_normal_variational
     integer, parameter :: norm_most_elements = 4000000
 
     integer, parameter :: max_placings = 12       ! of the grid, for one spacing
-    real(wp), parameter :: enlargement = 1.3_wp   ! of the half-length, when columns are missing
+    ! Of the half-length, when columns are missing, at first and in the end.
+    real(wp), parameter :: enlargement = 1.3_wp, late_enlargement = 2.0_wp
     integer, parameter :: max_levels = 12         ! of spacing, for a target
     integer, parameter :: first_elements = 6      ! across the shorter half of the first level
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
@@ -360,7 +361,8 @@ contains
                                    extent, is_missing)
             if (.not. columns_suffice(workspace%grid)) then
                 is_missing = .true.
-                extent%half_length = enlargement*max(extent%half_length, dx)
+                extent%half_length = max(extent%half_length, dx) &
+                                     *merge(enlargement, late_enlargement, placing <= 3)
             end if
             if (.not. is_missing) exit
             call keep(workspace)

@@ -28,6 +28,8 @@ module faststrip_normal_variational_solver
     !> Numbers of the kernels in the convolution's workspace.
     integer, parameter :: kernel_influence = 1, kernel_inverse = 2
 
+    real(wp), parameter :: least_work = 0.1_wp ! of a direction, over that of the residual's
+
     !> Room for one grid.
     type :: minimiser_t
         real(wp), allocatable, dimension(:, :) :: s      !! start and solution, mm
@@ -115,6 +117,8 @@ contains
             first = .false.
             slope_old = slope
             call turn(task%by_load .and. changed, beta, minimiser)
+            ! Exact conjugate directions have this product; elements that came and went spoil it.
+            if (work_along(minimiser) < least_work*slope) minimiser%v = minimiser%z
             call convolve(convolution, kernel_influence, minimiser%v, minimiser%av)
             found%convolutions = found%convolutions + 1
             call step_length(minimiser, step)
@@ -310,6 +314,21 @@ contains
         if (without_mean) call keep_inside(.true., minimiser%inside, minimiser%v)
     end subroutine turn
 
+    !> v.r
+    pure real(wp) function work_along(minimiser) result(work)
+        type(minimiser_t), intent(in) :: minimiser
+
+        integer :: i, j
+
+        work = 0.0_wp
+        do j = 1, size(minimiser%v, 2)
+            !$omp simd reduction(+:work)
+            do i = 1, size(minimiser%v, 1)
+                work = work + minimiser%v(i, j)*minimiser%r(i, j)
+            end do
+        end do
+    end function work_along
+
     !> How far to the least energy along the direction; not positive at the end of the arithmetic.
     pure subroutine step_length(minimiser, step)
         type(minimiser_t), intent(in) :: minimiser
@@ -318,12 +337,11 @@ contains
         real(wp) :: work, energy
         integer :: i, j
 
-        work = 0.0_wp
+        work = work_along(minimiser)
         energy = 0.0_wp
         do j = 1, size(minimiser%v, 2)
-            !$omp simd reduction(+:work, energy)
+            !$omp simd reduction(+:energy)
             do i = 1, size(minimiser%v, 1)
-                work = work + minimiser%v(i, j)*minimiser%r(i, j)
                 energy = energy + minimiser%v(i, j)*minimiser%av(i, j)
             end do
         end do
