@@ -165,7 +165,7 @@ contains
         type(kalker_coefficients_t) :: c
         type(patch_law_t) :: law
         real(wp) :: g, ab, force, along, across, turning, spin_share, saturation, exponent, alpha
-        real(wp) :: fading, bound(points), t
+        real(wp) :: fading, bound(most_points), t
         integer :: i
 
         ellipse = patch_ellipse(strips, first, last)
@@ -209,11 +209,11 @@ contains
             t = real(points - 2*i + 1, wp)/points
             bound(i) = (1.0_wp - t*t)**exponent*(1.0_wp - alpha*t)
         end do
-        bound = bound*(0.25_wp*pi*points/sum(bound))
+        bound(:points) = bound(:points)*(0.25_wp*pi*points/sum(bound(:points)))
 
         do i = first, last
             call march(law, strips%half_length(i), strips%p0(i), strips%y_left(i), &
-                       strips%y_right(i), mu, creepage, bound, result, stuck, covered, field)
+                       strips%y_right(i), mu, creepage, bound(:points), result, stuck, covered, field)
         end do
     end subroutine solve_patch
 

@@ -1,0 +1,281 @@
+/* A host that looks after its floating-point environment, memory, files, locale and stack.
+ * `host WHAT` prints one line per finding; the test reads them. */
+#define _GNU_SOURCE
+#include "contacts.h"
+
+#include <fcntl.h>
+#include <fenv.h>
+#include <locale.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#ifdef COUNTING
+/* Stand in for the C library's functions, in the program and in all libraries it loads. */
+extern void *__libc_malloc(size_t);
+extern void *__libc_calloc(size_t, size_t);
+extern void *__libc_realloc(void *, size_t);
+extern void *__libc_memalign(size_t, size_t);
+static long allocations, file_calls;
+void *malloc(size_t n) { allocations++; return __libc_malloc(n); }
+void *calloc(size_t n, size_t m) { allocations++; return __libc_calloc(n, m); }
+void *realloc(void *p, size_t n) { allocations++; return __libc_realloc(p, n); }
+void *aligned_alloc(size_t a, size_t n) { allocations++; return __libc_memalign(a, n); }
+int posix_memalign(void **p, size_t a, size_t n)
+{ allocations++; *p = __libc_memalign(a, n); return *p ? 0 : 12; }
+ssize_t write(int file, const void *from, size_t n)
+{ file_calls++; return syscall(SYS_write, file, from, n); }
+ssize_t read(int file, void *to, size_t n)
+{ file_calls++; return syscall(SYS_read, file, to, n); }
+int open(const char *name, int flags, ...)
+{
+    va_list rest;
+    int mode;
+
+    va_start(rest, flags);
+    mode = va_arg(rest, int);
+    va_end(rest);
+    file_calls++;
+    return (int)syscall(SYS_openat, AT_FDCWD, name, flags, mode);
+}
+int open64(const char *name, int flags, ...) __attribute__((alias("open")));
+#endif
+
+static const double hostile[] = {NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, 1e-320, 1e-300, 1e300,
+                                 1.7e308, 5e-324};
+enum { HOSTILE = sizeof hostile / sizeof hostile[0], EXAMPLES = 40 };
+
+/* Made before anything is watched: making them is arithmetic of the host's own. */
+static example examples[EXAMPLES];
+
+/* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
+static long every_call(faststrip_workspace *workspace)
+{
+    double *field[10], forces[3], figures[4], c[4], array[4][400];
+    int integers[400];
+    char text[FASTSTRIP_TEXT];
+    faststrip_result result;
+    long failures = 0;
+    int number, i, k, n;
+
+    for (number = 0; number < EXAMPLES; number++) {
+        example e = examples[number];
+        double *all[10] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
+                           &e.contact.nu_rail, &e.contact.mu, &e.contact.load,
+                           &e.contact.penetration, &e.contact.cksi, &e.contact.ceta,
+                           &e.contact.cphi};
+        memcpy(field, all, sizeof all);
+        e.contact.with_elements = number % 2;
+        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r) >= 100;
+        failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
+        faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
+        for (i = 0; i < 10; i++) {
+            double kept = *field[i];
+            k = (number + i) % HOSTILE;
+            *field[i] = hostile[k];
+            failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
+            faststrip_last_message(workspace, text, sizeof text);
+            *field[i] = kept;
+        }
+        e.h[number] = hostile[number % HOSTILE];
+        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r) >= 100;
+        failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
+    }
+    for (i = 0; i < HOSTILE; i++) {
+        const double x = hostile[i];
+        failures += faststrip_fastsim(x, 5.0, 8e4, 4.0, 4.0, 1.5, 1e-3, 0.0, 0.0, 0.3, 1e5, 9, 9,
+                                      forces) >= 100;
+        failures += faststrip_fastsim(6.0, 5.0, x, x, 4.0, 1.5, x, x, 0.0, 0.3, 1e5, 9, 9,
+                                      forces) >= 100;
+        failures += faststrip_fastsim(6.0, 5.0, 8e4, 4.0, 4.0, 1.5, 1e-3, 0.0, x, x, x, 9, 9,
+                                      forces) >= 100;
+        failures += faststrip_hertz(2e5, 2e5, 0.3, 0.3, x, 1e-3, 1e5, figures) >= 100;
+        failures += faststrip_hertz(x, 2e5, x, 0.3, 1e-3, 1e-3, x, figures) >= 100;
+        failures += faststrip_kalker(x, 0.3, c) >= 100;
+        failures += faststrip_kalker(1.0, x, c) >= 100;
+    }
+    return failures;
+}
+
+/* Flags, traps and rounding before and after, with the host trapping all that is serious. */
+static void arithmetic(void)
+{
+    static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    faststrip_workspace *workspace = make_workspace();
+    const int serious = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+    volatile double big = 1e300;
+    int i;
+
+    for (i = 0; i < 4; i++) {
+        feclearexcept(FE_ALL_EXCEPT);
+        fesetround(roundings[i]);
+        feenableexcept(serious);
+        printf("failures %ld\n", every_call(workspace));
+        printf("traps %d\n", fegetexcept() == serious);
+        fedisableexcept(FE_ALL_EXCEPT);
+        printf("rounding %d\n", fegetround() == roundings[i]);
+        fesetround(FE_TONEAREST);
+    }
+    feclearexcept(FE_ALL_EXCEPT);
+    every_call(workspace);
+    printf("raised %d\n", fetestexcept(FE_ALL_EXCEPT));
+    big *= big;
+    every_call(workspace);
+    printf("kept %d\n", fetestexcept(FE_ALL_EXCEPT) == (FE_OVERFLOW | FE_INEXACT));
+    faststrip_free(&workspace);
+}
+
+/* The locale, in the whole program and in the thread. */
+static void locale_kept(void)
+{
+    faststrip_workspace *workspace = make_workspace();
+    locale_t own = newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0);
+    char *before;
+
+    setlocale(LC_ALL, "C.UTF-8");
+    before = strdup(setlocale(LC_ALL, NULL));
+    every_call(workspace);
+    printf("program %d\n", strcmp(before, setlocale(LC_ALL, NULL)) == 0);
+    uselocale(own);
+    every_call(workspace);
+    printf("thread %d\n", own != (locale_t)0 && uselocale((locale_t)0) == own);
+    uselocale(LC_GLOBAL_LOCALE);
+    freelocale(own);
+    free(before);
+    faststrip_free(&workspace);
+}
+
+#ifdef COUNTING
+/* Allocations while solving, files touched by anything. */
+static void quiet(void)
+{
+    faststrip_workspace *workspace = make_workspace();
+    char line[100];
+    long before, solving = 0, solved = 0, files, failures;
+    int i, n, status;
+
+    /* The linear algebra library sets itself up in its first call. */
+    for (i = 0; i < 10; i++) solve_example(workspace, (uint64_t)i, &status);
+    for (i = 0; i < 500; i++) {
+        before = allocations;
+        solve_example(workspace, (uint64_t)i, &status);
+        if (status >= FASTSTRIP_FIRST_ERROR) continue;
+        solving += allocations - before;
+        solved++;
+    }
+    before = file_calls;
+    failures = every_call(workspace);
+    faststrip_free(&workspace);
+    workspace = make_workspace();
+    files = file_calls - before;
+    faststrip_free(&workspace);
+    before = allocations + file_calls;
+    free(malloc(1000));
+    n = snprintf(line, sizeof line, "solved %ld\nsolving %ld\nfiles %ld\nfailures %ld\n", solved,
+                 solving, files, failures);
+    if (write(1, line, (size_t)n) != n) exit(2);
+    n = snprintf(line, sizeof line, "counts %ld\n", allocations + file_calls - before);
+    if (write(1, line, (size_t)n) != n) exit(2);
+}
+#endif
+
+/* How much of a painted stack is touched. */
+enum { STACK = 4 * 1024 * 1024 };
+static unsigned char stack[STACK] __attribute__((aligned(4096)));
+static faststrip_workspace *stack_workspace;
+
+static void *on_stack(void *argument)
+{
+    int status, i;
+
+    if (argument == NULL) return NULL;
+    every_call(stack_workspace);
+    for (i = 0; i < 2000; i++) solve_example(stack_workspace, (uint64_t)i, &status);
+    return NULL;
+}
+
+static long touched(void *argument)
+{
+    pthread_attr_t attributes;
+    pthread_t thread;
+    long i;
+
+    memset(stack, 0xa5, STACK);
+    pthread_attr_init(&attributes);
+    pthread_attr_setstack(&attributes, stack, STACK);
+    pthread_create(&thread, &attributes, on_stack, argument);
+    pthread_join(thread, NULL);
+    for (i = 0; i < STACK; i++)
+        if (stack[i] != 0xa5) break;
+    return STACK - i;
+}
+
+static void stack_use(void)
+{
+    long empty;
+
+    stack_workspace = make_workspace();
+    empty = touched(NULL);
+    printf("stack %ld\n", touched(&stack_workspace) - empty);
+    faststrip_free(&stack_workspace);
+}
+
+/* Workspaces of all sizes while memory runs out: an answer every time. */
+static void little_memory(void)
+{
+    faststrip_case contact;
+    faststrip_workspace *workspace;
+    struct rlimit limit;
+    int status, strips, made = 0, refused = 0;
+
+    solve_example(workspace = make_workspace(), 1, &status);
+    faststrip_free(&workspace);
+    getrlimit(RLIMIT_AS, &limit);
+    limit.rlim_cur = 400u * 1024u * 1024u;
+    setrlimit(RLIMIT_AS, &limit);
+    faststrip_default_case(&contact, sizeof contact);
+    for (strips = 3; strips <= 1000; strips += 61) {
+        contact.strips_per_patch = strips;
+        contact.with_elements = strips % 2;
+        contact.fastsim_nx = contact.fastsim_ny = 10 * strips;
+        if (faststrip_new(&contact, 1000 * strips, &workspace) == 0) made++;
+        else refused++;
+        faststrip_free(&workspace);
+    }
+    printf("made %d\nrefused %d\n", made, refused);
+}
+
+static void memory(void)
+{
+    faststrip_workspace *workspace = make_workspace(), *other = make_workspace();
+    int status;
+
+    printf("failures %ld\n", every_call(workspace));
+    printf("copy %d\n", faststrip_copy(workspace, other));
+    solve_example(other, 3, &status);
+    faststrip_free(&workspace);
+    faststrip_free(&other);
+}
+
+int main(int argc, char **argv)
+{
+    const char *what = argc > 1 ? argv[1] : "";
+    int i;
+
+    for (i = 0; i < EXAMPLES; i++) make_example((uint64_t)i, &examples[i]);
+
+    if (strcmp(what, "arithmetic") == 0) arithmetic();
+    else if (strcmp(what, "locale") == 0) locale_kept();
+    else if (strcmp(what, "stack") == 0) stack_use();
+    else if (strcmp(what, "little_memory") == 0) little_memory();
+    else if (strcmp(what, "memory") == 0) memory();
+#ifdef COUNTING
+    else if (strcmp(what, "quiet") == 0) quiet();
+#endif
+    else return 2;
+    return 0;
+}

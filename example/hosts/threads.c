@@ -1,0 +1,67 @@
+/* The same contacts by one thread, by threads of POSIX and by a host's OpenMP team: the same bits. */
+#include "contacts.h"
+
+#include <omp.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { THREADS = 8 };
+
+static int contacts;
+static uint64_t *found;
+
+static void *work(void *argument)
+{
+    faststrip_workspace *workspace = make_workspace();
+    int first = (int)(intptr_t)argument, status, i;
+
+    if (workspace == NULL) return NULL;
+    for (i = first; i < contacts; i += THREADS) found[i] = solve_example(workspace, (uint64_t)i, &status);
+    faststrip_free(&workspace);
+    return NULL;
+}
+
+static int compare(const uint64_t *serial, const char *what)
+{
+    int i, different = 0;
+
+    for (i = 0; i < contacts; i++) different += serial[i] != found[i];
+    printf("%s %d\n", what, different);
+    memset(found, 0, (size_t)contacts * sizeof *found);
+    return different;
+}
+
+int main(int argc, char **argv)
+{
+    faststrip_workspace *workspace = make_workspace();
+    uint64_t *serial;
+    pthread_t thread[THREADS];
+    int i, status, solved = 0;
+
+    contacts = argc > 1 ? atoi(argv[1]) : 10000;
+    serial = calloc((size_t)contacts, sizeof *serial);
+    found = calloc((size_t)contacts, sizeof *found);
+    if (workspace == NULL || serial == NULL || found == NULL) return 2;
+    for (i = 0; i < contacts; i++) {
+        serial[i] = solve_example(workspace, (uint64_t)i, &status);
+        solved += status < FASTSTRIP_FIRST_ERROR;
+    }
+    printf("solved %d\n", solved);
+    for (i = 0; i < THREADS; i++) pthread_create(&thread[i], NULL, work, (void *)(intptr_t)i);
+    for (i = 0; i < THREADS; i++) pthread_join(thread[i], NULL);
+    compare(serial, "pthreads");
+#pragma omp parallel num_threads(THREADS)
+    {
+        faststrip_workspace *own = make_workspace();
+        int own_status, k;
+#pragma omp for schedule(dynamic, 7)
+        for (k = contacts - 1; k >= 0; k--) found[k] = solve_example(own, (uint64_t)k, &own_status);
+        faststrip_free(&own);
+    }
+    compare(serial, "openmp");
+    faststrip_free(&workspace);
+    free(serial);
+    free(found);
+    return 0;
+}
