@@ -261,7 +261,8 @@ def _force_errors(sweep, reference, name, mu):
 def _legend_in_rows(figure, axes, most=4):
     """A legend above all panels, in as many rows as a narrow figure needs."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=min(most, len(handles)),
+    columns = len(handles) if len(handles) <= most else most - 1
+    figure.legend(handles, labels, loc="outside upper center", ncols=columns,
                   handlelength=2.8, columnspacing=1.6)
 
 

@@ -228,6 +228,16 @@ def _normal(data):
                                            data.mu))
         for key, method in methods.items() for name in names
     }
+    strip = methods.get("strip")
+    shape = np.array([math.nan]) if strip is None else (
+        (strip.values["ymax_mm"] - strip.values["ymin_mm"]) / (2.0 * strip.values["xmax_mm"]))
+    shape = shape[np.isfinite(shape)]
+    yield judged(
+        "N0", "1", "Contact areas are slim across the rolling direction", "our strips, Table 2",
+        "median of width over length", np.median(shape) if shape.size else math.nan, "",
+        Limits(0.5, 1.0),
+        f"from {_short(shape.min())} to {_short(shape.max())}" if shape.size else "", "sweep A",
+    )
     for number, name, words in zip((1, 2, 3), names, ("shift (approach)", "area", "largest"
                                                       " pressure")):
         own = errors.get(("strip", name), np.array([]))
@@ -236,7 +246,7 @@ def _normal(data):
             " close to NORM's", style.normal_look("strip").label,
             "largest error over the 20 contacts", own.max() if own.size else math.nan, "%",
             Limits(2.0, 5.0), f"mean {_short(own.mean())} %" if own.size else "",
-            "sweep, CONTACT set A",
+            "sweep A, CONTACT set A",
         )
     if "strip" in methods and "hertz" in methods:
         nearer, count = 0, 0
@@ -256,7 +266,7 @@ def _normal(data):
     yield judged(
         "N4", "Figs 17-20", "Strips are nearer to NORM than Hertz is",
         "shift, area and largest pressure of each contact", "share in which strips are nearer",
-        share, "%", Limits(100.0, 75.0, least=True), detail, "sweep, CONTACT set A",
+        share, "%", Limits(100.0, 75.0, least=True), detail, "sweep A, CONTACT set A",
     )
 
 
