@@ -8,7 +8,7 @@
 !> surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
 !>
-!> Many strips are reached in two levels: 15 find the patches, the asked number refines them. A gap
+!> Many strips are reached by levels: 7 find the patches, 15 and more refine them. A gap
 !> whose ends do not settle gets the answer of `faststrip_normal_lattice`.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -21,14 +21,16 @@ module faststrip_normal_strip
     use faststrip_profile_gap_curve, only: gap_curve_t
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_strips, only: contact_strips_t, strips_load
+    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
+    use faststrip_normal_strip_coupled, only: settle_coupled
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
                                               cut_leaving_strips, free_ends, &
                                               drop_slivers
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, place_strips, remember
-    use faststrip_normal_strip_start, only: goal_t, start_patches, resume_patches
+    use faststrip_normal_strip_start, only: start_patches, resume_patches
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps, overlap_left
     implicit none
     private
@@ -40,15 +42,22 @@ module faststrip_normal_strip
     !> As many strips as the largest pressure and the penetration need to settle, 15 to 41.
     integer, parameter :: strips_auto = 0
 
-    integer, parameter :: first_level = 15   ! strips that find the patches
-    integer, parameter :: most_at_once = 20  ! more strips than these are reached in two levels
+    integer, parameter :: scout_strips = 7   ! strips that find the patches
+    integer, parameter :: fewest_scouted = 10 ! fewer strips find the patches themselves
+    integer, parameter :: first_level = 15   ! strips that refine them
+    integer, parameter :: most_at_once = 20  ! more strips than these are reached by further levels,
+    integer, parameter :: level_factor = 3   ! each with at most so many times the strips
+    integer, parameter :: most_levels = 9
+    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp ! of the scouting strips
     integer, parameter :: auto_levels(3) = [15, 27, 41]
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
 
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
     integer, parameter :: max_passes = 40    ! in one level
+    integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
+    real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
     ! Newton's tolerance while the ends still move by more than the loose tolerance, and by more
     ! than the other: what is left then is far below what the ends' moves change.
@@ -75,7 +84,8 @@ module faststrip_normal_strip
         real(wp) :: x_max = 0.0_wp       !! largest half-length along x, mm
         integer :: n_patches = 0         !! number of contact patches
         integer :: passes = 0            !! how often the ends were moved
-        integer :: iterations = 0        !! Newton iterations, all passes
+        integer :: iterations = 0        !! steps of all passes
+        integer :: factorings = 0        !! those of them for which a Jacobian was factored
     end type normal_result_t
 
 contains
@@ -156,49 +166,50 @@ contains
         type(patches_t) :: patches
         type(normal_result_t) :: coarser
         real(wp) :: penetration
-        integer :: level, levels(3), n_levels, n_settled
-        logical :: warm, settled
+        integer :: level, levels(most_levels), n_levels, first_counted, n_settled
+        logical :: near, scratch, settled
 
-        n_levels = 1
-        levels = options%strips_per_patch
-        if (options%strips_per_patch == strips_auto) then
-            n_levels = 3
-            levels = auto_levels
-        else if (options%strips_per_patch > most_at_once) then
-            n_levels = 2
-            levels(1) = first_level
-        end if
-        warm = options%warm_start .and. workspace%old%n > 0
-        if (warm) then
+        call plan_levels(options%strips_per_patch, levels, n_levels, first_counted)
+        near = options%warm_start .and. workspace%old%n > 0
+        scratch = .not. near
+        level = 1
+        if (near) then
             call resume_patches(workspace, goal, patches, penetration)
-        else
-            call start_patches(workspace%curve, compliance, goal, patches, penetration)
-            workspace%old%n = 0
+            level = merge(first_counted, n_levels, options%strips_per_patch == strips_auto)
         end if
         n_settled = 0
-        level = 1
         do while (level <= n_levels)
+            if (scratch) then
+                call start_patches(workspace%curve, compliance, goal, patches, penetration)
+                workspace%old%n = 0
+            end if
             coarser = result
             call free_ends(patches)
-            call settle(workspace, compliance, goal, options%tolerance, levels(level), warm, &
-                        patches, penetration, strips, result, settled)
-            if (.not. settled) then
-                if (.not. warm) exit
-                warm = .false.
-                workspace%old%n = 0
-                call start_patches(workspace%curve, compliance, goal, patches, penetration)
-                cycle
+            call settle(workspace, compliance, goal, &
+                        merge(options%tolerance, max(options%tolerance, coarse_tolerance), &
+                              level >= first_counted), &
+                        levels(level), near, patches, penetration, strips, result, settled)
+            if (settled) then
+                if (level >= first_counted) n_settled = level
+                near = .true.
+                scratch = .false.
+                level = level + 1
+                if (options%strips_per_patch /= strips_auto .or. level <= first_counted + 1) cycle
+                if (abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
+                    abs(result%penetration - coarser%penetration) &
+                    <= auto_penetration*result%penetration) exit
+            else if (scratch) then
+                if (level >= first_counted) exit
+                level = level + 1
+            else
+                if (levels(level) > most_at_once) exit
+                near = .false.
+                scratch = .true.
             end if
-            n_settled = level
-            level = level + 1
-            if (options%strips_per_patch /= strips_auto .or. n_settled == 1) cycle
-            if (abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
-                abs(result%penetration - coarser%penetration) &
-                <= auto_penetration*result%penetration) exit
         end do
         if (n_settled == 0) then
             workspace%old%n = 0
-            call fall_back(workspace, compliance, goal, min(maxval(levels), most_fallback_strips), &
+            call fall_back(workspace, compliance, goal, min(maxval(levels(:n_levels)), most_fallback_strips), &
                            strips, result, status)
             return
         end if
@@ -215,6 +226,41 @@ contains
                             //'more than 1 % of the penetration: a rough gap, smooth it first')
         end if
     end subroutine solve
+
+    !> By which numbers of strips the asked one is reached.
+    pure subroutine plan_levels(strips_per_patch, levels, n_levels, first_counted)
+        integer, intent(in) :: strips_per_patch
+        integer, intent(out) :: levels(:), n_levels
+        integer, intent(out) :: first_counted ! the first whose solution may be the answer
+
+        levels = 0
+        first_counted = 2
+        if (strips_per_patch == strips_auto) then
+            n_levels = 1 + size(auto_levels)
+            levels(1) = scout_strips
+            levels(2:n_levels) = auto_levels
+            return
+        end if
+        n_levels = 1
+        levels(1) = strips_per_patch
+        if (strips_per_patch < fewest_scouted) then
+            first_counted = 1
+            return
+        end if
+        levels(1) = scout_strips
+        do
+            n_levels = n_levels + 1
+            levels(n_levels) = strips_per_patch
+            if (strips_per_patch <= most_at_once .or. n_levels == most_levels) exit
+            levels(n_levels) = first_level
+            if (n_levels > 2) levels(n_levels) = level_factor*levels(n_levels - 1)
+            if (levels(n_levels)*level_factor >= strips_per_patch) then
+                n_levels = n_levels + 1
+                levels(n_levels) = strips_per_patch
+                exit
+            end if
+        end do
+    end subroutine plan_levels
 
     !> The answer of a fixed lattice, for a gap whose ends did not settle.
     subroutine fall_back(workspace, compliance, goal, strips_per_patch, strips, result, status)
@@ -243,13 +289,13 @@ contains
     end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.
-    subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, warm, patches, &
+    subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, near, patches, &
                       penetration, strips, result, settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, tolerance
         type(goal_t), intent(in) :: goal
         integer, intent(in) :: strips_per_patch
-        logical, intent(in) :: warm
+        logical, intent(in) :: near ! do the strips start near a solution?
         type(patches_t), intent(inout) :: patches
         real(wp), intent(inout) :: penetration
         type(contact_strips_t), intent(inout) :: strips
@@ -257,13 +303,15 @@ contains
         logical, intent(out) :: settled
 
         real(wp) :: trial, move, best_move, pass_tolerance, narrowest
-        integer :: pass, outcome, n, splits
-        logical :: changed, at_rest
+        integer :: pass, outcome, n, splits, couplings, before
+        logical :: changed, at_rest, coupled
+        type(patches_t) :: solved
 
         settled = .false.
         best_move = huge(1.0_wp)
         splits = 0
-        pass_tolerance = merge(near_tolerance, far_tolerance, warm)
+        couplings = 0
+        pass_tolerance = merge(near_tolerance, far_tolerance, near)
         at_rest = .false.
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call share_strips(strips_per_patch, patches)
@@ -273,15 +321,27 @@ contains
             call place_strips(workspace, patches, n)
             if (n > min(workspace%max_strips, size(strips%p0))) exit
             trial = penetration
-            pass_tolerance = max(pass_tolerance, tolerance)
-            call solve_strips( &
-                workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
-                workspace%inv2r(:n), compliance, goal%by_load, goal%load, pass_tolerance, &
-                workspace%p0(:n), workspace%half_length(:n), trial, workspace%leaves(:n), &
-                result%iterations, outcome, workspace%newton)
-            result%passes = result%passes + 1
-            select case (outcome)
-            case (newton_converged)
+            solved = patches
+            coupled = near .and. pass == 1
+            if (.not. coupled) then
+                pass_tolerance = max(pass_tolerance, tolerance)
+                before = result%iterations
+                call solve_strips( &
+                    workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
+                    workspace%inv2r(:n), compliance, goal, pass_tolerance, &
+                    workspace%p0(:n), workspace%half_length(:n), trial, workspace%leaves(:n), &
+                    result%iterations, outcome, workspace%newton)
+                result%factorings = result%factorings + result%iterations - before
+                result%passes = result%passes + 1
+                if (outcome == newton_strips_leave) then
+                    call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
+                                            workspace%leaves(:n), patches, splits)
+                    if (patches%n == 0) exit
+                    call share_strips(strips_per_patch, patches)
+                    cycle
+                else if (outcome /= newton_converged) then
+                    exit
+                end if
                 penetration = trial
                 call remember(workspace, patches)
                 call move_ends(workspace, pass, patches, move)
@@ -307,14 +367,28 @@ contains
                 end if
                 ! The last passes count, whatever they reach.
                 if (at_rest .or. pass >= max_passes/2) pass_tolerance = tolerance
-            case (newton_strips_leave)
-                call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
-                                        workspace%leaves(:n), patches, splits)
-                if (patches%n == 0) exit
+                coupled = move < coupling_move .and. couplings < max_couplings
+            end if
+            if (.not. coupled) cycle
+            couplings = couplings + 1
+            call settle_coupled(workspace, compliance, goal, tolerance, solved, trial, &
+                                result%factorings, result%iterations, coupled)
+            if (.not. coupled) cycle
+            patches = solved
+            penetration = trial
+            call remember(workspace, patches)
+            call close_overlaps(workspace, compliance, penetration, splits < max_splits, &
+                                patches, changed)
+            if (changed) then
+                at_rest = .false.
+                pass_tolerance = far_tolerance
                 call share_strips(strips_per_patch, patches)
-            case default
-                exit
-            end select
+                cycle
+            end if
+            best_move = 0.0_wp
+            call hand_over(workspace, patches, n, strips)
+            call summarize(strips, penetration + workspace%curve%h_lowest, result)
+            exit
         end do
         settled = best_move <= loose_end_tolerance
     end subroutine settle

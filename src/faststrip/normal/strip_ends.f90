@@ -10,7 +10,7 @@ module faststrip_normal_strip_ends
     implicit none
     private
 
-    public :: move_ends, close_overlaps, overlap_left
+    public :: move_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
 
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
@@ -43,7 +43,7 @@ contains
             first = last + 1
             last = last + patches%at(p)%n_strips
             associate (patch => patches%at(p))
-                stride = max(1, patch%n_strips/fine_patch)
+                stride = end_stride(patch%n_strips)
                 width = end_width(workspace, first, stride)
                 step = factor*end_step(workspace, first, 1, stride)*width
                 step = min(step, patch%y_from - y_low)
@@ -76,10 +76,18 @@ contains
         pushes = min(pushes + 1, 20)
     end subroutine hold_back
 
+    !> How many strips apart the three strips are from which an end is carried on.
+    pure integer function end_stride(n_strips)
+        integer, intent(in) :: n_strips !! of the patch
+
+        end_stride = max(1, n_strips/fine_patch)
+    end function end_stride
+
     !> The measure of an end's moves, mm: the width of the end strip, of several in a fine patch.
     pure real(wp) function end_width(workspace, k, stride) result(width)
         type(strip_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: k, stride
+        integer, intent(in) :: k      !! the end strip
+        integer, intent(in) :: stride !! of `end_stride`
 
         width = stride*(workspace%y_right(k) - workspace%y_left(k))
     end function end_width
@@ -87,9 +95,9 @@ contains
     !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
     pure real(wp) function end_step(workspace, k, inward, stride) result(step)
         type(strip_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: k      ! the end strip
-        integer, intent(in) :: inward ! 1 at a left end, -1 at a right end
-        integer, intent(in) :: stride ! strips from one of the three strips to the next
+        integer, intent(in) :: k      !! the end strip
+        integer, intent(in) :: inward !! 1 at a left end, -1 at a right end
+        integer, intent(in) :: stride !! strips from one of the three strips to the next
 
         real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
         real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s

@@ -4,19 +4,13 @@ module faststrip_normal_strip_start
     use faststrip_status, only: status_t, is_error
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
     implicit none
     private
 
-    public :: goal_t, start_patches, resume_patches
-
-    !> What is prescribed: the load, or the penetration.
-    type :: goal_t
-        logical :: by_load = .true.
-        real(wp) :: load = 0.0_wp        !! N
-        real(wp) :: penetration = 0.0_wp !! above the lowest height, mm
-    end type goal_t
+    public :: start_patches, resume_patches
 
 contains
 

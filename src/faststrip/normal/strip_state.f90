@@ -11,7 +11,7 @@ module faststrip_normal_strip_state
     private
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
-    public :: place_strips, remember, flattest
+    public :: place_edges, place_strips, remember, flattest
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     real(wp), parameter :: flattest = 1.0e-9_wp
@@ -84,11 +84,12 @@ contains
         type(patches_t), intent(in) :: patches
         integer, intent(out) :: n ! number of strips; beyond the room there is, nothing is placed
 
-        real(wp) :: middle, half, y, eta, h, a, ratio
+        real(wp) :: middle, half, y, eta, ratio
         integer :: p, k, i, q
 
         n = sum(patches%at(:patches%n)%n_strips)
         if (n > workspace%max_strips) return
+        call place_edges(workspace, patches)
         i = 0
         do p = 1, patches%n
             middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
@@ -96,18 +97,7 @@ contains
             q = only_match(workspace%old, patches, p)
             do k = 1, patches%at(p)%n_strips
                 i = i + 1
-                if (k == 1) then
-                    workspace%y_left(i) = patches%at(p)%y_from
-                else
-                    workspace%y_left(i) = workspace%y_right(i - 1)
-                end if
-                workspace%y_right(i) = middle &
-                                       + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
-                if (k == patches%at(p)%n_strips) workspace%y_right(i) = patches%at(p)%y_to
                 y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
-                call gap_at(workspace%curve, y, h, a)
-                workspace%height(i) = h - workspace%curve%h_lowest
-                workspace%inv2r(i) = max(a, flattest)
                 eta = (y - middle)/half
                 if (patches%at(p)%seed_length > 0.0_wp) then
                     ratio = sqrt(1.0_wp - eta**2)
@@ -127,6 +117,36 @@ contains
             end do
         end do
     end subroutine place_strips
+
+    !> Cut the patches into strips: their edges, and the gap on their centre lines.
+    pure subroutine place_edges(workspace, patches)
+        type(strip_workspace_t), intent(inout) :: workspace !! with room enough
+        type(patches_t), intent(in) :: patches
+
+        real(wp) :: middle, half, h, a
+        integer :: p, k, i
+
+        i = 0
+        do p = 1, patches%n
+            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+            do k = 1, patches%at(p)%n_strips
+                i = i + 1
+                if (k == 1) then
+                    workspace%y_left(i) = patches%at(p)%y_from
+                else
+                    workspace%y_left(i) = workspace%y_right(i - 1)
+                end if
+                workspace%y_right(i) = middle &
+                                       + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
+                if (k == patches%at(p)%n_strips) workspace%y_right(i) = patches%at(p)%y_to
+                call gap_at(workspace%curve, 0.5_wp*(workspace%y_left(i) + workspace%y_right(i)), &
+                            h, a)
+                workspace%height(i) = h - workspace%curve%h_lowest
+                workspace%inv2r(i) = max(a, flattest)
+            end do
+        end do
+    end subroutine place_edges
 
     !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
     pure real(wp) function graded(t)

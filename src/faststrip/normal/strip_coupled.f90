@@ -1,0 +1,341 @@
+!> Strips and patch ends solved together, from nearby.
+!>
+!> The ends of the patches join the unknowns of `faststrip_normal_strip_equations`, each moving
+!> outwards in units of its end strip's width, and their equations are those of
+!> `faststrip_normal_strip_ends`: the squared strip length, carried on, vanishes at the end. The
+!> Jacobian is analytic for given edges; the columns of the ends are differences of residuals. It
+!> is factored once and serves, with Broyden's updates (C. T. Kelley, Iterative Methods for Linear
+!> and Nonlinear Equations, SIAM 1995, chapter 7), until steps shrink too slowly. In scaled unknowns
+!> it hardly changes from one load to the next: a warm start takes over the last one.
+!>
+!> Which strips there are stays fixed: where strips leave or steps do not shrink, the caller goes
+!> back to passes that alternate between strips and ends.
+module faststrip_normal_strip_coupled
+    use faststrip_kinds, only: wp, pi
+    use faststrip_numerics_lu, only: lu_factor, lu_solve
+    use faststrip_normal_strip_equations, only: goal_t, strip_residual, strip_jacobian, &
+                                                mark_leaving_strips
+    use faststrip_normal_strip_patches, only: patches_t, max_patches
+    use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
+    use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
+    use faststrip_normal_strip_state, only: strip_workspace_t, place_edges
+    implicit none
+    private
+
+    public :: settle_coupled
+
+    integer, parameter :: max_iterations = 30
+    integer, parameter :: max_factorings = 6
+    real(wp), parameter :: slow = 0.5_wp       ! steps that shrink less ask for a new Jacobian
+    real(wp), parameter :: far = 0.5_wp        ! so does a first step this large with an old one
+    real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &
+                           max_end_step = 1.0_wp
+    real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
+    real(wp), parameter :: length_difference = 1.0e-6_wp
+
+    !> An end of a patch.
+    type :: end_t
+        integer :: patch = 0, strip = 0
+        integer :: inward = 1 ! 1 at a left end, -1 at a right end
+        integer :: stride = 1
+        logical :: fixed = .false. ! at the end of the gap's points
+    end type end_t
+
+contains
+
+    !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
+    !> nothing of patches, penetration and the workspace's strips counts.
+    pure subroutine settle_coupled(workspace, compliance, goal, tolerance, patches, penetration, &
+                                   factorings, iterations, settled)
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips placed and started
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(goal_t), intent(in) :: goal             !! load or penetration
+        real(wp), intent(in) :: tolerance            !! relative size of what is left
+        type(patches_t), intent(inout) :: patches    !! their ends move
+        real(wp), intent(inout) :: penetration       !! above the lowest height, mm
+        integer, intent(inout) :: factorings         !! increased by the Jacobians factored
+        integer, intent(inout) :: iterations         !! increased by the steps taken
+        logical, intent(out) :: settled              !! converged
+
+        type(end_t) :: ends(2*max_patches)
+        integer :: n, m, n_ends, trial, updates, factored, j
+        real(wp) :: size_now, size_before, ratio, scale, norm2(most_updates), p_scale
+        logical :: singular, exact
+
+        settled = .false.
+        n = sum(patches%at(:patches%n)%n_strips)
+        call list_ends(workspace, patches, ends, n_ends)
+        m = 2*n + 1 + n_ends
+        updates = 0
+        factored = 0
+        size_before = 0.0_wp
+        call check_kept(workspace%newton, goal, patches, ends(:n_ends))
+        do trial = 1, max_iterations
+            p_scale = maxval(workspace%p0(:n))
+            exact = .not. workspace%newton%kept
+            if (exact) then
+                if (factored == max_factorings) return
+                factored = factored + 1
+                factorings = factorings + 1
+                iterations = iterations + 1
+                call factor(workspace, compliance, goal, patches, ends(:n_ends), n, penetration, &
+                            p_scale, singular)
+                if (singular) return
+                workspace%newton%kept = .true.
+                updates = 0
+            else
+                iterations = iterations + 1
+                call residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
+                              workspace%newton%step)
+            end if
+            associate (step => workspace%newton%step, history => workspace%newton%history)
+                call lu_solve(m, workspace%newton%jacobian, workspace%newton%pivot, step)
+                do j = 1, updates - 1
+                    step(:m) = step(:m) + history(:m, j + 1) &
+                               *(dot_product(history(:m, j), step(:m))/norm2(j))
+                end do
+                if (updates > 0) then
+                    scale = 1.0_wp - dot_product(history(:m, updates), step(:m))/norm2(updates)
+                    if (scale < 0.3_wp) then
+                        workspace%newton%kept = .false.
+                        cycle
+                    end if
+                    step(:m) = step(:m)/scale
+                end if
+                size_now = maxval(abs(step(:m)))
+                if (.not. size_now < huge(1.0_wp)) return
+                ratio = slow
+                if (updates > 0) then
+                    ratio = size_now/size_before
+                    if (ratio > slow) then
+                        workspace%newton%kept = .false.
+                        cycle
+                    end if
+                else if (.not. exact .and. size_now > far) then
+                    workspace%newton%kept = .false.
+                    cycle
+                end if
+                scale = min(1.0_wp, limit_of(step(n + 1:2*n), max_log_length_step), &
+                            limit_of(step(2*n + 1:2*n + 1), max_penetration_step), &
+                            limit_of(step(2*n + 2:m), max_end_step))
+                workspace%p0(:n) = workspace%p0(:n) + scale*p_scale*step(:n)
+                workspace%half_length(:n) = workspace%half_length(:n)*exp(scale*step(n + 1:2*n))
+                penetration = penetration*(1.0_wp + scale*step(2*n + 1))
+                call move(workspace, ends(:n_ends), scale, step(2*n + 2:m), patches)
+                if (.not. in_order(workspace, patches)) return
+                call place_edges(workspace, patches)
+                call mark_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
+                                         workspace%p0(:n), workspace%half_length(:n), &
+                                         workspace%leaves(:n))
+                if (any(workspace%leaves(:n))) return
+                if (scale < 1.0_wp .or. updates == most_updates) then
+                    workspace%newton%kept = .false.
+                else
+                    ! What is left is about the next step.
+                    if (size_now*min(ratio, slow)/(1.0_wp - slow) <= tolerance) then
+                        settled = .true.
+                        exit
+                    end if
+                    updates = updates + 1
+                    history(:m, updates) = step(:m)
+                    norm2(updates) = sum(step(:m)**2)
+                    if (.not. norm2(updates) > tiny(1.0_wp)) then
+                        settled = .true.
+                        exit
+                    end if
+                end if
+                size_before = size_now
+            end associate
+        end do
+        if (.not. settled) return
+        ! The load to the last digit.
+        if (goal%by_load) workspace%p0(:n) = workspace%p0(:n)*goal%load &
+            /sum(0.5_wp*pi*workspace%p0(:n)*workspace%half_length(:n) &
+                 *(workspace%y_right(:n) - workspace%y_left(:n)))
+    end subroutine settle_coupled
+
+    !> The factor that keeps steps within a limit.
+    pure real(wp) function limit_of(step, largest)
+        real(wp), intent(in) :: step(:), largest
+
+        limit_of = largest/max(largest, maxval(abs(step)))
+    end function limit_of
+
+    !> The ends of all patches, left and right in turn.
+    pure subroutine list_ends(workspace, patches, ends, n_ends)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(patches_t), intent(in) :: patches
+        type(end_t), intent(inout) :: ends(:)
+        integer, intent(out) :: n_ends
+
+        integer :: p, last
+
+        last = 0
+        do p = 1, patches%n
+            ends(2*p - 1) = end_t(p, last + 1, 1, end_stride(patches%at(p)%n_strips))
+            last = last + patches%at(p)%n_strips
+            ends(2*p) = end_t(p, last, -1, end_stride(patches%at(p)%n_strips))
+            ends(2*p - 1)%fixed = patches%at(p)%y_from <= workspace%curve%y(1)
+            ends(2*p)%fixed = patches%at(p)%y_to >= workspace%curve%y(workspace%curve%n)
+        end do
+        n_ends = 2*patches%n
+        do p = 1, n_ends
+            if (ends(p)%fixed) ends(p)%fixed = &
+                end_step(workspace, ends(p)%strip, ends(p)%inward, ends(p)%stride) >= 0.0_wp
+        end do
+    end subroutine list_ends
+
+    !> Keep the last factors only if they are of a system of the same kind.
+    pure subroutine check_kept(newton, goal, patches, ends)
+        type(newton_workspace_t), intent(inout) :: newton
+        type(goal_t), intent(in) :: goal
+        type(patches_t), intent(in) :: patches
+        type(end_t), intent(in) :: ends(:)
+
+        integer :: n
+
+        n = patches%n
+        if (newton%kept) newton%kept = newton%by_load .eqv. goal%by_load
+        if (newton%kept) newton%kept = newton%n_patches == n
+        if (newton%kept) newton%kept = all(newton%n_strips(:n) == patches%at(:n)%n_strips) &
+                                       .and. all(newton%fixed(:2*n) .eqv. ends%fixed)
+        newton%by_load = goal%by_load
+        newton%n_patches = n
+        newton%n_strips(:n) = patches%at(:n)%n_strips
+        newton%fixed(:2*n) = ends%fixed
+    end subroutine check_kept
+
+    !> Residual of all equations for the strips where they are.
+    pure subroutine residual(workspace, compliance, goal, ends, n, penetration, missing)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(goal_t), intent(in) :: goal
+        type(end_t), intent(in) :: ends(:)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: penetration
+        real(wp), intent(inout) :: missing(:)
+
+        integer :: e
+
+        call strip_residual(workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
+                            workspace%inv2r(:n), compliance, goal, workspace%p0(:n), &
+                            workspace%half_length(:n), penetration, missing, &
+                            workspace%newton%y, workspace%newton%influence)
+        do e = 1, size(ends)
+            missing(2*n + 1 + e) = wanted(workspace, ends(e))
+        end do
+    end subroutine residual
+
+    !> How far an end should move outwards.
+    pure real(wp) function wanted(workspace, one_end)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(end_t), intent(in) :: one_end
+
+        wanted = 0.0_wp
+        if (.not. one_end%fixed) &
+            wanted = end_step(workspace, one_end%strip, one_end%inward, one_end%stride)
+    end function wanted
+
+    !> Residual, into `step`, and the factored Jacobian.
+    pure subroutine factor(workspace, compliance, goal, patches, ends, n, penetration, p_scale, &
+                           singular)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(goal_t), intent(in) :: goal
+        type(patches_t), intent(in) :: patches
+        type(end_t), intent(in) :: ends(:)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: penetration, p_scale
+        logical, intent(out) :: singular
+
+        type(patches_t) :: moved
+        integer :: e, j, k, m
+        real(wp) :: kept_length, away
+
+        m = 2*n + 1 + size(ends)
+        associate (jacobian => workspace%newton%jacobian, missing => workspace%newton%step, &
+                   other => workspace%newton%history(:, 1))
+            call strip_jacobian(workspace%y_left(:n), workspace%y_right(:n), &
+                                workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
+                                workspace%p0(:n), workspace%half_length(:n), penetration, &
+                                p_scale, jacobian, missing, workspace%newton%y, &
+                                workspace%newton%influence)
+            jacobian(2*n + 2:m, :m) = 0.0_wp
+            do e = 1, size(ends)
+                missing(2*n + 1 + e) = wanted(workspace, ends(e))
+                jacobian(:m, 2*n + 1 + e) = 0.0_wp
+                if (ends(e)%fixed) then
+                    jacobian(2*n + 1 + e, 2*n + 1 + e) = 1.0_wp
+                    cycle
+                end if
+                do j = 0, 2
+                    k = ends(e)%strip + j*ends(e)%stride*ends(e)%inward
+                    kept_length = workspace%half_length(k)
+                    workspace%half_length(k) = kept_length*(1.0_wp + length_difference)
+                    jacobian(2*n + 1 + e, n + k) = &
+                        (missing(2*n + 1 + e) - wanted(workspace, ends(e)))/length_difference
+                    workspace%half_length(k) = kept_length
+                end do
+            end do
+            do e = 1, size(ends)
+                if (ends(e)%fixed) cycle
+                moved = patches
+                ! Inwards, where the gap has points.
+                away = difference*end_width(workspace, ends(e)%strip, ends(e)%stride)
+                if (ends(e)%inward == 1) then
+                    moved%at(ends(e)%patch)%y_from = moved%at(ends(e)%patch)%y_from + away
+                else
+                    moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
+                end if
+                call place_edges(workspace, moved)
+                call strip_residual(workspace%y_left(:n), workspace%y_right(:n), &
+                                    workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
+                                    workspace%p0(:n), workspace%half_length(:n), penetration, &
+                                    other, workspace%newton%y, workspace%newton%influence)
+                jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - missing(:2*n + 1))/difference
+                call place_edges(workspace, patches)
+            end do
+            call lu_factor(m, jacobian, workspace%newton%pivot, singular)
+        end associate
+    end subroutine factor
+
+    !> Move the ends by steps in units of their widths, not beyond the gap's points.
+    pure subroutine move(workspace, ends, scale, step, patches)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(end_t), intent(in) :: ends(:)
+        real(wp), intent(in) :: scale, step(:)
+        type(patches_t), intent(inout) :: patches
+
+        integer :: e
+        real(wp) :: outwards
+
+        do e = 1, size(ends)
+            if (ends(e)%fixed) cycle
+            outwards = scale*step(e)*end_width(workspace, ends(e)%strip, ends(e)%stride)
+            associate (patch => patches%at(ends(e)%patch))
+                if (ends(e)%inward == 1) then
+                    patch%y_from = patch%y_from - outwards
+                else
+                    patch%y_to = patch%y_to + outwards
+                end if
+            end associate
+        end do
+    end subroutine move
+
+    !> Are the patches apart, of some width and within the gap's points, as they have to be?
+    pure logical function in_order(workspace, patches)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(patches_t), intent(in) :: patches
+
+        integer :: p
+
+        in_order = patches%at(1)%y_from >= workspace%curve%y(1) &
+                   .and. patches%at(patches%n)%y_to <= workspace%curve%y(workspace%curve%n)
+        do p = 1, patches%n
+            in_order = in_order .and. patches%at(p)%y_to > patches%at(p)%y_from
+        end do
+        do p = 2, patches%n
+            in_order = in_order .and. patches%at(p)%y_from > patches%at(p - 1)%y_to
+        end do
+    end function in_order
+end module faststrip_normal_strip_coupled

@@ -1,0 +1,168 @@
+!> The equations of strips with given lateral edges: residuals and Jacobian.
+!>
+!> Unknowns are the centre pressures p0_k, the half-lengths xd_k (as logarithms) and the
+!> penetration D. The paper gives the influence numbers (eqs. (2)-(4)) and no algorithm; the
+!> closure used is: the gap is closed on the centre line of every strip and at its exact tip,
+!>
+!>     H sum_s p0_s I_ks(0)    = D - h_k
+!>     H sum_s p0_s I_ks(xd_k) = D - h_k - A_k xd_k^2,       sum_k (pi/2) p0_k xd_k w_k = Q
+!>
+!> Deviations from the paper:
+!> 1. Source and field strip are exchanged in (6), (9), (17), (18), (20): the integral runs over
+!>    the strip that carries the pressure.
+!> 2. The displacement at the tip is the exact integral, not the quotient (22)-(24).
+module faststrip_normal_strip_equations
+    use faststrip_kinds, only: wp, pi
+    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    implicit none
+    private
+
+    public :: goal_t, strip_residual, strip_jacobian, mark_leaving_strips
+
+    !> A strip this much shorter than its longer neighbour is on its way out of the contact;
+    !> its pressure can stay positive while its length tends to zero.
+    real(wp), parameter :: leaving_length_ratio = 0.15_wp
+
+    !> What is prescribed: the load, or the penetration.
+    type :: goal_t
+        logical :: by_load = .true.
+        real(wp) :: load = 0.0_wp        !! N
+        real(wp) :: penetration = 0.0_wp !! above the lowest height, mm
+    end type goal_t
+
+contains
+
+    !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
+    !> tips, load (or zero).
+    pure subroutine strip_residual(y_left, y_right, height, inv2r, compliance, goal, p0, &
+                                   half_length, penetration, missing, y, influence)
+        real(wp), intent(in) :: y_left(:)      !! left edges, (n), mm
+        real(wp), intent(in) :: y_right(:)     !! right edges, (n), mm
+        real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
+        real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
+        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
+        type(goal_t), intent(in) :: goal       !! load or penetration
+        real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
+        real(wp), intent(in) :: half_length(:) !! xd, (n), mm
+        real(wp), intent(in) :: penetration    !! D above the lowest height, mm
+        real(wp), intent(inout) :: missing(:)  !! (2n + 1)
+        real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 1)
+
+        integer :: n, s
+        real(wp) :: scale
+
+        n = size(p0)
+        call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
+                            missing, y)
+        scale = compliance/penetration
+        do s = 1, n
+            call center_influence_column(half_length(s), y_left(s), y_right(s), y(:n), &
+                                         influence(:n, 1))
+            missing(:n) = missing(:n) - scale*p0(s)*influence(:n, 1)
+            call tip_influence_column(half_length(s), y_left(s), y_right(s), half_length, y(:n), &
+                                      influence(:n, 1))
+            missing(n + 1:2*n) = missing(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
+        end do
+    end subroutine strip_residual
+
+    !> The same, and the Jacobian of its negative in p0/p_scale, ln xd, ln D.
+    pure subroutine strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
+                                   half_length, penetration, p_scale, jacobian, missing, y, &
+                                   influence)
+        real(wp), intent(in) :: y_left(:), y_right(:) !! edges, (n), mm
+        real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
+        real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
+        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
+        type(goal_t), intent(in) :: goal       !! load or penetration
+        real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
+        real(wp), intent(in) :: half_length(:) !! xd, (n), mm
+        real(wp), intent(in) :: penetration    !! D above the lowest height, mm
+        real(wp), intent(in) :: p_scale        !! unit of the pressures' changes, MPa
+        real(wp), intent(inout) :: jacobian(:, :) !! first 2n + 1 rows and columns
+        real(wp), intent(inout) :: missing(:)  !! (2n + 1)
+        real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 3)
+
+        integer :: n, k, s
+        real(wp) :: scale, strip_force, tip
+
+        n = size(p0)
+        call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
+                            missing, y)
+        scale = compliance/penetration
+        do k = 1, n
+            jacobian(n + k, n + k) = 2.0_wp*inv2r(k)*half_length(k)**2/penetration
+        end do
+        jacobian(:2*n, 2*n + 1) = -1.0_wp
+        do s = 1, n
+            call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y(:n), &
+                                                  influence(:n, 1), influence(:n, 3))
+            do k = 1, n
+                missing(k) = missing(k) - scale*p0(s)*influence(k, 1)
+                jacobian(k, s) = scale*p_scale*influence(k, 1)
+                jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+            end do
+            call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
+                                               half_length, y(:n), influence(:n, 1), &
+                                               influence(:n, 2), influence(:n, 3))
+            tip = jacobian(n + s, n + s)
+            do k = 1, n
+                missing(n + k) = missing(n + k) - scale*p0(s)*influence(k, 1)
+                jacobian(n + k, s) = scale*p_scale*influence(k, 1)
+                jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+            end do
+            jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
+            ! The tip of the field strip moves with its own length, under every source.
+            do k = 1, n
+                jacobian(n + k, n + k) = jacobian(n + k, n + k) &
+                                         + scale*p0(s)*half_length(k)*influence(k, 2)
+            end do
+        end do
+        if (.not. goal%by_load) then
+            jacobian(2*n + 1, :2*n) = 0.0_wp
+            jacobian(2*n + 1, 2*n + 1) = 1.0_wp
+            return
+        end if
+        jacobian(2*n + 1, 2*n + 1) = 0.0_wp
+        do s = 1, n
+            strip_force = 0.5_wp*pi*half_length(s)*(y_right(s) - y_left(s))/goal%load
+            jacobian(2*n + 1, s) = strip_force*p_scale
+            jacobian(2*n + 1, n + s) = strip_force*p0(s)
+        end do
+    end subroutine strip_jacobian
+
+    !> What is missing before the displacements are subtracted, and the load's equation whole.
+    pure subroutine start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, &
+                                   penetration, missing, y)
+        real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:)
+        type(goal_t), intent(in) :: goal
+        real(wp), intent(in) :: p0(:), half_length(:), penetration
+        real(wp), intent(inout) :: missing(:), y(:)
+
+        integer :: n
+
+        n = size(p0)
+        y(:n) = 0.5_wp*(y_left + y_right)
+        missing(:n) = (penetration - height)/penetration
+        missing(n + 1:2*n) = missing(:n) - inv2r*half_length**2/penetration
+        missing(2*n + 1) = 0.0_wp
+        if (goal%by_load) missing(2*n + 1) = &
+            1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/goal%load
+    end subroutine start_residual
+
+    !> Mark strips without pressure and strips that have become too short beside a neighbour.
+    pure subroutine mark_leaving_strips(y_left, y_right, p0, half_length, leaves)
+        real(wp), intent(in) :: y_left(:), y_right(:) !! edges, (n), mm
+        real(wp), intent(in) :: p0(:), half_length(:) !! pressures, MPa, and lengths, mm, (n)
+        logical, intent(out) :: leaves(:)             !! strips that leave the contact, (n)
+
+        integer :: k
+
+        leaves = p0 <= 0.0_wp
+        do k = 1, size(p0) - 1
+            if (y_right(k) < y_left(k + 1)) cycle ! two patches
+            if (half_length(k) < leaving_length_ratio*half_length(k + 1)) leaves(k) = .true.
+            if (half_length(k + 1) < leaving_length_ratio*half_length(k)) leaves(k + 1) = .true.
+        end do
+    end subroutine mark_leaving_strips
+end module faststrip_normal_strip_equations
