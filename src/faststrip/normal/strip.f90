@@ -56,6 +56,8 @@ module faststrip_normal_strip
     integer, parameter :: max_passes = 40    ! in one level
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
+    integer, parameter :: max_splits_near = 1  ! more: the start was not that near
+    integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
@@ -337,6 +339,7 @@ contains
                     call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
                                             workspace%leaves(:n), patches, splits)
                     if (patches%n == 0) exit
+                    if (splits > merge(max_splits_near, max_splits_at_all, near)) exit
                     call share_strips(strips_per_patch, patches)
                     cycle
                 else if (outcome /= newton_converged) then

@@ -188,18 +188,31 @@ contains
         real(wp), intent(in) :: eta_old, eta
 
         integer :: first, last, k
-        real(wp) :: t, ellipse
+        real(wp) :: ellipse
 
         first = 1 + sum(workspace%old%at(:q - 1)%n_strips)
         last = first + workspace%old%at(q)%n_strips - 1
-        do k = first, last - 2
-            if (workspace%old_eta(k + 1) >= eta_old) exit
+        ! The strip with the one nearest the place in the middle.
+        do k = first, last - 3
+            if (workspace%old_eta(k + 1) + workspace%old_eta(k + 2) >= 2.0_wp*eta_old) exit
         end do
-        t = (eta_old - workspace%old_eta(k))/(workspace%old_eta(k + 1) - workspace%old_eta(k))
-        t = max(0.0_wp, min(1.0_wp, t))
         ellipse = sqrt(1.0_wp - eta**2)
-        workspace%p0(i) = ellipse*((1.0_wp - t)*workspace%old_p0(k) + t*workspace%old_p0(k + 1))
-        workspace%half_length(i) = ellipse*((1.0_wp - t)*workspace%old_half_length(k) &
-                                            + t*workspace%old_half_length(k + 1))
+        workspace%p0(i) = ellipse*between(workspace%old_eta(k:k + 2), workspace%old_p0(k:k + 2), &
+                                          eta_old)
+        workspace%half_length(i) = ellipse*between(workspace%old_eta(k:k + 2), &
+                                                   workspace%old_half_length(k:k + 2), eta_old)
     end subroutine start_from_old
+
+    !> The parabola through three points, not beyond them by more than they differ.
+    pure real(wp) function between(x, y, at)
+        real(wp), intent(in) :: x(3), y(3), at
+
+        real(wp) :: slope, bend, low, high
+
+        slope = (y(2) - y(1))/(x(2) - x(1))
+        bend = ((y(3) - y(2))/(x(3) - x(2)) - slope)/(x(3) - x(1))
+        low = minval(y)
+        high = maxval(y)
+        between = max(low*low/high, min(high*high/low, y(1) + (at - x(1))*(slope + (at - x(2))*bend)))
+    end function between
 end module faststrip_normal_strip_state
