@@ -184,8 +184,7 @@ contains
         do while (found < n_random)
             number = number + 1
             call make_fuzz_case(seed, number, random)
-            if (random%refused .or. size(random%gap%y) < 100 &
-                .or. size(random%gap%y) > most_random_points &
+            if (size(random%gap%y) < 100 .or. size(random%gap%y) > most_random_points &
                 .or. all(families /= family_names(random%family))) cycle
             call progress('random gaps', found, n_random)
             call try_contact(study, trim(family_names(random%family)) // '_' &

@@ -4,8 +4,8 @@ module faststrip_app_fuzz
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, status_word, st_ok, st_edge_of_data, &
-                                st_bad_argument
+    use faststrip_status, only: status_t, is_error, status_word, st_fallback_used, &
+                                st_overlap_left, st_no_finite_patch
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, end_row, &
                              close_csv
@@ -171,10 +171,9 @@ contains
         call system_clock(after)
         verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
         if (exception_raised()) verdict%violation = 'floating exception'
-        if (fuzz_case%refused) then
-            if (verdict%status%code /= st_bad_argument) verdict%violation = 'not refused'
-        else if (is_error(verdict%status)) then
+        if (is_error(verdict%status)) then
             if (verdict%status%message == '') verdict%violation = 'no message'
+            if (verdict%status%code /= st_no_finite_patch) verdict%violation = 'no answer'
         else
             call judge(fuzz_case, room%curve, room%strips, verdict)
         end if
@@ -254,8 +253,9 @@ contains
         if (abs(verdict%load_error) > load_tolerance) verdict%violation = 'wrong load'
         call set_gap_curve(curve, fuzz_case%gap, status)
         call scan_for_overlap(curve, strips, verdict)
-        ! Other limitations say so themselves.
-        if (verdict%overlap > overlap_tolerance .and. any(verdict%status%code == [st_ok, st_edge_of_data])) &
+        ! Two limitations say so themselves.
+        if (verdict%overlap > overlap_tolerance &
+            .and. all(verdict%status%code /= [st_fallback_used, st_overlap_left])) &
             verdict%violation = 'overlap outside'
     end subroutine judge
 

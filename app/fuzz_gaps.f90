@@ -36,7 +36,6 @@ module faststrip_app_fuzz_gaps
         integer :: family = 0      !! index of `family_names`
         integer :: strips = 0      !! strips across the largest patch
         real(wp) :: load = 0.0_wp  !! N
-        logical :: refused = .false. !! a negative 1/(2R): the gap has to be refused
         type(gap_t) :: gap         !! mm, mm, 1/mm
     end type fuzz_case_t
 
@@ -113,7 +112,6 @@ contains
             offset_h = h_unit*uniform(random, -3.0_wp, 3.0_wp)
         end if
         call fill_gap(random, shape, a0, y_unit, h_unit, offset_y, offset_h, noisy, fuzz_case%gap)
-        fuzz_case%refused = any(fuzz_case%gap%inv2r < 0.0_wp)
     end subroutine make_fuzz_case
 
     !> Heights and curvatures at the points, which hold t so far.

@@ -13,9 +13,10 @@ module faststrip_status
     public :: message_length, first_error
     public :: st_ok
     public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
+    public :: st_flat_along_x, st_conformal
     public :: st_bad_argument, st_not_finite, st_not_increasing, st_too_few_points, st_bad_material
     public :: st_bad_load, st_no_contact, st_no_hertz_ellipse, st_no_convergence, st_out_of_range
-    public :: st_workspace_too_small, st_linear_algebra, st_quadrature
+    public :: st_workspace_too_small, st_linear_algebra, st_quadrature, st_no_finite_patch
     public :: st_file_missing, st_file_format, st_file_write
 
     !> Length of a status message, characters.
@@ -28,6 +29,8 @@ module faststrip_status
     integer, parameter :: st_edge_of_data = 2
     integer, parameter :: st_fewer_strips = 3
     integer, parameter :: st_overlap_left = 4
+    integer, parameter :: st_flat_along_x = 5
+    integer, parameter :: st_conformal = 6
 
     !> The lowest code that means "no result".
     integer, parameter :: first_error = 100
@@ -44,6 +47,7 @@ module faststrip_status
     integer, parameter :: st_workspace_too_small = 110
     integer, parameter :: st_linear_algebra = 111
     integer, parameter :: st_quadrature = 112
+    integer, parameter :: st_no_finite_patch = 113
     integer, parameter :: st_file_missing = 120
     integer, parameter :: st_file_format = 121
     integer, parameter :: st_file_write = 122
@@ -91,6 +95,8 @@ contains
         case (st_edge_of_data); word = 'edge_of_data'
         case (st_fewer_strips); word = 'fewer_strips'
         case (st_overlap_left); word = 'overlap_left'
+        case (st_flat_along_x); word = 'flat_along_x'
+        case (st_conformal); word = 'conformal'
         case (st_bad_argument); word = 'bad_argument'
         case (st_not_finite); word = 'not_finite'
         case (st_not_increasing); word = 'not_increasing'
@@ -104,6 +110,7 @@ contains
         case (st_workspace_too_small); word = 'workspace_too_small'
         case (st_linear_algebra); word = 'linear_algebra'
         case (st_quadrature); word = 'quadrature'
+        case (st_no_finite_patch); word = 'no_finite_patch'
         case (st_file_missing); word = 'file_missing'
         case (st_file_format); word = 'file_format'
         case (st_file_write); word = 'file_write'

@@ -14,7 +14,7 @@ module faststrip_normal_equal_ellipse
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, st_bad_argument, &
                                 st_workspace_too_small
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, gap_curvature
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, put_hertz_strips
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
@@ -83,7 +83,7 @@ contains
 
         type(patch_ellipse_t) :: patch
         type(hertz_t) :: hertz
-        real(wp) :: y, h, inv2r, ratio
+        real(wp) :: y, ratio
 
         call clear_status(status)
         patch = patch_ellipse(strips, first, last)
@@ -95,9 +95,9 @@ contains
         ellipse%area = pi*patch%a*patch%b
         if (choice == equal_area) then
             y = lowest_point(curve, strips%y_left(first), strips%y_right(last))
-            call gap_at(curve, y, h, inv2r)
             ! The proportions depend on neither compliance nor load.
-            call hertz_solve(1.0_wp, inv2r, gap_curvature(curve, y), 1.0_wp, hertz, status)
+            call hertz_solve(1.0_wp, gap_inv2r(curve, y), gap_curvature(curve, y), 1.0_wp, &
+                             hertz, status)
             if (is_error(status)) return
             ratio = hertz%a/hertz%b
         end if

@@ -15,7 +15,7 @@ module faststrip_normal_hertz
                                 st_bad_argument, st_bad_load, st_bad_material, &
                                 st_no_contact, st_no_convergence, st_no_hertz_ellipse, &
                                 st_not_finite, st_out_of_range, st_workspace_too_small
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
@@ -172,7 +172,8 @@ contains
     end subroutine ellipse_integrals
 
     !> The Hertz contact of a gap: the ellipse of the curvatures where the gap is lowest, what
-    !> vehicle codes take at the rigid contact point. The penetration counts from there.
+    !> vehicle codes take at the rigid contact point. The penetration counts from there. Where one
+    !> of them is not positive there is no ellipse and no result; the strips need none.
     pure subroutine hertz_solve_gap(curve, compliance, load, hertz, status)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set, mm
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
@@ -180,15 +181,12 @@ contains
         type(hertz_t), intent(out) :: hertz    !! the contact; zero when there is an error
         type(status_t), intent(out) :: status  !! as `hertz_solve`; `st_workspace_too_small`
 
-        real(wp) :: h, inv2r
-
         if (curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set')
             return
         end if
-        call gap_at(curve, curve%y_lowest, h, inv2r)
-        call hertz_solve(compliance, inv2r, gap_curvature(curve, curve%y_lowest), load, hertz, &
-                         status)
+        call hertz_solve(compliance, gap_inv2r(curve, curve%y_lowest), &
+                         gap_curvature(curve, curve%y_lowest), load, hertz, status)
         hertz%y = curve%y_lowest
     end subroutine hertz_solve_gap
 

@@ -35,6 +35,7 @@ module faststrip_normal_lattice
                                        influence_column_gradient
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_normal_limitations, only: check_curvature
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     implicit none
     private
@@ -143,7 +144,7 @@ contains
         type(status_t), intent(out) :: status
             !! `st_not_finite`, `st_bad_load`, `st_bad_material`, `st_bad_argument` (n_strips),
             !! `st_workspace_too_small`, `st_out_of_range` (a contact beyond all proportion),
-            !! `st_linear_algebra`; `st_edge_of_data`: the contact runs to the end of the points
+            !! `st_linear_algebra`, `st_no_finite_patch`; `st_edge_of_data`: the contact runs to the end of the points
 
         real(wp) :: depth
 
@@ -211,6 +212,8 @@ contains
             call set_status(status, st_bad_argument, 'fewer than 3 strips per patch asked')
         else if (curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set')
+        else if (curve%least_inv2r <= 0.0_wp) then
+            call check_curvature(curve, status)
         else if (.not. allocated(strips%p0)) then
             call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
         else if (min(workspace%max_strips, size(strips%p0)) &

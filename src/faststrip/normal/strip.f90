@@ -15,11 +15,11 @@ module faststrip_normal_strip
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
-                                st_no_contact, st_edge_of_data, st_fewer_strips, &
+                                st_no_contact, st_fewer_strips, &
                                 st_fallback_used, st_overlap_left, &
                                 st_workspace_too_small
-    use faststrip_profile_gap_curve, only: gap_curve_t
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
+    use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
@@ -96,10 +96,12 @@ contains
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, room for too few strips), `st_out_of_range` and
-    !> `st_linear_algebra` (a contact beyond all proportion).
-    !> Named limitations: `st_edge_of_data`, the contact runs to the end of the gap's points;
-    !> `st_fallback_used`, the ends did not settle and `faststrip_normal_lattice` gave the answer;
-    !> `st_overlap_left`, a rough gap's valleys overlap beside the strips;
+    !> `st_linear_algebra` (a contact beyond all proportion), `st_no_finite_patch` (a contact
+    !> that is flat or hollow along x).
+    !> Named limitations: `st_fallback_used`, the ends did not settle and
+    !> `faststrip_normal_lattice` gave the answer; `st_overlap_left`, a rough gap's valleys
+    !> overlap beside the strips; `st_edge_of_data`, the contact runs to the end of the gap's
+    !> points; `st_flat_along_x` and `st_conformal`: see `faststrip_normal_limitations`;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -217,16 +219,13 @@ contains
         end if
         workspace%old_load = result%load
         workspace%old_penetration = penetration
-        if (reaches_edge(workspace%curve, result)) then
-            call set_status(status, st_edge_of_data, &
-                            'the contact runs to the end of the gap data')
-        else if (.not. settled) then
-            call set_status(status, st_fewer_strips, &
-                            'fewer strips than asked: more did not settle')
-        else if (overlap_left(workspace, compliance, penetration) > tolerated_overlap) then
-            call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
-                            //'more than 1 % of the penetration: a rough gap, smooth it first')
-        end if
+        if (overlap_left(workspace, compliance, penetration) > tolerated_overlap) &
+            call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
+                                //'by more than 1 % of the penetration: a rough gap, smooth it')
+        call name_limitations(workspace%curve, strips, status)
+        if (.not. settled .and. .not. is_error(status)) &
+            call add_limitation(status, st_fewer_strips, &
+                                'fewer strips than asked: more did not settle')
     end subroutine solve
 
     !> By which numbers of strips the asked one is reached.
@@ -288,6 +287,7 @@ contains
         call summarize(strips, penetration, result)
         call set_status(status, st_fallback_used, &
                         'the ends of the contact patches did not settle: fixed lattice used')
+        call name_limitations(workspace%curve, strips, status)
     end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.
@@ -423,6 +423,8 @@ contains
         else if (min(workspace%max_strips, size(strips%p0)) < options%strips_per_patch) then
             call set_status(status, st_workspace_too_small, &
                             'more strips per patch asked than there is room for')
+        else
+            call check_curvature(workspace%curve, status)
         end if
     end subroutine check_input
 
@@ -477,11 +479,4 @@ contains
         result%n_patches = strips%n_patches
     end subroutine summarize
 
-    !> Does the contact run to an end of the gap's points?
-    pure logical function reaches_edge(curve, result)
-        type(gap_curve_t), intent(in) :: curve
-        type(normal_result_t), intent(in) :: result
-
-        reaches_edge = result%y_min <= curve%y(1) .or. result%y_max >= curve%y(curve%n)
-    end function reaches_edge
 end module faststrip_normal_strip

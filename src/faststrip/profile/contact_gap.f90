@@ -43,7 +43,7 @@ contains
     !> `y' = (Y - Yc) cos(gamma) + (Z - Zc) sin(gamma)`; the gap is the distance of rail and
     !> wheel along the turned normal and `inv2r = 1/(2 R)`,
     !> `R = r cos(alpha - gamma)/cos(alpha)` with the local rolling radius r and slope angle
-    !> alpha of the wheel. Samples stand at the multiples of `step`, from the contact outwards as
+    !> alpha of the wheel; `turn` is the mean slope angle of the two less gamma. Samples stand at the multiples of `step`, from the contact outwards as
     !> far as the gap stays within `height` and both profiles go on, as functions of y'.
     subroutine make_gap(wheel, rail, wheelset, contact, step, height, gap, status)
         type(profile_t), intent(in) :: wheel          !! wheel profile
@@ -55,7 +55,7 @@ contains
         type(gap_t), intent(out) :: gap               !! mm, mm, 1/mm
         type(status_t), intent(out) :: status         !! `st_bad_argument`; `st_too_few_points`:
                                                       !! fewer than 5 samples within the height
-        real(wp), allocatable :: h(:), inv2r(:)
+        real(wp), allocatable :: h(:), inv2r(:), turn(:)
         real(wp) :: z_line, dz, d2z
         integer :: n_left, n_right, i, room
 
@@ -68,7 +68,7 @@ contains
         room = min(max_samples, &
                    ceiling(2.0_wp*min(wheel%y_last - wheel%y_first, &
                                       rail%y_last - rail%y_first, 1.0e6_wp)/step) + 1)
-        allocate (h(-room:room), inv2r(-room:room), source=0.0_wp)
+        allocate (h(-room:room), inv2r(-room:room), turn(-room:room), source=0.0_wp)
         call sample_side(-1, n_left)
         call sample_side(1, n_right)
         if (min(n_left, n_right) < 0) then
@@ -79,6 +79,7 @@ contains
         gap%y = [(real(i, wp)*step, i=-n_left, n_right)]
         gap%h = h(-n_left:n_right)
         gap%inv2r = inv2r(-n_left:n_right)
+        gap%turn = turn(-n_left:n_right)
         call check_gap(gap, status)
 
     contains
@@ -111,6 +112,7 @@ contains
                 n = j
                 h(side*j) = on_rail%n - on_wheel%n
                 inv2r(side*j) = 0.5_wp/radius
+                turn(side*j) = 0.5_wp*(atan(on_wheel%dz) + atan(on_rail%dz)) - contact%gamma
             end do
         end subroutine sample_side
     end subroutine make_gap

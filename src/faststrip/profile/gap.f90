@@ -19,18 +19,22 @@ module faststrip_profile_gap
         real(wp), allocatable :: y(:)     !! lateral coordinate, strictly increasing, mm
         real(wp), allocatable :: h(:)     !! gap on the line x = 0, mm
         real(wp), allocatable :: inv2r(:) !! 1/(2 R), R the local radius along x, 1/mm
+        real(wp), allocatable :: turn(:)  !! how far the surfaces have turned from the tangent
+                                          !! plane at y = 0, rad; not allocated: not known
     end type gap_t
 
 contains
 
     !> Refuse a gap no solver can work on: missing or unequal arrays, fewer than
-    !> `min_gap_points` points, numbers that are not finite, y that does not increase strictly,
-    !> a negative radius. The message names the index and the value. `h` may have any sign and
-    !> `inv2r` may be zero (a cylinder along x).
+    !> `min_gap_points` points, numbers that are not finite, y that does not increase strictly.
+    !> The message names the index and the value. `h` may have any sign, and `inv2r` too: what is
+    !> not positive matters only where the bodies touch, and the solvers say so there.
     pure subroutine check_gap(gap, status)
         type(gap_t), intent(in) :: gap        !! mm, mm, 1/mm
         type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
                                               !! `st_not_finite`, `st_not_increasing`
+
+        integer :: i
 
         call clear_status(status)
         if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
@@ -38,6 +42,17 @@ contains
             return
         end if
         call check_gap_points(gap%y, gap%h, gap%inv2r, status)
+        if (status%code /= 0 .or. .not. allocated(gap%turn)) return
+        if (size(gap%turn) /= size(gap%y)) then
+            call set_status(status, st_bad_argument, 'y and turn of the gap differ in ' // &
+                            'length: ' // count_text(size(gap%y)) // ', ' // &
+                            count_text(size(gap%turn)))
+            return
+        end if
+        do i = 1, size(gap%turn)
+            call check_finite('turn', i, gap%turn(i), status)
+            if (status%code /= 0) return
+        end do
     end subroutine check_gap
 
     !> The same for a gap in plain arrays.
@@ -78,12 +93,6 @@ contains
                 end if
             end if
             before = y(i)
-            if (inv2r(i) < 0.0_wp) then
-                call set_status(status, st_bad_argument, 'inv2r(' // count_text(i) // &
-                                ') of the gap is negative: ' // &
-                                trim(number_text(inv2r(i))))
-                return
-            end if
         end do
     end subroutine check_gap_points
 

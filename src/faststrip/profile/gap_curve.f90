@@ -16,6 +16,10 @@ module faststrip_profile_gap_curve
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
     public :: gap_at, gap_curvature, level_intervals
+    public :: gap_inv2r, largest_turn
+
+    !> The smallest longitudinal term in use, over the largest of the gap.
+    real(wp), parameter :: flattest_ratio = 1.0e-3_wp
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
@@ -26,6 +30,10 @@ module faststrip_profile_gap_curve
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope(:)      !! h' at the points
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
+        real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
+                                               !! positive nowhere
+        logical :: turn_is_known = .false.     !! does `turn` count?
+        real(wp), allocatable :: turn(:)       !! of the surfaces from the tangent plane, rad
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
         real(wp), allocatable :: work(:)       !! for the spline's linear system
     end type gap_curve_t
@@ -47,11 +55,11 @@ contains
         curve%n_pieces = 0
         if (allocated(curve%y)) then
             if (size(curve%y) >= max_points) return
-            deallocate (curve%y, curve%h, curve%slope, curve%inv2r, curve%y_node, curve%h_node, &
-                        curve%work)
+            deallocate (curve%y, curve%h, curve%slope, curve%inv2r, curve%turn, curve%y_node, &
+                        curve%h_node, curve%work)
         end if
         allocate (curve%y(max_points), curve%h(max_points), curve%slope(max_points), &
-                  curve%inv2r(max_points), curve%y_node(3*max_points), &
+                  curve%inv2r(max_points), curve%turn(max_points), curve%y_node(3*max_points), &
                   curve%h_node(3*max_points), curve%work(4*max_points), source=0.0_wp)
     end subroutine reserve_gap_curve
 
@@ -64,6 +72,9 @@ contains
         call check_gap(gap, status)
         if (is_error(status)) return
         call take_points(curve, gap%y, gap%h, gap%inv2r, status)
+        if (is_error(status)) return
+        curve%turn_is_known = allocated(gap%turn)
+        if (curve%turn_is_known) curve%turn(:curve%n) = gap%turn
     end subroutine set_gap_curve
 
     !> The same from plain arrays.
@@ -99,6 +110,8 @@ contains
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
+        curve%least_inv2r = flattest_ratio*max(maxval(inv2r), 0.0_wp)
+        curve%turn_is_known = .false.
         call spline_setup(curve%y(:n), curve%h(:n), spline_not_a_knot, curve%slope(:n), &
                           curve%work, status)
         if (is_error(status)) return
@@ -164,6 +177,10 @@ contains
     end subroutine unit_interval_roots
 
     !> Height and longitudinal term of the gap; outside the points those of the nearest one.
+    !>
+    !> A term below a thousandth of the gap's largest is raised to that: strips would become
+    !> longer than 30 times their neighbours, and endless where it is not positive. `gap_inv2r`
+    !> tells it as it was given.
     pure subroutine gap_at(curve, y, h, inv2r)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y              !! lateral position, mm
@@ -185,7 +202,37 @@ contains
             h = height(curve, i, t)
             inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
         end if
+        inv2r = max(inv2r, curve%least_inv2r)
     end subroutine gap_at
+
+    !> The longitudinal term as it was given, 1/mm; outside the points that of the nearest one.
+    pure real(wp) function gap_inv2r(curve, y) result(inv2r)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+
+        integer :: i
+        real(wp) :: t
+
+        i = interval_of(curve, y)
+        t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
+        t = max(0.0_wp, min(1.0_wp, t))
+        inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
+    end function gap_inv2r
+
+    !> By how much the surfaces turn between two places, rad; zero if that is not known.
+    pure real(wp) function largest_turn(curve, y_from, y_to) result(turn)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y_from         !! left place, mm
+        real(wp), intent(in) :: y_to           !! right place, mm
+
+        integer :: first, last
+
+        turn = 0.0_wp
+        if (.not. curve%turn_is_known) return
+        first = interval_of(curve, y_from)
+        last = interval_of(curve, y_to) + 1
+        turn = maxval(curve%turn(first:last)) - minval(curve%turn(first:last))
+    end function largest_turn
 
     !> Half the second derivative of the height, the B of a Hertzian gap `A x^2 + B y^2`, 1/mm.
     pure real(wp) function gap_curvature(curve, y) result(b)

@@ -3,7 +3,7 @@ module faststrip_profile_gap_file
     use faststrip_csv, only: csv_table_t, read_csv, require_column, cell_number, cell_text
     use faststrip_kinds, only: wp
     use faststrip_profile_gap, only: gap_t, min_gap_points
-    use faststrip_status, only: status_t, is_error, st_bad_argument, st_not_increasing, &
+    use faststrip_status, only: status_t, is_error, st_not_increasing, &
                                 st_too_few_points
     use faststrip_text, only: integer_text, set_place_status
     implicit none
@@ -22,8 +22,7 @@ contains
                                                !! error
         type(status_t), intent(out) :: status  !! `st_file_missing`; `st_file_format`: a column is
                                                !! missing or a cell holds no finite number;
-                                               !! `st_not_increasing`; `st_bad_argument`: a
-                                               !! negative radius; `st_too_few_points`
+                                               !! `st_not_increasing`; `st_too_few_points`
         type(csv_table_t) :: table
         integer :: y_column, h_column, inv2r_column, row
         real(wp), allocatable :: y(:), h(:), inv2r(:)
@@ -44,11 +43,6 @@ contains
             if (is_error(status)) return
             call cell_number(table, row, inv2r_column, inv2r(row), status)
             if (is_error(status)) return
-            if (inv2r(row) < 0.0_wp) then
-                call set_place_status(status, st_bad_argument, 'negative radius, inv2R_per_mm', &
-                                      cell_text(table, row, inv2r_column), path, table%line(row))
-                return
-            end if
             if (row == 1) cycle
             if (y(row) <= y(max(row - 1, 1))) then
                 call set_place_status(status, st_not_increasing, &

@@ -1,0 +1,114 @@
+!> What to hold against a normal solution: limitations that are named with it.
+!>
+!> The strips solve the half-space of a gap whose longitudinal term A = 1/(2R) is positive. Where
+!> the input is not like that the solution says so:
+!>
+!> - no finite patch: A is positive nowhere in the contact. Bodies that are cylinders along x, or
+!>   hollow, touch along all of it;
+!> - flat along x: A was below a thousandth of the gap's largest somewhere in the contact, or not
+!>   positive, and was raised to that. The patch there is as long as this makes it;
+!> - half-space doubtful: a slope of the gap above 0.2 across a strip or at its tip, or surfaces that turn by more
+!>   than 20 degrees over it. A half-space takes surfaces for planes and moves them along one
+!>   normal; the slope's square, 4 %, is what is left out. The gap does not tell by how much the
+!>   surfaces turn together, as wheel flange and rail corner do: that takes `gap_t%turn`, which
+!>   gaps made from profiles have.
+!>
+!> Of several limitations the status has the code of the first that applies here, and all of the
+!> words there is room for:
+!>
+!>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, fewer_strips
+module faststrip_normal_limitations
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, clear_status, number_text, message_length, &
+                                st_edge_of_data, st_flat_along_x, st_conformal, &
+                                st_no_finite_patch, st_ok
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn
+    use faststrip_normal_strips, only: contact_strips_t
+    implicit none
+    private
+
+    public :: check_curvature, name_limitations, add_limitation
+
+    real(wp), parameter :: doubtful_slope = 0.2_wp
+    real(wp), parameter :: doubtful_turn = 20.0_wp*pi/180.0_wp
+
+contains
+
+    !> Refuse a gap whose longitudinal term is positive nowhere.
+    pure subroutine check_curvature(curve, status)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        type(status_t), intent(out) :: status  !! `st_no_finite_patch`
+
+        call clear_status(status)
+        if (curve%least_inv2r > 0.0_wp) return
+        call set_status(status, st_no_finite_patch, 'inv2r is positive nowhere in the gap, at ' &
+                        //'most '//trim(number_text(maxval(curve%inv2r(:curve%n)))) &
+                        //' 1/mm: no finite patch along x')
+    end subroutine check_curvature
+
+    !> Add to a status what the gap in the patches brings along: `st_edge_of_data`,
+    !> `st_flat_along_x`, `st_conformal`, or instead of it the error `st_no_finite_patch`.
+    pure subroutine name_limitations(curve, strips, status)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        type(contact_strips_t), intent(in) :: strips !! its solution
+        type(status_t), intent(inout) :: status      !! limitations so far, no error
+
+        real(wp) :: lowest, highest, y, h_left, h_right, inv2r, slope, turn
+        integer :: k, first
+
+        if (strips%n < 1) return
+        if (strips%y_left(1) <= curve%y(1) .or. strips%y_right(strips%n) >= curve%y(curve%n)) &
+            call add_limitation(status, st_edge_of_data, &
+                                'the contact runs to the end of the gap data')
+        lowest = huge(1.0_wp)
+        highest = -huge(1.0_wp)
+        slope = 0.0_wp
+        turn = 0.0_wp
+        first = 1
+        do k = 1, strips%n
+            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            call gap_at(curve, strips%y_left(k), h_left, inv2r)
+            call gap_at(curve, strips%y_right(k), h_right, inv2r)
+            slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))
+            inv2r = gap_inv2r(curve, y)
+            lowest = min(lowest, inv2r)
+            highest = max(highest, inv2r)
+            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), 1.0e30_wp))
+            if (k < strips%n) then
+                if (strips%patch(k + 1) == strips%patch(k)) cycle
+            end if
+            turn = max(turn, largest_turn(curve, strips%y_left(first), strips%y_right(k)))
+            first = k + 1
+        end do
+        if (highest <= 0.0_wp) then
+            call set_status(status, st_no_finite_patch, 'inv2r is positive nowhere in the ' &
+                            //'contact, at most '//trim(number_text(highest)) &
+                            //' 1/mm: no finite patch along x')
+            return
+        end if
+        if (lowest < curve%least_inv2r) &
+            call add_limitation(status, st_flat_along_x, 'inv2r of ' &
+                                //trim(number_text(lowest))//' 1/mm in the contact raised to ' &
+                                //trim(number_text(curve%least_inv2r)))
+        if (turn > doubtful_turn) then
+            call add_limitation(status, st_conformal, 'half-space doubtful: the surfaces turn by ' &
+                                //trim(number_text(turn*180.0_wp/pi))//' degrees over a patch')
+        else if (slope > doubtful_slope) then
+            call add_limitation(status, st_conformal, 'half-space doubtful: a slope of ' &
+                                //trim(number_text(slope))//' of the gap in a patch')
+        end if
+    end subroutine name_limitations
+
+    !> Add a limitation to a status: the first one gives the code, the words are strung together.
+    pure subroutine add_limitation(status, code, words)
+        type(status_t), intent(inout) :: status !! limitations so far, no error
+        integer, intent(in) :: code             !! of the further one
+        character(len=*), intent(in) :: words   !! about it
+
+        if (status%code == st_ok) then
+            call set_status(status, code, words)
+        else if (len_trim(status%message) + 2 + len(words) <= message_length) then
+            status%message = trim(status%message)//'; '//words
+        end if
+    end subroutine add_limitation
+end module faststrip_normal_limitations
