@@ -17,7 +17,7 @@ module faststrip_app_batch
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: beside
     use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
-    use faststrip_app_result_csv, only: result_columns, put_result
+    use faststrip_app_result_csv, only: result_columns, put_result, put_smoothing
     implicit none
     private
 
@@ -68,6 +68,7 @@ contains
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)
+        call put_smoothing(writer, methods%smoothing_um)
         call put_names(writer, table%names)
         n_failed = 0
         do row = 1, table%n_rows

@@ -305,9 +305,9 @@ contains
         type(methods_t) :: methods
         character(len=word_length) :: normal, tangential
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
-        real(wp) :: gap_step_mm, gap_height_mm
+        real(wp) :: gap_step_mm, gap_height_mm, smoothing_um
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
-            fastsim_ny, gap_step_mm, gap_height_mm
+            fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -322,6 +322,7 @@ contains
         fastsim_ny = case%methods%fastsim_ny
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
+        smoothing_um = case%methods%smoothing_um
         call find_group(content, 'numerics', .false., group)
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
@@ -334,6 +335,7 @@ contains
         methods%points_per_strip = points_per_strip
         methods%fastsim_nx = fastsim_nx
         methods%fastsim_ny = fastsim_ny
+        methods%smoothing_um = smoothing_um
         call check_methods(methods, what, value)
         case%methods = methods
         if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)

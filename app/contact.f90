@@ -70,7 +70,8 @@ contains
         if (given(command, '--strips')) &
             call put_strips(writer(2), case%name, solver%normal%workspace%strips)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
-        if (given(command, '--gap')) call put_gap(writer(4), scene%gap)
+        if (given(command, '--gap')) call put_gap(writer(4), solver%gap, &
+                                                  case%methods%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
         call close_outputs(command, writer)
     end subroutine run_contact

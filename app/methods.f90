@@ -1,5 +1,8 @@
 !> Which methods a contact is solved by, and how finely.
 module faststrip_app_methods
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_kinds, only: wp
+    use faststrip_status, only: number_text
     use faststrip_text, only: integer_text
     use faststrip_normal_strip, only: fewest_strips, strips_auto
     use faststrip_tangential_types, only: most_points_per_strip => most_points
@@ -29,6 +32,7 @@ module faststrip_app_methods
         integer :: points_per_strip = 15 !! points along a strip, faststrip
         integer :: fastsim_nx = 50       !! points along a row, fastsim
         integer :: fastsim_ny = 50       !! rows, fastsim
+        real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
     end type methods_t
 
 contains
@@ -54,6 +58,7 @@ contains
                        most_points_per_strip)
             call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
             call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
+            call check_smoothing()
         end if
 
     contains
@@ -67,5 +72,14 @@ contains
             what = name
             value = integer_text(number)
         end subroutine check
+
+        subroutine check_smoothing()
+            if (len(what) > 0) return
+            if (ieee_is_finite(methods%smoothing_um)) then
+                if (methods%smoothing_um >= 0.0_wp) return
+            end if
+            what = 'smoothing_um'
+            value = trim(number_text(methods%smoothing_um))
+        end subroutine check_smoothing
     end subroutine check_methods
 end module faststrip_app_methods

@@ -1,8 +1,8 @@
 !> The columns every solved contact fills, in the same words for each subcommand.
 module faststrip_app_result_csv
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, status_word
-    use faststrip_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_status, only: status_t, is_error, status_word, number_text
+    use faststrip_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_app_console, only: put_origin
@@ -10,14 +10,14 @@ module faststrip_app_result_csv
     implicit none
     private
 
-    public :: result_columns, put_result, put_strips, put_field
+    public :: result_columns, put_result, put_strips, put_field, put_smoothing
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(20) = [character(len=19) :: &
+    character(len=*), parameter :: result_columns(21) = [character(len=19) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
-        'est_err_penetration', 'est_err_pmax', 'est_err_area']
+        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'gap_change_um']
 
 contains
 
@@ -57,6 +57,11 @@ contains
             call put_certificate(certificate%est_err_pmax)
             call put_certificate(certificate%est_err_area)
         end associate
+        if (outcome%gap_change_um > 0.0_wp) then
+            call put_cell(writer, outcome%gap_change_um)
+        else
+            call put_cell(writer, '')
+        end if
 
     contains
 
@@ -70,6 +75,16 @@ contains
             end if
         end subroutine put_certificate
     end subroutine put_result
+
+    !> The comment line that says that gaps are smoothed, if they are.
+    subroutine put_smoothing(writer, smoothing_um)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
+        real(wp), intent(in) :: smoothing_um        !! noise that was stated, um; 0: none
+
+        if (smoothing_um <= 0.0_wp) return
+        call put_comment(writer, 'gap smoothed for a noise of ' // trim(number_text(smoothing_um)) &
+                         // ' um, rms; gap_change_um is by how much it changed, rms')
+    end subroutine put_smoothing
 
     !> The strips of a contact, one row a strip.
     subroutine put_strips(writer, case_name, strips)

@@ -2,9 +2,9 @@
 module faststrip_app_scene
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, clear_status, is_error
+    use faststrip_status, only: status_t, clear_status, is_error, number_text
     use faststrip_creepage, only: creepage_t
-    use faststrip_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_profile, only: profile_t, profile_at
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_file, only: read_gap_file
@@ -93,13 +93,16 @@ contains
     end subroutine clear_place
 
     !> The gap, one row a point.
-    subroutine put_gap(writer, gap)
+    subroutine put_gap(writer, gap, smoothing_um)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         type(gap_t), intent(in) :: gap              !! mm, mm, 1/mm
+        real(wp), intent(in) :: smoothing_um        !! noise it was smoothed for, um; 0: it was not
 
         integer :: i
 
         call put_origin(writer)
+        if (smoothing_um > 0.0_wp) call put_comment(writer, 'smoothed for a noise of ' &
+                                                    // trim(number_text(smoothing_um)) // ' um, rms')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, size(gap%y)
             call put_cell(writer, gap%y(i))

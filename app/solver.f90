@@ -6,6 +6,7 @@ module faststrip_app_solver
     use faststrip_material, only: material_t, check_material
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t
+    use faststrip_profile_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
@@ -26,6 +27,7 @@ module faststrip_app_solver
         logical :: with_field = .false.     !! are the elements wanted?
         type(normal_stage_t) :: normal      !! with the strips of the last contact
         type(tangential_field_t) :: field   !! of the last contact, if wanted
+        type(gap_t) :: gap                  !! of the last contact, smoothed if that was asked for
     end type solver_t
 
     !> Figures of one contact.
@@ -34,6 +36,7 @@ module faststrip_app_solver
         type(tangential_result_t) :: tangential !! forces, friction power, ...
         logical :: is_certified = .false.       !! does the certificate count? only for strips
         type(certificate_t) :: certificate      !! how wrong the normal solution is
+        real(wp) :: gap_change_um = 0.0_wp      !! rms change of the gap by smoothing, um
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us
         real(wp) :: tangential_us = 0.0_wp      !! of the tangential problem, us
     end type outcome_t
@@ -66,14 +69,22 @@ contains
         type(status_t), intent(out) :: status      !! an error, or a named limitation
 
         type(status_t) :: tangential_status
+        real(wp) :: change
         integer(int64) :: before, between, after
 
         call check_material(material, status)
         if (is_error(status)) return
-        call make_room(solver%normal, gap, status)
+        if (solver%methods%smoothing_um > 0.0_wp) then
+            call smooth_gap(gap, 1.0e-3_wp*solver%methods%smoothing_um, solver%gap, change, status)
+            if (is_error(status)) return
+            outcome%gap_change_um = 1.0e3_wp*change
+        else
+            solver%gap = gap
+        end if
+        call make_room(solver%normal, solver%gap, status)
         if (is_error(status)) return
         call system_clock(before)
-        call solve_normal(solver%normal, gap, material, demand, outcome%normal, status)
+        call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)
         if (is_error(status)) return
         call system_clock(between)
         if (solver%with_field) then

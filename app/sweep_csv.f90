@@ -7,7 +7,7 @@ module faststrip_app_sweep_csv
     use faststrip_app_methods, only: methods_t
     use faststrip_app_scene, only: scene_t
     use faststrip_app_solver, only: outcome_t
-    use faststrip_app_result_csv, only: result_columns, put_result
+    use faststrip_app_result_csv, only: result_columns, put_result, put_smoothing
     implicit none
     private
 
@@ -31,6 +31,7 @@ contains
         else
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
         end if
+        call put_smoothing(writer, case%methods%smoothing_um)
         call put_header(writer, [scene_columns, result_columns])
     end subroutine put_sweep_header
 

@@ -5,7 +5,7 @@ module faststrip_numerics_lapack
     implicit none
     private
 
-    public :: dgtsv, dgetrf, dgetrs, dgecon, dgeqrf, dormqr, dtrtrs, dgesvd
+    public :: dgtsv, dgetrf, dgetrs, dgecon, dgeqrf, dormqr, dtrtrs, dgesvd, dpbtrf, dpbtrs
 
     interface
         !> Solve a tridiagonal system by elimination with partial pivoting; the three diagonals
@@ -99,5 +99,26 @@ module faststrip_numerics_lapack
             real(wp), intent(inout) :: work(*)
             integer, intent(out) :: info
         end subroutine dgesvd
+
+        !> Cholesky factor of a positive definite band matrix, in place; with `uplo` U the upper
+        !> diagonals stand in the rows of `ab`, the main one in row kd + 1; `info` > 0: it is not
+        !> positive definite.
+        pure subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+            import :: wp
+            character(len=1), intent(in) :: uplo
+            integer, intent(in) :: n, kd, ldab
+            real(wp), intent(inout) :: ab(ldab, *)
+            integer, intent(out) :: info
+        end subroutine dpbtrf
+
+        !> Solve with the factor of `dpbtrf`.
+        pure subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+            import :: wp
+            character(len=1), intent(in) :: uplo
+            integer, intent(in) :: n, kd, nrhs, ldab, ldb
+            real(wp), intent(in) :: ab(ldab, *)
+            real(wp), intent(inout) :: b(ldb, *)
+            integer, intent(out) :: info
+        end subroutine dpbtrs
     end interface
 end module faststrip_numerics_lapack
