@@ -8,12 +8,15 @@
 !>
 !> Parabolas, and with them all Hertzian gaps, remain what they are, their curvature is not
 !> levelled down as by a penalty on the second derivative. The user states the noise, and
-!> lambda is the one with which the points deviate by it (Morozov's discrepancy),
+!> lambda is the one with the least unbiased estimate of the curve's error (Mallows, Technometrics
+!> 15, 1973, 661-675),
 !>
-!>     sum (h - g)^2 = noise^2 (n - e),    e = tr [(N + lambda D'D)^(-1) N],
+!>     sum (h - g)^2 + 2 f noise^2 e,    e = tr [(N + lambda D'D)^(-1) N],
 !>
-!> e being the degrees of freedom the curve takes up (Wahba, SIAM J. Numer. Anal. 14, 1977). The
-!> longitudinal term is left as it is: it comes from the radius, not from the points' heights.
+!> e being the degrees of freedom the curve takes up, and f = 1.4 against curves that follow the
+!> noise (Kim and Gu, J. R. Statist. Soc. B 66, 2004, 337-356). A noise stated somewhat wrongly
+!> changes little, other than where the deviation is asked to be equal to it. The longitudinal
+!> term is left as it is: it comes from the radius, not from the points' heights.
 !>
 !> Measured with noise of 0.5 um on the 20 gaps of the reference and on Hertzian gaps of 200 to
 !> 20000 points: see `test_gap_smoothing`.
@@ -32,9 +35,10 @@ module faststrip_profile_gap_smoothing
     integer, parameter :: most_intervals = 400 ! between knots
     integer, parameter :: band = 3             ! upper diagonals of the system
     real(wp), parameter :: third_difference(0:3) = [-1.0_wp, 3.0_wp, -3.0_wp, 1.0_wp]
-    ! lambda, with the traces of N and D'D made equal
-    real(wp), parameter :: least_log = log(1.0e-7_wp), largest_log = log(1.0e13_wp)
-    integer, parameter :: halvings = 24
+    real(wp), parameter :: caution = 1.4_wp    ! f
+    real(wp), parameter :: bad_fit = 2.0_wp    ! rms deviation at the least lambda, over the noise
+    ! lambda, with the traces of N and D'D made equal: a factor of 10, then finer
+    integer, parameter :: first_decade = -6, last_decade = 13, refinements = 4
 
 contains
 
@@ -52,8 +56,8 @@ contains
         real(wp), allocatable :: basis(:, :), rest(:), curve(:), normal(:, :), penalty(:, :)
         real(wp), allocatable :: right(:)
         integer, allocatable :: first(:)
-        real(wp) :: low, high, middle, excess, unit
-        integer :: i, n, m, info
+        real(wp) :: risk, best_risk, best_log, log_lambda, step, unit
+        integer :: i, j, n, m, info
 
         rms_change = 0.0_wp
         call check_gap(gap, status)
@@ -85,24 +89,34 @@ contains
         rest = rest/unit
         call fill_basis(gap%y, m - 3, basis, first)
         call fill_system(basis, first, rest, normal, penalty, right)
-        low = least_log
-        high = largest_log
-        call fit(low, excess)
-        if (info == 0 .and. excess > 0.0_wp) then
-            call set_status(status, st_out_of_range, 'the gap bends too sharply to be smoothed ' &
-                            //'within a noise of '//trim(number_text(noise))//' mm')
-            return
-        end if
-        do i = 1, halvings
-            middle = 0.5_wp*(low + high)
-            call fit(middle, excess)
-            if (info /= 0) exit
-            if (excess > 0.0_wp) then
-                high = middle
-            else
-                low = middle
+        best_risk = huge(1.0_wp)
+        best_log = 0.0_wp
+        step = log(10.0_wp)
+        do i = first_decade, last_decade
+            call fit(i*step, risk)
+            if (info /= 0) cycle
+            if (i == first_decade .and. sum((rest - curve)**2) &
+                > n*(bad_fit*noise/unit)**2) then
+                call set_status(status, st_out_of_range, 'the gap bends too sharply to be ' &
+                                //'smoothed within a noise of '//trim(number_text(noise))//' mm')
+                return
             end if
+            if (risk >= best_risk) cycle
+            best_risk = risk
+            best_log = i*step
         end do
+        do j = 1, refinements
+            step = 0.5_wp*step
+            do i = -1, 1, 2
+                log_lambda = best_log + i*step
+                call fit(log_lambda, risk)
+                if (info /= 0 .or. risk >= best_risk) cycle
+                best_risk = risk
+                best_log = log_lambda
+                exit
+            end do
+        end do
+        call fit(best_log, risk)
         if (info /= 0) then
             call set_status(status, st_linear_algebra, 'the smoothing system is singular')
             return
@@ -113,36 +127,35 @@ contains
 
     contains
 
-        !> The curve for a lambda, and by how much it deviates too far.
-        subroutine fit(log_lambda, too_far)
-            real(wp), intent(in) :: log_lambda
-            real(wp), intent(out) :: too_far
+        !> The curve for a lambda, and the estimate of its error.
+        subroutine fit(log_of_lambda, error)
+            real(wp), intent(in) :: log_of_lambda
+            real(wp), intent(out) :: error
 
             real(wp) :: system(band + 1, m), solution(m, m + 1), degrees
-            integer :: j, k
+            integer :: l, k
 
-            too_far = 0.0_wp
-            system = normal + exp(log_lambda)*penalty
+            error = huge(1.0_wp)
+            system = normal + exp(log_of_lambda)*penalty
             call dpbtrf('U', m, band, system, band + 1, info)
             if (info /= 0) return
             solution = 0.0_wp
-            do j = 1, m
-                do k = max(1, j - band), j
-                    solution(k, j) = normal(band + 1 + k - j, j)
-                    solution(j, k) = solution(k, j)
+            do l = 1, m
+                do k = max(1, l - band), l
+                    solution(k, l) = normal(band + 1 + k - l, l)
+                    solution(l, k) = solution(k, l)
                 end do
             end do
             solution(:, m + 1) = right
             call dpbtrs('U', m, band, m + 1, system, band + 1, solution, m, info)
             degrees = 0.0_wp
-            do j = 1, m
-                degrees = degrees + solution(j, j)
+            do l = 1, m
+                degrees = degrees + solution(l, l)
             end do
-            do j = 1, n
-                curve(j) = dot_product(basis(:, j), solution(first(j):first(j) + 3, m + 1))
+            do l = 1, n
+                curve(l) = dot_product(basis(:, l), solution(first(l):first(l) + 3, m + 1))
             end do
-            ! The parabola has taken up three degrees of freedom as well.
-            too_far = sum((rest - curve)**2) - (noise/unit)**2*max(n - degrees, 0.0_wp)
+            error = sum((rest - curve)**2) + 2.0_wp*caution*(noise/unit)**2*degrees
         end subroutine fit
     end subroutine smooth_gap
 
