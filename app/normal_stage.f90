@@ -64,7 +64,11 @@ contains
 
         type(contact_case_t) :: case
 
-        call set_contact_gap(stage%workspace, gap%y, gap%h, gap%inv2r, status)
+        if (allocated(gap%turn)) then
+            call set_contact_gap(stage%workspace, gap%y, gap%h, gap%inv2r, status, gap%turn)
+        else
+            call set_contact_gap(stage%workspace, gap%y, gap%h, gap%inv2r, status)
+        end if
         if (is_error(status)) return
         case%material = material
         case%by_load = demand%by_load

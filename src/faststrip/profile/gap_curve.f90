@@ -78,16 +78,20 @@ contains
     end subroutine set_gap_curve
 
     !> The same from plain arrays.
-    subroutine set_gap_curve_points(curve, y, h, inv2r, status)
+    subroutine set_gap_curve_points(curve, y, h, inv2r, status, turn)
         type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
         real(wp), intent(in) :: y(:)              !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)              !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)          !! 1/(2 R), R the local radius along x, 1/mm
         type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
+        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, finite, rad
 
         call check_gap_points(y, h, inv2r, status)
         if (is_error(status)) return
         call take_points(curve, y, h, inv2r, status)
+        if (is_error(status) .or. .not. present(turn)) return
+        curve%turn_is_known = .true.
+        curve%turn(:curve%n) = turn
     end subroutine set_gap_curve_points
 
     subroutine take_points(curve, y, h, inv2r, status)
