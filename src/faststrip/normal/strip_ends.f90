@@ -231,17 +231,31 @@ contains
         largest = largest/penetration
     end function overlap_left
 
-    !> By how much the deformed surfaces overlap at a point outside the patches, mm.
+    !> By how much the deformed surfaces overlap at a point outside the patches, mm; negative where
+    !> they are apart, at least by that.
     pure real(wp) function overlap_depth(workspace, compliance, penetration, y) result(depth)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance, penetration, y
 
-        real(wp) :: h, inv2r, displacement
-        integer :: s
+        real(wp) :: h, inv2r, displacement, least, width, middle
+        integer :: s, n
 
         call gap_at(workspace%curve, y, h, inv2r)
+        depth = penetration - (h - workspace%curve%h_lowest)
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        ! Mostly a bound tells that there is no overlap: the mean of 1/r is not less than
+        ! 1/sqrt(mean of r^2) (Jensen), and the mean of x^2 is xd^2/4, that of a width w^2/12.
+        least = 0.0_wp
+        do s = 1, n
+            width = workspace%y_right(s) - workspace%y_left(s)
+            middle = 0.5_wp*(workspace%y_left(s) + workspace%y_right(s)) - y
+            least = least + workspace%p0(s)*workspace%half_length(s)*width &
+                    /sqrt(0.25_wp*workspace%half_length(s)**2 + middle**2 + width**2/12.0_wp)
+        end do
+        depth = depth - 0.5_wp*pi*compliance*least
+        if (depth <= 0.0_wp) return
         displacement = 0.0_wp
-        do s = 1, sum(workspace%old%at(:workspace%old%n)%n_strips)
+        do s = 1, n
             displacement = displacement + compliance*workspace%p0(s)*workspace%half_length(s) &
                            *strip_influence_edges( &
                            (workspace%y_left(s) - y)/workspace%half_length(s), &
