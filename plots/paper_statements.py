@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Test the statements of Lack and Gerlici (2014) on what was computed; one row and verdict each."""
+"""Test the statements of Lack and Gerlici (2014) on what was computed; one row and verdict each.
+
+Beside the list go its narrow form for print, NAME_short.csv, and tables.csv, which announces that.
+"""
 
 import csv
 import os
@@ -22,6 +25,7 @@ INPUTS = {
     "bench-integral": ("bench_integral.csv", "what `faststrip bench integral` wrote"),
     "bench-normal": ("bench_normal.csv", "what `faststrip bench normal` wrote"),
 }
+SHORT = ("id", "statement", "of", "measured", "criterion", "verdict")
 TABLES = {
     "audit": ("n", "max_rel_err", "rms_rel_err", "residual_max", "misprint", "rel_err_below",
               "rel_err_above"),
@@ -53,6 +57,13 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     rows = statements.all_statements(read(options))
     write(options.output, rows)
+    short = os.path.splitext(options.output)[0] + "_short.csv"
+    write_cells(short, SHORT, [short_cells(row) for row in rows])
+    write_cells(os.path.join(os.path.dirname(options.output), "tables.csv"),
+                ("file", "title", "caption", "chapter"),
+                [(os.path.basename(short), "The paper's statements, tested",
+                  "Statements in our words; criteria are ours; verdicts follow from the figures.",
+                  paper_figures.CHAPTER)])
     counts = Counter(row.verdict for row in rows)
     print(f"{len(rows)} rows: " + ", ".join(
         f"{counts[word]} {word}" for word in (statements.HOLDS, statements.LIMITED,
@@ -90,17 +101,31 @@ def read(options):
     )
 
 
+def short_cells(row):
+    """A statement as a line of a table: the figure in words."""
+    if row.value is None:
+        measured = ""
+    else:
+        measured = f"{row.value:.3g} {row.unit}".rstrip() + f", {row.quantity}"
+    return row.id, row.statement, row.subject, measured, row.criterion, row.verdict
+
+
 def write(path, rows):
-    """The list as CSV, figures with six digits."""
+    """The whole list as CSV, figures with six digits."""
+    write_cells(path, statements.COLUMNS, [
+        ["" if value is None else f"{value:.6g}" if isinstance(value, float) else value
+         for value in (getattr(row, name) for name in statements.COLUMNS)]
+        for row in rows
+    ])
+
+
+def write_cells(path, names, rows):
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         with open(path, "w", encoding="utf-8", newline="") as stream:
             writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(statements.COLUMNS)
-            for row in rows:
-                cells = {name: getattr(row, name) for name in statements.COLUMNS}
-                cells["value"] = "" if row.value is None else f"{row.value:.6g}"
-                writer.writerow([cells[name] for name in statements.COLUMNS])
+            writer.writerow(names)
+            writer.writerows(rows)
     except OSError as error:
         raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
 

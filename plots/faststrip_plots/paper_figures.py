@@ -13,7 +13,7 @@ from .curves import ABSCISSA, GROUPS, RANGE, colour_of
 from .results import QUANTITIES, compare, percent_errors
 from .tables import InputError, read_table
 
-CHAPTER = "The paper, redone"
+CHAPTER = "paper"  # of the report
 WIDTH = 9.0  # inches: text of 10 points is still read at the width of a page
 PUBLISHED = dict(linestyle="none", marker="D", markersize=4.4, markerfacecolor="white",
                  markeredgecolor="black", markeredgewidth=1.0, zorder=4, clip_on=False,

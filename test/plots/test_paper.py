@@ -236,8 +236,9 @@ class Verdicts(unittest.TestCase):
     def test_every_statement_on_the_samples(self):
         rows = judge()
         expected = dict(
-            I1=FAILS, I2=HOLDS, T1=FAILS, T2=LIMITED, T3=FAILS, T4=UNKNOWN, I3=FAILS, N0=FAILS, N1=HOLDS,
-            N2=HOLDS, N3=HOLDS, N4=HOLDS, N5=HOLDS, N6=HOLDS, N7=HOLDS, N8=HOLDS, N9=UNKNOWN,
+            I1=FAILS, I2=HOLDS, T1=FAILS, T2=LIMITED, T3=FAILS, T4=UNKNOWN, I3=FAILS, N0=FAILS,
+            N1=HOLDS, N2=HOLDS, N3=HOLDS, N4=HOLDS, N5=HOLDS, N6=HOLDS, N7=HOLDS, N8=HOLDS,
+            N9=UNKNOWN,
             N10=UNKNOWN, N11=UNKNOWN, F1=HOLDS, F2=HOLDS, F3=HOLDS, F4=HOLDS, F5=HOLDS, F6=FAILS,
             S1=FAILS, S2=HOLDS, S4=HOLDS, E1=FAILS, E2=FAILS, E3=HOLDS, E4=HOLDS, E5=LIMITED,
             E6=FAILS, E7=UNKNOWN, E8=UNKNOWN,
@@ -257,11 +258,26 @@ class Verdicts(unittest.TestCase):
             for name in ("place", "statement", "subject", "quantity", "criterion", "source"):
                 self.assertTrue(row[name], row)
 
+    def test_the_narrow_list_is_announced_and_reads_alike(self):
+        with Folder(FILES) as folder:
+            status, _, err = folder.run("paper_statements", "-o", "p/s.csv")
+            self.assertEqual((status, err), (0, ""))
+            whole, narrow, tables = (
+                list(csv.DictReader(io.StringIO((folder.path / "p" / name).read_text("utf-8"))))
+                for name in ("s.csv", "s_short.csv", "tables.csv"))
+        self.assertEqual([(row["file"], row["chapter"]) for row in tables],
+                         [("s_short.csv", "paper")])
+        self.assertEqual([row["verdict"] for row in whole], [row["verdict"] for row in narrow])
+        measured = {row["id"]: row["measured"] for row in narrow}
+        self.assertEqual(measured["T2"], "2 %, largest relative error")
+        self.assertEqual(measured["N9"], "")
+
     def test_figures_are_those_of_the_samples(self):
         rows = judge()
         for key, value in (
-            ("I2", 450.0), ("N0", 5.0 / 3.0), ("T2", 2.0), ("T3", 50.0), ("N7", 1.0), ("N8", 200.0), ("E1", 40.0),
-            ("C.A.faststrip.Tx", 0.01), ("C.A.faststrip.Ty", 0.01), ("C.B.faststrip.Mz", 6.0 / 660.0),
+            ("I2", 450.0), ("N0", 5.0 / 3.0), ("T2", 2.0), ("T3", 50.0), ("N7", 1.0),
+            ("N8", 200.0), ("E1", 40.0), ("C.A.faststrip.Tx", 0.01), ("C.A.faststrip.Ty", 0.01),
+            ("C.B.faststrip.Mz", 6.0 / 660.0),
             ("S1", 11.0), ("S3.usual.faststrip", 1.0), ("N4", 100.0), ("F6", 0.0),
         ):
             self.assertAlmostEqual(float(rows[key]["value"]), value, places=4, msg=key)
