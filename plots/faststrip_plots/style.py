@@ -149,6 +149,7 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         figure.savefig(path, dpi=DPI, format="png")
         if vector:
+            figure.set_layout_engine("none")  # what was placed for the PNG stays where it is
             # neither date nor random names: the same data give the same file
             with matplotlib.rc_context({"svg.hashsalt": "faststrip"}):
                 figure.savefig(os.path.splitext(path)[0] + ".svg", format="svg",
