@@ -179,6 +179,7 @@ class Pictures(unittest.TestCase):
             axes.plot([0.0, 1.0, 2.0], [1.0, ratio, np.nan])
             paper_figures.fit_ratios(axes)
             self.assertEqual(axes.get_ylim(), (1.0 - span, 1.0 + span))
+            style.plt.close(axes.figure)
 
 
 class BadInput(unittest.TestCase):
