@@ -4,7 +4,7 @@ module faststrip_app_methods
     use faststrip_kinds, only: wp
     use faststrip_status, only: number_text
     use faststrip_text, only: integer_text
-    use faststrip_normal_strip, only: fewest_strips, strips_auto
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points_per_strip => most_points
     implicit none
     private
@@ -53,7 +53,7 @@ contains
             value = trim(methods%tangential)
         else
             if (methods%strips_per_patch /= strips_auto) call check( &
-                'strips_per_patch', methods%strips_per_patch, fewest_strips, most_strips)
+                'strips_per_patch', methods%strips_per_patch, 1, most_strips)
             call check('points_per_strip', methods%points_per_strip, 1, &
                        most_points_per_strip)
             call check('fastsim_nx', methods%fastsim_nx, 1, most_points)

@@ -71,7 +71,7 @@ class CaseFiles(ProgramTest):
                    .replace("penetration_mm = 0.1", "penetration_mm = NaN"), "(c.nml:4)", "NaN")
         self.check(gap_case(load="1\n penetration_mm = 1\n load_direction = 'vertical'")
                    .replace("  load_N = 1\n", ""), "(c.nml:5)", "vertical")
-        for line, value in (("strips_per_patch = 2", "2"), ("normal = 'guess'", "guess"),
+        for line, value in (("strips_per_patch = -2", "-2"), ("normal = 'guess'", "guess"),
                             ("points_per_strip = 1001", "1001"), ("fastsim_nx = -1", "-1"),
                             ("gap_step_mm = 0", "0.0"), ("gap_height_mm = -1", "-1.0")):
             self.check(gap_case(extra=f"&numerics\n {line}\n/\n"), "(c.nml:13)",

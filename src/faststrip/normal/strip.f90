@@ -99,7 +99,7 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion), `st_no_finite_patch` (a contact
     !> that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
-    !> `faststrip_normal_lattice` gave the answer; `st_overlap_left`, a rough gap's valleys
+    !> `faststrip_normal_lattice` gave the answer, or one or two strips were asked and three used; `st_overlap_left`, a rough gap's valleys
     !> overlap beside the strips; `st_edge_of_data`, the contact runs to the end of the gap's
     !> points; `st_flat_along_x` and `st_conformal`: see `faststrip_normal_limitations`;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
@@ -171,10 +171,11 @@ contains
         type(normal_result_t) :: coarser
         real(wp) :: penetration
         integer :: level, levels(most_levels), n_levels, first_counted, n_settled
-        logical :: near, scratch, settled
+        logical :: near, resumed, scratch, settled
 
         call plan_levels(options%strips_per_patch, levels, n_levels, first_counted)
         near = options%warm_start .and. workspace%old%n > 0
+        resumed = near
         scratch = .not. near
         level = 1
         if (near) then
@@ -196,6 +197,7 @@ contains
             if (settled) then
                 if (level >= first_counted) n_settled = level
                 near = .true.
+                resumed = .false.
                 scratch = .false.
                 level = level + 1
                 if (options%strips_per_patch /= strips_auto .or. level <= first_counted + 1) cycle
@@ -206,8 +208,10 @@ contains
                 if (level >= first_counted) exit
                 level = level + 1
             else
+                if (resumed) level = 1
                 if (levels(level) > most_at_once) exit
                 near = .false.
+                resumed = .false.
                 scratch = .true.
             end if
         end do
@@ -219,10 +223,18 @@ contains
         end if
         workspace%old_load = result%load
         workspace%old_penetration = penetration
-        if (overlap_left(workspace, compliance, penetration) > tolerated_overlap) &
+        ! What did not settle is no start for the next solution.
+        if (.not. settled) workspace%old%n = 0
+        if (overlap_left(workspace%curve, compliance, &
+                         result%penetration - workspace%curve%h_lowest, strips) &
+            > tolerated_overlap) &
             call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
                                 //'by more than 1 % of the penetration: a rough gap, smooth it')
         call name_limitations(workspace%curve, strips, status)
+        if (options%strips_per_patch > 0 .and. options%strips_per_patch < fewest_strips &
+            .and. .not. is_error(status)) &
+            call add_limitation(status, st_fallback_used, 'one or two strips cannot find the ' &
+                                //'ends of a patch: three were used')
         if (.not. settled .and. .not. is_error(status)) &
             call add_limitation(status, st_fewer_strips, &
                                 'fewer strips than asked: more did not settle')
@@ -243,7 +255,7 @@ contains
             return
         end if
         n_levels = 1
-        levels(1) = strips_per_patch
+        levels(1) = max(strips_per_patch, fewest_strips)
         if (strips_per_patch < fewest_scouted) then
             first_counted = 1
             return
@@ -410,9 +422,8 @@ contains
         else if (compliance <= 0.0_wp) then
             call set_status(status, st_bad_material, &
                             'the compliance is not positive: '//number_text(compliance))
-        else if (options%strips_per_patch < fewest_strips &
-                 .and. options%strips_per_patch /= strips_auto) then
-            call set_status(status, st_bad_argument, 'fewer than 3 strips per patch asked')
+        else if (options%strips_per_patch < 1 .and. options%strips_per_patch /= strips_auto) then
+            call set_status(status, st_bad_argument, 'fewer than one strip per patch asked')
         else if (.not. (options%tolerance > 0.0_wp .and. options%tolerance <= 1.0e-2_wp)) then
             call set_status(status, st_bad_argument, 'the tolerance is outside (0, 0.01]: ' &
                             //number_text(options%tolerance))
@@ -420,7 +431,8 @@ contains
             call set_status(status, st_workspace_too_small, 'no gap was set in the workspace')
         else if (.not. allocated(strips%p0)) then
             call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
-        else if (min(workspace%max_strips, size(strips%p0)) < options%strips_per_patch) then
+        else if (min(workspace%max_strips, size(strips%p0)) &
+                 < max(options%strips_per_patch, fewest_strips)) then
             call set_status(status, st_workspace_too_small, &
                             'more strips per patch asked than there is room for')
         else

@@ -3,7 +3,8 @@
 module faststrip_normal_strip_ends
     use faststrip_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_profile_gap_curve, only: gap_at, level_intervals
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
@@ -173,9 +174,10 @@ contains
         logical, intent(inout) :: changed
 
         real(wp) :: y, dy, depth, deepest, h, inv2r
-        integer :: j, m, from
+        integer :: j, m, n, from
         type(patch_t) :: seed
 
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
         m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
         dy = (high - low)/m
         from = 0
@@ -184,7 +186,9 @@ contains
             depth = 0.0_wp
             if (j <= m) then
                 y = low + (j - 0.5_wp)*dy
-                depth = overlap_depth(workspace, compliance, penetration, y)
+                depth = overlap_depth(workspace%curve, compliance, penetration, &
+                                      workspace%y_left(:n), workspace%y_right(:n), &
+                                      workspace%p0(:n), workspace%half_length(:n), y)
             end if
             if (depth > overlap_tolerance*penetration) then
                 if (from == 0) from = j
@@ -203,64 +207,99 @@ contains
         end do
     end subroutine scan
 
-    !> Largest overlap of the deformed surfaces at the gap's own valleys outside the patches, over
-    !> the penetration: what the scan's even points can miss where the gap is rough.
-    pure real(wp) function overlap_left(workspace, compliance, penetration) result(largest)
-        type(strip_workspace_t), intent(in) :: workspace !! with a solution remembered
-        real(wp), intent(in) :: compliance               !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: penetration              !! above the lowest height, mm
+    !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
+    !> scan of `close_overlaps` may miss it in a rough gap: in its valleys, and next to the ends.
+    pure real(wp) function overlap_left(curve, compliance, penetration, strips) result(largest)
+        type(gap_curve_t), intent(in) :: curve       !! the gap
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: penetration          !! above the lowest height, mm
+        type(contact_strips_t), intent(in) :: strips !! a solution
 
-        integer :: j, p
+        real(wp), parameter :: beside(4) = [0.6_wp, 1.0_wp, 1.5_wp, 2.2_wp] ! widths from an end
+        real(wp) :: depth, width
+        integer :: j, k
 
-        largest = 0.0_wp
-        p = 1
-        associate (y => workspace%curve%y_node, h => workspace%curve%h_node)
-            do j = 2, workspace%curve%n_pieces
-                if (h(j) > h(j - 1) .or. h(j) > h(j + 1)) cycle
-                if (h(j) - workspace%curve%h_lowest >= penetration) cycle
-                do while (p <= workspace%old%n)
-                    if (workspace%old%at(p)%y_to > y(j)) exit
-                    p = p + 1
+        depth = 0.0_wp
+        do j = 2, curve%n_pieces
+            if (curve%h_node(j) > curve%h_node(j - 1) .or. curve%h_node(j) > curve%h_node(j + 1)) cycle
+            depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
+                                               curve%y_node(j)))
+        end do
+        do k = 1, strips%n
+            width = strips%y_right(k) - strips%y_left(k)
+            if (is_end(strips, k, k - 1)) then
+                do j = 1, size(beside)
+                    depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
+                                                       strips%y_left(k) - beside(j)*width))
                 end do
-                if (p <= workspace%old%n) then
-                    if (workspace%old%at(p)%y_from <= y(j)) cycle
-                end if
-                largest = max(largest, overlap_depth(workspace, compliance, penetration, y(j)))
-            end do
-        end associate
-        largest = largest/penetration
+            end if
+            if (is_end(strips, k, k + 1)) then
+                do j = 1, size(beside)
+                    depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
+                                                       strips%y_right(k) + beside(j)*width))
+                end do
+            end if
+        end do
+        largest = depth/penetration
     end function overlap_left
+
+    !> Does a patch end between two neighbouring strips?
+    pure logical function is_end(strips, k, neighbour)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k, neighbour
+
+        is_end = neighbour < 1 .or. neighbour > strips%n
+        if (.not. is_end) is_end = strips%patch(k) /= strips%patch(neighbour)
+    end function is_end
+
+    !> Overlap at a point, mm; zero in a patch and where the gap has no points.
+    pure real(wp) function overlap_outside(curve, compliance, penetration, strips, y) result(depth)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, penetration, y
+        type(contact_strips_t), intent(in) :: strips
+
+        integer :: n
+
+        depth = 0.0_wp
+        n = strips%n
+        if (y < curve%y(1) .or. y > curve%y(curve%n)) return
+        if (any(strips%y_left(:n) <= y .and. strips%y_right(:n) >= y)) return
+        depth = overlap_depth(curve, compliance, penetration, strips%y_left(:n), &
+                              strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
+    end function overlap_outside
 
     !> By how much the deformed surfaces overlap at a point outside the patches, mm; negative where
     !> they are apart, at least by that.
-    pure real(wp) function overlap_depth(workspace, compliance, penetration, y) result(depth)
-        type(strip_workspace_t), intent(in) :: workspace
-        real(wp), intent(in) :: compliance, penetration, y
+    pure real(wp) function overlap_depth(curve, compliance, penetration, y_left, y_right, p0, &
+                                         half_length, y) result(depth)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, penetration, y_left(:), y_right(:), p0(:), &
+                                half_length(:), y
 
-        real(wp) :: h, inv2r, displacement, least, width, middle
-        integer :: s, n
+        real(wp) :: h, inv2r, undeformed, displacement, least, width, middle
+        integer :: s
 
-        call gap_at(workspace%curve, y, h, inv2r)
-        depth = penetration - (h - workspace%curve%h_lowest)
-        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        call gap_at(curve, y, h, inv2r)
+        undeformed = penetration - (h - curve%h_lowest)
+        depth = undeformed
+        if (depth <= 0.0_wp) return
         ! Mostly a bound tells that there is no overlap: the mean of 1/r is not less than
         ! 1/sqrt(mean of r^2) (Jensen), and the mean of x^2 is xd^2/4, that of a width w^2/12.
         least = 0.0_wp
-        do s = 1, n
-            width = workspace%y_right(s) - workspace%y_left(s)
-            middle = 0.5_wp*(workspace%y_left(s) + workspace%y_right(s)) - y
-            least = least + workspace%p0(s)*workspace%half_length(s)*width &
-                    /sqrt(0.25_wp*workspace%half_length(s)**2 + middle**2 + width**2/12.0_wp)
+        do s = 1, size(p0)
+            width = y_right(s) - y_left(s)
+            middle = 0.5_wp*(y_left(s) + y_right(s)) - y
+            least = least + p0(s)*half_length(s)*width &
+                    /sqrt(0.25_wp*half_length(s)**2 + middle**2 + width**2/12.0_wp)
         end do
-        depth = depth - 0.5_wp*pi*compliance*least
+        depth = undeformed - 0.5_wp*pi*compliance*least
         if (depth <= 0.0_wp) return
         displacement = 0.0_wp
-        do s = 1, n
-            displacement = displacement + compliance*workspace%p0(s)*workspace%half_length(s) &
-                           *strip_influence_edges( &
-                           (workspace%y_left(s) - y)/workspace%half_length(s), &
-                           (workspace%y_right(s) - y)/workspace%half_length(s))
+        do s = 1, size(p0)
+            displacement = displacement + compliance*p0(s)*half_length(s) &
+                           *strip_influence_edges((y_left(s) - y)/half_length(s), &
+                                                  (y_right(s) - y)/half_length(s))
         end do
-        depth = penetration - (h - workspace%curve%h_lowest) - displacement
+        depth = undeformed - displacement
     end function overlap_depth
 end module faststrip_normal_strip_ends
