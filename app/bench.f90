@@ -8,6 +8,7 @@ module faststrip_app_bench
     use faststrip_app_bench_integral, only: bench_integral
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_accuracy, only: bench_accuracy
+    use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
     use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
@@ -73,6 +74,10 @@ contains
             call bench_trade(file, option_text(command, '--methods', &
                                                'reference/trade_methods.csv'), folder, &
                              given(command, '--quick'))
+        case ('robust')
+            call refuse_options(command, what, &
+                                [character(len=13) :: '--rounds', '--most-strips', '--seconds'])
+            call bench_robust(file, folder)
         case ('convergence')
             call refuse_options(command, what, [character(len=9) :: '--rounds', '--seconds'])
             call bench_convergence(file, folder, most_strips)
@@ -96,7 +101,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(18) = [character(len=81) :: &
+        character(len=*), parameter :: lines(20) = [character(len=81) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -109,12 +114,14 @@ contains
             'accuracy: its errors against CONTACT with 15 strips and auto.', &
             'convergence: its errors with 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
+            'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
+            '15 and 31 strips and auto against 401.', &
             'certificate: how often estimated errors bound the true ones (minutes; with -o', &
             'the shares on stdout).', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
             'contact and method, on these contacts and 161 Hertz ellipses. Columns of', &
             'FILE: see reference/trade_methods.csv.', &
-            'normal, accuracy and convergence work on the paper''s 20 contacts.']
+            'normal, accuracy, robust and convergence work on the paper''s 20 contacts.']
         integer :: i
 
         text = ''

@@ -8,7 +8,8 @@ module faststrip_app_fuzz
                                 st_overlap_left, st_no_finite_patch
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, end_row, &
-                             close_csv
+                             close_csv, csv_table_t, read_csv, require_column, cell_text, &
+                             cell_number
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_influence_closed, only: strip_influence_edges
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
@@ -62,10 +63,10 @@ contains
     !> Run the subcommand from the command line.
     subroutine run_fuzz()
         type(command_t) :: command
-        integer :: seed, first, cases, number, n_violations
+        integer :: seed, first, cases, number
         type(fuzz_case_t) :: fuzz_case
         type(verdict_t), allocatable :: verdicts(:)
-        integer, allocatable :: family(:)
+        integer, allocatable :: family(:), numbers(:)
         type(room_t) :: room
         type(csv_writer_t) :: writer
         type(status_t) :: written
@@ -80,6 +81,8 @@ contains
             option_t('--cases', 'INTEGER', 'number of cases (default 1000)'), &
             option_t('--seed', 'INTEGER', 'which series of cases (default 1)'), &
             option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
+            option_t('--case', 'INTEGER', 'this case only'), &
+            option_t('--read', 'FILE', 'solve nothing, judge the rows that -o wrote there'), &
             option_t('--solver', 'NAME', 'strip (default) or lattice'), &
             option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
             option_t('-o', 'FILE', 'write one CSV row per case there')]
@@ -87,14 +90,25 @@ contains
         cases = option_integer(command, '--cases', 1000)
         seed = option_integer(command, '--seed', 1)
         first = option_integer(command, '--first', 1)
-        if (seed < 0) call usage_error('--seed is negative: ' // integer_text(seed), command%name)
-        if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
-        if (cases < 1 .or. cases > huge(cases) - first) &
+        if (cases < 1 .or. cases > huge(cases) - max(first, 1)) &
             call usage_error('--cases is below 1 or too large: ' // integer_text(cases), &
                              command%name)
+        if (seed < 0) call usage_error('--seed is negative: ' // integer_text(seed), command%name)
+        if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
         room%solver = option_text(command, '--solver', 'strip')
         if (room%solver /= 'strip' .and. room%solver /= 'lattice') &
             call usage_error('unknown solver: ' // room%solver, command%name)
+        if (given(command, '--read')) then
+            call read_verdicts(option_text(command, '--read', ''), numbers, family, verdicts)
+            call print_verdicts(numbers, family, verdicts)
+            return
+        end if
+        if (given(command, '--case')) then
+            if (given(command, '--first') .or. given(command, '--cases')) &
+                call usage_error('--case goes without --first and --cases', command%name)
+            first = option_integer(command, '--case', 1)
+            cases = 1
+        end if
         if (given(command, '--gap-of')) then
             number = option_integer(command, '--gap-of', 1)
             if (number < 1) &
@@ -110,19 +124,13 @@ contains
             call put_fuzz_header(writer)
         end if
         allocate (verdicts(cases), family(cases))
-        n_violations = 0
+        numbers = [(number, number=first, first + cases - 1)]
         do number = first, first + cases - 1
             associate (verdict => verdicts(number - first + 1))
                 call make_fuzz_case(seed, number, fuzz_case)
                 family(number - first + 1) = fuzz_case%family
                 call try_case(fuzz_case, room, verdict)
                 if (given(command, '-o')) call put_fuzz_row(writer, fuzz_case, verdict)
-                if (verdict%violation /= '') then
-                    n_violations = n_violations + 1
-                    call say('case ' // integer_text(number) // ' (' &
-                             // trim(family_names(fuzz_case%family)) // '): ' &
-                             // trim(verdict%violation) // ' ' // trim(verdict%status%message))
-                end if
             end associate
             call progress('case', number - first + 1, cases)
         end do
@@ -130,14 +138,84 @@ contains
             call close_csv(writer, written)
             call fail_on_error(written)
         end if
+        call print_verdicts(numbers, family, verdicts)
+    end subroutine run_fuzz
+
+    !> The tables of all verdicts; ends the program with an error if one is bad.
+    subroutine print_verdicts(numbers, family, verdicts)
+        integer, intent(in) :: numbers(:), family(:)
+        type(verdict_t), intent(in) :: verdicts(:)
+
+        integer :: i, n_violations
+
+        do i = 1, size(verdicts)
+            if (verdicts(i)%violation /= '') &
+                call say('case ' // integer_text(numbers(i)) // ' (' &
+                         // trim(family_names(family(i))) // '): ' &
+                         // trim(verdicts(i)%violation) // ' ' // trim(verdicts(i)%status%message))
+        end do
         call print_table(family, verdicts)
-        call print_times(first, verdicts)
+        call print_times(numbers, verdicts)
+        call print_worst('slowest, ms', numbers, verdicts, 1.0e-3_wp*verdicts%time_us)
+        call print_worst('largest load errors', numbers, verdicts, abs(verdicts%load_error))
+        call print_worst('largest overlaps outside, over the penetration', numbers, verdicts, &
+                         verdicts%overlap)
+        n_violations = count(verdicts%violation /= '')
         if (n_violations > 0) &
             call fail(exit_bad_input, integer_text(n_violations) // ' of ' &
-                      // integer_text(cases) // ' cases failed a check; again with ' &
-                      // 'faststrip fuzz --seed ' // integer_text(seed) &
-                      // ' --cases 1 --first CASE')
-    end subroutine run_fuzz
+                      // integer_text(size(verdicts)) // ' cases failed a check; one alone with ' &
+                      // 'faststrip fuzz --case CASE')
+    end subroutine print_verdicts
+
+    !> Take the verdicts from the rows of an earlier run.
+    subroutine read_verdicts(path, numbers, family, verdicts)
+        character(len=*), intent(in) :: path
+        integer, allocatable, intent(out) :: numbers(:), family(:)
+        type(verdict_t), allocatable, intent(out) :: verdicts(:)
+
+        integer, parameter :: largest_code = 200
+        character(len=*), parameter :: names(8) = [character(len=10) :: 'case', 'family', &
+            'status', 'violation', 'message', 'load_error', 'overlap', 'time_us']
+        type(csv_table_t) :: table
+        type(status_t) :: status
+        integer :: i, row, code, column(size(names))
+        real(wp) :: value
+
+        call read_csv(path, table, status)
+        call fail_on_error(status)
+        do i = 1, size(names)
+            call require_column(table, trim(names(i)), column(i), status)
+            call fail_on_error(status)
+        end do
+        if (table%n_rows == 0) call fail(exit_bad_input, 'no rows (' // path // ')')
+        allocate (numbers(table%n_rows), family(table%n_rows), source=0)
+        allocate (verdicts(table%n_rows))
+        do row = 1, table%n_rows
+            call cell_number(table, row, column(1), value, status)
+            call fail_on_error(status)
+            numbers(row) = nint(value)
+            do i = 1, size(family_names)
+                if (trim(family_names(i)) == cell_text(table, row, column(2))) family(row) = i
+            end do
+            do code = 0, largest_code
+                if (trim(status_word(code)) == cell_text(table, row, column(3))) exit
+            end do
+            if (family(row) == 0 .or. code > largest_code) &
+                call fail(exit_bad_input, 'no row of a fuzz run: ' // integer_text(row) // ' (' &
+                          // path // ')')
+            associate (verdict => verdicts(row))
+                verdict%status%code = code
+                verdict%violation = cell_text(table, row, column(4))
+                verdict%status%message = cell_text(table, row, column(5))
+                call cell_number(table, row, column(6), verdict%load_error, status)
+                if (.not. is_error(status)) &
+                    call cell_number(table, row, column(7), verdict%overlap, status)
+                if (.not. is_error(status)) &
+                    call cell_number(table, row, column(8), verdict%time_us, status)
+            end associate
+            call fail_on_error(status)
+        end do
+    end subroutine read_verdicts
 
     !> Solve a case and judge the answer.
     subroutine try_case(fuzz_case, room, verdict)
@@ -346,34 +424,78 @@ contains
         end do
     end subroutine print_rows
 
-    subroutine print_times(first, verdicts)
-        integer, intent(in) :: first
+    !> Times of all cases and of each status.
+    subroutine print_times(numbers, verdicts)
+        integer, intent(in) :: numbers(:)
         type(verdict_t), intent(in) :: verdicts(:)
 
-        character(len=120) :: line
-        real(wp) :: low, high, middle
+        integer :: code
+
+        call say('time per case, ms               median      99 %   longest    case')
+        call print_time('all', numbers, verdicts%time_us)
+        do code = 0, maxval(verdicts%status%code)
+            if (.not. any(verdicts%status%code == code)) cycle
+            call print_time(status_word(code), pack(numbers, verdicts%status%code == code), &
+                            pack(verdicts%time_us, verdicts%status%code == code))
+        end do
+    end subroutine print_times
+
+    subroutine print_time(name, numbers, time_us)
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: numbers(:)
+        real(wp), intent(in) :: time_us(:)
+
+        character(len=80) :: line
+        character(len=26) :: words
+
+        words = name
+        write (line, '(a, 3f10.2, i8)') words, 1.0e-3_wp*quantile(time_us, 0.5_wp), &
+            1.0e-3_wp*quantile(time_us, 0.99_wp), 1.0e-3_wp*maxval(time_us), &
+            numbers(maxloc(time_us, dim=1))
+        call say(trim(line))
+    end subroutine print_time
+
+    !> The value below which a share of the others lies, by halving.
+    pure real(wp) function quantile(values, share)
+        real(wp), intent(in) :: values(:), share
+
+        real(wp) :: low, middle
         integer :: i
 
-        ! The median by halving: half of the times lie below it.
         low = 0.0_wp
-        high = maxval(verdicts%time_us)
+        quantile = maxval(values)
         do i = 1, 60
-            middle = 0.5_wp*(low + high)
-            if (2*count(verdicts%time_us <= middle) < size(verdicts)) then
+            middle = 0.5_wp*(low + quantile)
+            if (count(values <= middle) < share*size(values)) then
                 low = middle
             else
-                high = middle
+                quantile = middle
             end if
         end do
-        write (line, '(a, f0.3, a, f0.1, 2a)') 'time per case: median ', 1.0e-3_wp*high, &
-            ' ms, longest ', 1.0e-3_wp*maxval(verdicts%time_us), ' ms, case ', &
-            integer_text(first - 1 + maxloc(verdicts%time_us, dim=1))
-        call say(trim(line))
-        write (line, '(a, es8.1, a, f0.4)') 'largest load error ', &
-            maxval(abs(verdicts%load_error)), ', overlap outside over penetration ', &
-            maxval(verdicts%overlap)
-        call say(trim(line))
-    end subroutine print_times
+    end function quantile
+
+    !> The ten cases with the largest values, to be run again by their numbers.
+    subroutine print_worst(what, numbers, verdicts, values)
+        character(len=*), intent(in) :: what
+        integer, intent(in) :: numbers(:)
+        type(verdict_t), intent(in) :: verdicts(:)
+        real(wp), intent(in) :: values(:)
+
+        integer, parameter :: most = 10
+        logical :: told(size(values))
+        character(len=80) :: line
+        integer :: i, worst
+
+        call say(what // ':')
+        told = .false.
+        do i = 1, min(most, size(values))
+            worst = maxloc(values, mask=.not. told, dim=1)
+            told(worst) = .true.
+            write (line, '(a, i8, 2x, a, es10.2)') '  case', numbers(worst), &
+                status_word(verdicts(worst)%status%code), values(worst)
+            call say(trim(line))
+        end do
+    end subroutine print_worst
 
     subroutine put_fuzz_header(writer)
         type(csv_writer_t), intent(inout) :: writer

@@ -170,6 +170,21 @@ class GapFile(ProgramTest):
         for name in ("y_mm", "h_mm", "inv2R_per_mm"):
             self.assertEqual(numbers(self.read("g.csv"), name), numbers(self.read("gap.csv"), name))
 
+    def test_smoothing_is_told(self):
+        rough = gap_text(lambda y: parabola(y) + 5e-4 * math.cos(1e5 * y * y))
+        self.write("gap.csv", rough)
+        plain = self.contact()
+        self.assertEqual(plain["gap_change_um"], "")
+        row = self.contact("--smooth", "0.4", "--gap", "smooth.csv")
+        self.assertGreater(float(row["gap_change_um"]), 0.1)
+        self.assertLess(float(row["gap_change_um"]), 0.6)
+        text = (self.folder / "smooth.csv").read_text(encoding="utf-8")
+        self.assertIn("# smoothed for a noise of 0.4", text)
+        self.same(self.contact(extra="&numerics\n smoothing_um = 0.4\n/\n"), row)
+        done = self.run_program("contact", "case.nml", "--smooth", "0.4")
+        self.assertIn("# gap smoothed for a noise of 0.4", done.stdout)
+        self.refused(2, "contact", "case.nml", "--smooth", "-1", says=["smoothing_um", "-1"])
+
     def test_no_tension_in_a_conforming_gap(self):
         self.write("bumpy.csv", gap_text(bumpy))
         for load, patches in (("1e3", 2), ("1e4", 2), ("1e6", 1)):
