@@ -69,13 +69,14 @@ contains
         n = size(y)
         if (size(h) /= n .or. size(inv2r) /= n) then
             call set_status(status, st_bad_argument, &
-                            'y, h and inv2r of the gap differ in length: ' // count_text(n) // &
-                            ', ' // count_text(size(h)) // ', ' // count_text(size(inv2r)))
+                            'y, h and inv2r of the gap differ in length: ' // &
+                            trim(count_text(n)) // ', ' // trim(count_text(size(h))) // ', ' // &
+                            trim(count_text(size(inv2r))))
             return
         end if
         if (n < min_gap_points) then
             call set_status(status, st_too_few_points, 'the gap has fewer than ' // &
-                            count_text(min_gap_points) // ' points: ' // count_text(n))
+                            trim(count_text(min_gap_points)) // ' points: ' // trim(count_text(n)))
             return
         end if
         before = 0.0_wp
@@ -86,7 +87,7 @@ contains
             if (status%code /= 0) return
             if (i > 1) then
                 if (y(i) <= before) then
-                    call set_status(status, st_not_increasing, 'y(' // count_text(i) // &
+                    call set_status(status, st_not_increasing, 'y(' // trim(count_text(i)) // &
                                     ') of the gap is not above the one before: ' // &
                                     trim(number_text(y(i))))
                     return
@@ -103,17 +104,17 @@ contains
         type(status_t), intent(inout) :: status
 
         if (.not. ieee_is_finite(value)) then
-            call set_status(status, st_not_finite, name // '(' // count_text(i) // &
+            call set_status(status, st_not_finite, name // '(' // trim(count_text(i)) // &
                             ') of the gap is not a finite number: ' // trim(number_text(value)))
         end if
     end subroutine check_finite
 
+    !> A whole number as text. Of fixed length: for the length of any other gfortran keeps a
+    !> variable that all threads share.
     pure function count_text(n) result(text)
         integer, intent(in) :: n
-        character(len=:), allocatable :: text
-        character(len=11) :: buffer
+        character(len=11) :: text
 
-        write (buffer, '(i0)') n
-        text = trim(buffer)
+        write (text, '(i0)') n
     end function count_text
 end module faststrip_profile_gap

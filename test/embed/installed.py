@@ -1,0 +1,89 @@
+"""One installation for all tests of this folder, and what compiles and runs hosts against it."""
+
+import atexit
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HOSTS = ROOT / "example" / "hosts"
+
+
+class Installation:
+    """./run install into a folder that goes away with this process."""
+
+    made = None
+
+    def __init__(self):
+        folder = tempfile.mkdtemp()
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        self.prefix = pathlib.Path(folder) / "prefix"
+        self.library = self.prefix / "lib" / "libfaststrip.so"
+        self.archive = self.prefix / "lib" / "libfaststrip.a"
+        self.header = self.prefix / "include" / "faststrip.h"
+        done = subprocess.run([ROOT / "run", "install", "--prefix", self.prefix], cwd=folder,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=600, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(done.stdout)
+
+    @property
+    def environment(self):
+        """What a host needs to know, and nothing of the checkout."""
+        return {
+            **{name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ},
+            "PKG_CONFIG_PATH": str(self.prefix / "lib" / "pkgconfig"),
+            "LD_LIBRARY_PATH": str(self.prefix / "lib"),
+            "FASTSTRIP_PREFIX": str(self.prefix),
+            "OPENBLAS_NUM_THREADS": "1",
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
+
+
+def installation():
+    if Installation.made is None:
+        Installation.made = Installation()
+    return Installation.made
+
+
+class HostTest(unittest.TestCase):
+    """Tests in a folder of their own, away from the checkout."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.installed = installation()
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+
+    @classmethod
+    def write(cls, name, text):
+        (cls.folder / name).write_text(text, encoding="utf-8")
+
+    @classmethod
+    def shell(cls, line, **environment):
+        """Run a line of shell that has to succeed; what it printed."""
+        done = subprocess.run(["sh", "-euc", line], cwd=cls.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+                              env={**cls.installed.environment, **environment}, timeout=600,
+                              check=False)
+        if done.returncode != 0:
+            raise AssertionError(f"{line}: {done.returncode}\n{done.stdout}")
+        return done.stdout
+
+    @classmethod
+    def compile_host(cls, source, program, flags=""):
+        cls.shell(f"gcc -O1 -g -Wall -Wextra -Werror {flags} '{HOSTS / source}' -o {program}"
+                  " $(pkg-config --cflags --libs faststrip) -lm -pthread")
+
+    @classmethod
+    def findings(cls, line, **environment):
+        """Lines `name number` that a program printed, as a dictionary of lists."""
+        found = {}
+        for row in cls.shell(line, **environment).splitlines():
+            name, value = row.split()
+            found.setdefault(name, []).append(int(value))
+        return found

@@ -1,0 +1,62 @@
+"""The callers of the README, compiled by its lines against the installation alone, and C++."""
+
+import re
+import unittest
+
+from installed import ROOT, HostTest
+
+FILES = {"fortran": "caller.f90", "f77": "caller.f", "c": "caller.c", "python": "caller.py"}
+
+
+def blocks():
+    """Language and text of the blocks of the README's section."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    section = text.split("## Embed it in your code")[1].split("\n## ")[0]
+    return re.findall(r"^```(\w+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
+
+
+class Callers(HostTest):
+    def results(self, line, **environment):
+        """Status, penetration and longitudinal force that a caller printed."""
+        status, *numbers = self.shell(line, **environment).split()
+        return int(status), *(float(number) for number in numbers)
+
+    def test_the_callers_of_the_readme_print_the_same_bits(self):
+        found = {}
+        for language, text in blocks():
+            if language in FILES:
+                self.write(FILES[language], text)
+            else:
+                self.shell(text)
+                program = re.search(r"-o (\w+)", text)[1]
+                found[program] = self.results(f"./{program}")
+        found["python"] = self.results(f"'{ROOT}/.venv/bin/python' caller.py",
+                                       PYTHONPATH=str(ROOT / "python"))
+        self.assertEqual(set(found), {"caller_fortran", "caller_f77", "caller_c", "python"})
+        self.assertEqual(len(set(found.values())), 1, found)
+        status, penetration, force = found["python"]
+        self.assertEqual(status, 0)
+        # Hertz: 0.10799 mm; a little less than half of what friction can carry.
+        self.assertAlmostEqual(penetration, 0.10799, delta=1e-4)
+        self.assertAlmostEqual(force, -12.23e3, delta=200.0)
+
+    def test_cplusplus_static_and_without_underscores(self):
+        sources = dict(blocks())
+        self.write("caller.cpp", sources["c"])
+        self.shell("g++ -std=c++11 -Wall -Wextra -pedantic -Werror caller.cpp"
+                   " $(pkg-config --cflags --libs faststrip) -o caller_cpp")
+        self.write("caller.f", sources["f77"])
+        self.shell("gfortran -std=legacy -fno-underscoring caller.f"
+                   f" '{self.installed.archive}' -lopenblas -o caller_static")
+        self.assertEqual(self.results("./caller_cpp"), self.results("./caller_static"))
+        self.assertNotIn("libfaststrip", self.shell("ldd caller_static"))
+
+    def test_the_header_compiles_alone_in_old_dialects(self):
+        self.write("header.c", "#include <faststrip.h>\n#include <faststrip.h>\nint x;\n")
+        for compiler in ("gcc -std=c90", "gcc -std=c11", "g++ -x c++ -std=c++98"):
+            self.shell(f"{compiler} -Wall -Wextra -pedantic -Werror -c header.c -o header.o"
+                       " $(pkg-config --cflags faststrip)")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,100 @@
+"""What the library never does to its host."""
+
+import re
+import shutil
+import subprocess
+import unittest
+
+from installed import HostTest
+
+# Bytes of stack a call may need; README and header promise less than 64 kB.
+MOST_STACK = 64 * 1024
+
+
+def sanitizer():
+    """Can programs be compiled with the address sanitizer here?"""
+    done = subprocess.run(["gcc", "-fsanitize=address", "-x", "c", "-", "-o", "/dev/null"],
+                          input="int main(void) { return 0; }\n", encoding="utf-8",
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    return done.returncode == 0
+
+
+class Hosts(HostTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.compile_host("host.c", "host")
+
+    def test_flags_traps_and_rounding_stay(self):
+        found = self.findings("./host arithmetic")
+        self.assertEqual(found["traps"], [1] * 4)
+        self.assertEqual(found["rounding"], [1] * 4)
+        self.assertEqual(found["raised"], [0])
+        self.assertEqual(found["kept"], [1])
+        # Many of the calls were meant to fail, and do whatever the rounding.
+        self.assertEqual(len(set(found["failures"])), 1)
+        self.assertGreater(found["failures"][0], 200)
+
+    def test_the_locale_stays(self):
+        self.assertEqual(self.findings("./host locale"), {"program": [1], "thread": [1]})
+
+    def test_nothing_is_allocated_and_no_file_touched(self):
+        self.compile_host("host.c", "counting", "-DCOUNTING")
+        found = self.findings("./counting quiet")
+        self.assertGreater(found["solved"][0], 450)
+        self.assertEqual(found["solving"], [0])
+        self.assertEqual(found["files"], [0])
+        # The counters do count: a workspace is many arrays, a line of findings one call.
+        self.assertGreater(found["making"][0], 20)
+        self.assertGreater(found["written"][0], 0)
+
+    def test_the_stack_is_bounded(self):
+        used = self.findings("./host stack")["stack"][0]
+        self.assertGreater(used, 1000)
+        self.assertLess(used, MOST_STACK)
+
+    def test_an_answer_also_when_memory_runs_out(self):
+        found = self.findings("./host little_memory")
+        self.assertGreater(found["made"][0], 0)
+        self.assertGreater(found["refused"][0], 0)
+
+    @unittest.skipUnless(shutil.which("valgrind"), "needs valgrind")
+    def test_no_leak_under_valgrind(self):
+        self.compile_host("host.c", "plain")
+        text = self.shell("valgrind --error-exitcode=9 --leak-check=full"
+                          " --errors-for-leak-kinds=definite,indirect ./plain memory 2>&1")
+        self.assertRegex(text, "ERROR SUMMARY: 0 errors")
+        lost = re.search(r"definitely lost: ([\d,]+) bytes", text)
+        self.assertTrue(lost is None or lost[1] == "0", text)
+
+    @unittest.skipUnless(sanitizer(), "needs the address sanitizer")
+    def test_no_leak_under_the_address_sanitizer(self):
+        self.compile_host("host.c", "asan", "-fsanitize=address,undefined")
+        found = self.findings("./asan memory")
+        self.assertEqual(found["copy"], [0])
+
+
+class Threads(HostTest):
+    def test_eight_threads_give_the_serial_bits(self):
+        self.compile_host("threads.c", "threads", "-O2 -fopenmp")
+        found = self.findings("./threads 10000")
+        self.assertGreater(found["solved"][0], 9500)
+        self.assertEqual(found["pthreads"], [0])
+        self.assertEqual(found["openmp"], [0])
+
+    def test_the_library_has_no_variables_of_its_own(self):
+        """No data race by design: nothing that outlives a call is ever written.
+
+        The compiler puts tables that are constant (of types, defaults, jumps) among the data,
+        and the counters of implied loops that it has evaluated itself.
+        """
+        constant = re.compile(r"___vtab_|___def_init_|jumptable\.|_MOD_[a-z]_$|^DW\.ref\.")
+        done = subprocess.run(["nm", self.installed.archive], stdout=subprocess.PIPE,
+                              encoding="utf-8", check=True)
+        writable = re.findall(r"^[0-9a-f]+ [bBdDcC] (\S+)$", done.stdout, re.MULTILINE)
+        self.assertGreater(len(writable), 3)
+        self.assertEqual([name for name in writable if not constant.search(name)], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

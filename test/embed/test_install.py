@@ -1,0 +1,142 @@
+"""What ./run install puts below a prefix: names, versions, what the library needs."""
+
+import re
+import shutil
+import stat
+import subprocess
+import tomllib
+import unittest
+
+from installed import ROOT, HostTest
+
+# GPL libraries, of which nothing may get into the installed library.
+FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
+NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
+          "ld-linux-x86-64"}
+F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fscopy fsfree"
+                " fsmsg fslast".split())
+
+
+def command(*words):
+    return subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, encoding="utf-8",
+                          check=True).stdout
+
+
+class Installed(HostTest):
+    def setUp(self):
+        with open(ROOT / "fpm.toml", "rb") as file:
+            self.version = tomllib.load(file)["version"]
+
+    def exported(self):
+        names = {}
+        for line in command("nm", "-D", "--defined-only", self.installed.library).splitlines():
+            name, _, version = line.split()[-1].partition("@@")
+            names[name] = version
+        return names
+
+    def test_everything_is_in_its_place(self):
+        prefix = self.installed.prefix
+        for name in ("bin/faststrip", "include/faststrip.h", "include/faststrip/faststrip.mod",
+                     "lib/libfaststrip.a", "lib/libfaststrip.so", "lib/libfaststrip.so.0",
+                     f"lib/libfaststrip.so.{self.version}", "lib/pkgconfig/faststrip.pc",
+                     "share/man/man1/faststrip.1", "share/doc/faststrip/LICENSE"):
+            with self.subTest(name):
+                self.assertTrue((prefix / name).is_file())
+        self.assertTrue((prefix / "bin/faststrip").stat().st_mode & stat.S_IXUSR)
+        self.assertTrue(self.installed.library.is_symlink())
+
+    def test_the_library_needs_lapack_and_the_fortran_run_time_only(self):
+        text = command("readelf", "-dW", self.installed.library)
+        needed = set(re.findall(r"NEEDED.*\[([\w-]+)\.so", text))
+        self.assertEqual(needed - NEEDED, set())
+        self.assertIn("libopenblas", needed)
+        self.assertIn("[libfaststrip.so.0]", text)
+
+    def test_nothing_of_gsl_and_fftw_is_in_the_libraries(self):
+        for path in (self.installed.library, self.installed.archive):
+            with self.subTest(path.name):
+                text = command("nm", *(["-D"] if path.suffix == ".so" else []), path)
+                self.assertEqual([line for line in text.splitlines() if FORBIDDEN.search(line)], [])
+                self.assertNotRegex(text, r" U .*(_st_open|_st_read\b|_stop_|_error_stop_|\bexit\b)")
+        # The test can fail: the whole archive of the build needs both.
+        whole = command("nm", ROOT / "build" / "stage" / "lib" / "libfaststrip.a")
+        self.assertRegex(whole, "gsl_integration")
+        self.assertRegex(whole, "fftw_")
+
+    def test_only_public_names_are_exported(self):
+        names = self.exported()
+        names.pop("FASTSTRIP_0.1", None)
+        header = self.installed.header.read_text(encoding="utf-8")
+        header = re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)
+        declared = set(re.findall(r"^int (faststrip_\w+)\(", header, re.MULTILINE))
+        fortran = {name for name in names if "_MOD_" in name}
+        self.assertEqual(set(names) - fortran,
+                         declared | F77_NAMES | {f"{name}_" for name in F77_NAMES})
+        umbrella = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
+        for name in fortran:
+            self.assertIn(name.split("_MOD_")[1], umbrella)
+        self.assertIn("__faststrip_contact_solve_MOD_solve_contact", fortran)
+        static = {line.split()[2] for line in
+                  command("nm", "--defined-only", "--extern-only", self.installed.archive).splitlines()
+                  if len(line.split()) == 3}
+        self.assertEqual(static, set(names))
+
+    def test_symbols_have_a_version_and_the_stack_is_not_executable(self):
+        versions = set(version for name, version in self.exported().items()
+                       if not name.startswith("FASTSTRIP_"))
+        self.assertEqual(versions, {"FASTSTRIP_0.1"})
+        segment = re.search(r"GNU_STACK.*", command("readelf", "-lW", self.installed.library))[0]
+        self.assertNotIn("E", segment.split()[-2])
+        members = command("readelf", "-SW", self.installed.archive)
+        self.assertNotRegex(members, r"GNU-stack.* X ")
+
+    def test_one_version_everywhere(self):
+        texts = {
+            "include/faststrip.h": rf'FASTSTRIP_VERSION "{self.version}"',
+            "src/faststrip/interop/c.f90": rf"version = '{self.version}'",
+            "python/pyproject.toml": rf'(?m)^version = "{self.version}"',
+            "python/faststrip/__init__.py": rf'__version__ = "{self.version}"',
+        }
+        for name, pattern in texts.items():
+            with self.subTest(name):
+                self.assertRegex((ROOT / name).read_text(encoding="utf-8"), pattern)
+        self.assertEqual(self.shell("pkg-config --modversion faststrip").strip(), self.version)
+
+    def test_pkg_config_knows_the_flags(self):
+        flags = self.shell("pkg-config --cflags --libs faststrip")
+        self.assertIn(f"-I{self.installed.prefix}/include", flags)
+        self.assertIn("-lfaststrip", flags)
+        self.assertNotRegex(flags, FORBIDDEN)
+
+    def test_statuses_are_the_same_in_header_and_library(self):
+        source = (ROOT / "src" / "faststrip" / "status.f90").read_text(encoding="utf-8")
+        codes = dict(re.findall(r"integer, parameter :: st_(\w+) = (\d+)", source))
+        header = self.installed.header.read_text(encoding="utf-8")
+        for name, code in re.findall(r"FASTSTRIP_([A-Z_]+) = (\d+),?.*", header.split("};")[0]):
+            if name != "FIRST_ERROR":
+                self.assertEqual(codes[name.lower()], code, name)
+
+    def test_the_man_page_names_every_subcommand(self):
+        page = self.installed.prefix / "share" / "man" / "man1" / "faststrip.1"
+        text = page.read_text(encoding="utf-8")
+        general = command(self.installed.prefix / "bin" / "faststrip", "--help")
+        subcommands = re.findall(r"^  ([a-z]+) ", general, re.MULTILINE)
+        self.assertGreater(len(subcommands), 5)
+        for name in subcommands:
+            self.assertIn(f".SS {name}\n", text)
+        if shutil.which("man"):
+            done = subprocess.run(["man", "--warnings", "-l", str(page)], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, encoding="utf-8", check=True)
+            self.assertEqual(done.stderr, "")
+            self.assertIn("--strips-per-patch", done.stdout)
+
+    def test_wrong_usage_is_refused(self):
+        for words in ((), ("--prefix",), ("--prefix", ""), ("/usr",)):
+            done = subprocess.run([ROOT / "run", "install", *words], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, encoding="utf-8", check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("--prefix FOLDER", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
