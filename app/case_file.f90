@@ -303,11 +303,13 @@ contains
         type(case_t), intent(inout) :: case
 
         type(methods_t) :: methods
-        character(len=word_length) :: normal, tangential
+        character(len=word_length) :: normal, tangential, norm_start
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
-        real(wp) :: gap_step_mm, gap_height_mm, smoothing_um
+        real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
+            error_target
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
-            fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um
+            fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
+            error_target, norm_start
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -320,6 +322,10 @@ contains
         points_per_strip = case%methods%points_per_strip
         fastsim_nx = case%methods%fastsim_nx
         fastsim_ny = case%methods%fastsim_ny
+        element_dx_mm = case%methods%element_dx
+        element_dy_mm = case%methods%element_dy
+        error_target = case%methods%error_target
+        norm_start = case%methods%norm_start
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%methods%smoothing_um
@@ -336,6 +342,10 @@ contains
         methods%fastsim_nx = fastsim_nx
         methods%fastsim_ny = fastsim_ny
         methods%smoothing_um = smoothing_um
+        methods%element_dx = element_dx_mm
+        methods%element_dy = element_dy_mm
+        methods%error_target = error_target
+        methods%norm_start = norm_start
         call check_methods(methods, what, value)
         case%methods = methods
         if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)

@@ -2,7 +2,8 @@
 module faststrip_app_method_options
     use faststrip_normal_strip, only: strips_auto
     use faststrip_app_console, only: usage_error
-    use faststrip_app_options, only: command_t, option_t, option_text, option_integer, option_number
+    use faststrip_app_options, only: command_t, option_t, option_text, option_integer, &
+                                     option_number
     use faststrip_app_methods, only: methods_t, check_methods
     implicit none
     private
@@ -10,13 +11,17 @@ module faststrip_app_method_options
     public :: method_options, take_method_options
 
     !> For the table of a subcommand.
-    type(option_t), parameter :: method_options(7) = [ &
-        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments'), &
+    type(option_t), parameter :: method_options(11) = [ &
+        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm'), &
         option_t('--tangential', 'NAME', 'faststrip (default) or fastsim'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim (default 50)'), &
         option_t('--fastsim-ny', 'N', 'rows, fastsim (default 50)'), &
+        option_t('--element-dx', 'MM', 'side of the elements along x, norm (default 0.2)'), &
+        option_t('--element-dy', 'MM', 'side of the elements along y, norm (default 0.2)'), &
+        option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
+        option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um')]
 
 contains
@@ -42,6 +47,10 @@ contains
         methods%fastsim_nx = option_integer(command, '--fastsim-nx', methods%fastsim_nx)
         methods%fastsim_ny = option_integer(command, '--fastsim-ny', methods%fastsim_ny)
         methods%smoothing_um = option_number(command, '--smooth', methods%smoothing_um)
+        methods%element_dx = option_number(command, '--element-dx', methods%element_dx)
+        methods%element_dy = option_number(command, '--element-dy', methods%element_dy)
+        methods%error_target = option_number(command, '--error-target', methods%error_target)
+        methods%norm_start = option_text(command, '--norm-start', trim(methods%norm_start))
         call check_methods(methods, what, value)
         if (len(what) > 0) call usage_error(what // ' is out of range: ' // value, command%name)
     end subroutine take_method_options

@@ -10,16 +10,21 @@ module faststrip_app_methods
     private
 
     public :: methods_t, check_methods, most_strips, word_length, normal_methods, tangential_methods
+    public :: norm_starts
 
     !> Length of a method's name, characters.
     integer, parameter :: word_length = 16
     !> Names of the normal methods: strips; the Hertz ellipse of the contact point; the strips'
-    !> patches as ellipses, with the proportions of Hertz or of the second moments.
-    character(len=word_length), parameter :: normal_methods(4) = [character(len=word_length) :: &
-        'strip', 'hertz', 'equal_area', 'equal_moments']
+    !> patches as ellipses, with the proportions of Hertz or of the second moments; Kalker's
+    !> variational method.
+    character(len=word_length), parameter :: normal_methods(5) = [character(len=word_length) :: &
+        'strip', 'hertz', 'equal_area', 'equal_moments', 'norm']
     !> Names of the tangential methods.
     character(len=word_length), parameter :: tangential_methods(2) = &
         [character(len=word_length) :: 'faststrip', 'fastsim']
+    !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
+    character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
+        'coarse', 'strips']
     !> Most strips per patch the program accepts.
     integer, parameter :: most_strips = 1000
     integer, parameter :: most_points = 10000
@@ -33,6 +38,10 @@ module faststrip_app_methods
         integer :: fastsim_nx = 50       !! points along a row, fastsim
         integer :: fastsim_ny = 50       !! rows, fastsim
         real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
+        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, mm
+        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, mm
+        real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
+        character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
     end type methods_t
 
 contains
@@ -51,6 +60,9 @@ contains
         else if (all(tangential_methods /= methods%tangential)) then
             what = 'tangential'
             value = trim(methods%tangential)
+        else if (all(norm_starts /= methods%norm_start)) then
+            what = 'norm_start'
+            value = trim(methods%norm_start)
         else
             if (methods%strips_per_patch /= strips_auto) call check( &
                 'strips_per_patch', methods%strips_per_patch, 1, most_strips)
@@ -58,7 +70,10 @@ contains
                        most_points_per_strip)
             call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
             call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
-            call check_smoothing()
+            call check_real('element_dx_mm', methods%element_dx, tiny(1.0_wp))
+            call check_real('element_dy_mm', methods%element_dy, tiny(1.0_wp))
+            call check_real('error_target', methods%error_target, 0.0_wp)
+            call check_real('smoothing_um', methods%smoothing_um, 0.0_wp)
         end if
 
     contains
@@ -73,13 +88,16 @@ contains
             value = integer_text(number)
         end subroutine check
 
-        subroutine check_smoothing()
+        subroutine check_real(name, number, least)
+            character(len=*), intent(in) :: name
+            real(wp), intent(in) :: number, least
+
             if (len(what) > 0) return
-            if (ieee_is_finite(methods%smoothing_um)) then
-                if (methods%smoothing_um >= 0.0_wp) return
+            if (ieee_is_finite(number)) then
+                if (number >= least) return
             end if
-            what = 'smoothing_um'
-            value = trim(number_text(methods%smoothing_um))
-        end subroutine check_smoothing
+            what = name
+            value = trim(number_text(number))
+        end subroutine check_real
     end subroutine check_methods
 end module faststrip_app_methods

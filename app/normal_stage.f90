@@ -36,8 +36,12 @@ contains
         type(methods_t), intent(in) :: methods     !! checked
         type(normal_stage_t), intent(out) :: stage !! ready for `make_room`
 
+        integer :: normal
+
+        normal = normal_method(methods%normal)
+        if (methods%normal == 'norm') normal = normal_strip ! for the strips that stand for its rows
         stage%methods = contact_methods_t( &
-            normal_method(methods%normal), tangential_method(methods%tangential), &
+            normal, tangential_method(methods%tangential), &
             methods%strips_per_patch, methods%points_per_strip, methods%fastsim_nx, &
             methods%fastsim_ny)
     end subroutine make_normal_stage

@@ -51,11 +51,11 @@ contains
         call put_cell(writer, outcome%normal_us)
         call put_cell(writer, outcome%tangential_us)
         associate (certificate => outcome%certificate)
-            call put_certificate(certificate%residual_inside)
-            call put_certificate(certificate%overlap_outside)
-            call put_certificate(certificate%est_err_penetration)
-            call put_certificate(certificate%est_err_pmax)
-            call put_certificate(certificate%est_err_area)
+            call put_certificate(outcome%is_certified, certificate%residual_inside)
+            call put_certificate(outcome%is_certified, certificate%overlap_outside)
+            call put_certificate(outcome%is_estimated, certificate%est_err_penetration)
+            call put_certificate(outcome%is_estimated, certificate%est_err_pmax)
+            call put_certificate(outcome%is_estimated, certificate%est_err_area)
         end associate
         if (outcome%gap_change_um > 0.0_wp) then
             call put_cell(writer, outcome%gap_change_um)
@@ -65,10 +65,11 @@ contains
 
     contains
 
-        subroutine put_certificate(value)
+        subroutine put_certificate(is_known, value)
+            logical, intent(in) :: is_known
             real(wp), intent(in) :: value
 
-            if (outcome%is_certified) then
+            if (is_known) then
                 call put_cell(writer, value)
             else
                 call put_cell(writer, '')

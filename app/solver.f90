@@ -9,12 +9,13 @@ module faststrip_app_solver
     use faststrip_profile_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: normal_result_t
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_contact_solve, only: reserve_contact_field
     use faststrip_app_clock, only: microseconds
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal, certify
+    use faststrip_app_norm_stage, only: norm_stage_t, make_norm_room, solve_by_norm, take_rows
     use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
     private
@@ -26,6 +27,7 @@ module faststrip_app_solver
         type(methods_t) :: methods          !! what was asked for
         logical :: with_field = .false.     !! are the elements wanted?
         type(normal_stage_t) :: normal      !! with the strips of the last contact
+        type(norm_stage_t) :: norm          !! if that is the normal method
         type(tangential_field_t) :: field   !! of the last contact, if wanted
         type(gap_t) :: gap                  !! of the last contact, smoothed if that was asked for
     end type solver_t
@@ -34,7 +36,8 @@ module faststrip_app_solver
     type :: outcome_t
         type(normal_result_t) :: normal         !! penetration, area, ...
         type(tangential_result_t) :: tangential !! forces, friction power, ...
-        logical :: is_certified = .false.       !! does the certificate count? only for strips
+        logical :: is_certified = .false.       !! do the certificate's residuals count?
+        logical :: is_estimated = .false.       !! and its errors?
         type(certificate_t) :: certificate      !! how wrong the normal solution is
         real(wp) :: gap_change_um = 0.0_wp      !! rms change of the gap by smoothing, um
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us
@@ -83,10 +86,27 @@ contains
         end if
         call make_room(solver%normal, solver%gap, status)
         if (is_error(status)) return
+        if (solver%methods%normal == 'norm') call make_norm_room(solver%norm, solver%gap, status)
+        if (is_error(status)) return
         call system_clock(before)
-        call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)
+        if (solver%methods%normal == 'norm') then
+            call solve_by_norm(solver%norm, solver%methods, solver%gap, material, demand, &
+                               outcome%normal, outcome%certificate, status)
+            outcome%is_certified = .true.
+            outcome%is_estimated = solver%norm%workspace%is_estimated
+        else
+            call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)
+        end if
         if (is_error(status)) return
         call system_clock(between)
+        outcome%normal_us = microseconds(before, between)
+        if (solver%methods%normal == 'norm') then
+            call take_rows(solver%norm, solver%normal, status)
+            if (is_error(status)) return
+            if (solver%with_field) call grow_field(solver, status)
+            if (is_error(status)) return
+            call system_clock(between)
+        end if
         if (solver%with_field) then
             call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
                                   tangential_status, solver%field)
@@ -95,11 +115,19 @@ contains
                                   tangential_status)
         end if
         call system_clock(after)
-        outcome%normal_us = microseconds(before, between)
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
-        if (is_error(status)) return
-        call certify(solver%normal, material, outcome%normal, outcome%certificate, &
-                     outcome%is_certified)
-    end subroutine solve
+
+    !> Room for the elements of as many strips as there are rows.
+    subroutine grow_field(solver, status)
+        type(solver_t), intent(inout) :: solver
+        type(status_t), intent(inout) :: status
+
+        type(status_t) :: room
+
+        call reserve_field(solver%field, max(solver%normal%workspace%strips%n &
+                                             *solver%methods%points_per_strip, &
+                                             size(solver%field%x)), room)
+        if (is_error(room)) status = room
+    end subroutine grow_field
 end module faststrip_app_solver

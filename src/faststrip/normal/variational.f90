@@ -39,7 +39,7 @@ module faststrip_normal_variational
 
     public :: norm_options_t, norm_workspace_t, goal_t
     public :: reserve_norm, set_norm_gap, norm_solve, norm_solve_penetration, norm_solve_heights
-    public :: norm_most_elements
+    public :: norm_most_elements, norm_watch
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
     integer, parameter :: norm_most_elements = 4000000
@@ -70,6 +70,12 @@ module faststrip_normal_variational
         integer :: most_elements = norm_most_elements !! of a grid
     end type norm_options_t
 
+    !> Plans and kernels of one grid.
+    type :: kernels_t
+        type(convolution_t) :: convolution
+        real(wp) :: aspect = 0.0_wp ! dy/dx of the elements
+    end type kernels_t
+
     !> Everything a solution needs besides its input, and the pressures it leaves; owned by the
     !> caller, one per thread. Arrays grow with the grid, before the iteration.
     type :: norm_workspace_t
@@ -83,10 +89,17 @@ module faststrip_normal_variational
         type(contact_grid_t), private :: last
         type(minimiser_t), private :: minimiser
         ! Plans and kernels; two, so that two levels keep theirs from one solution to the next.
-        type(convolution_t), private :: convolution(2)
-        real(wp), private :: aspect(2) = 0.0_wp ! dy/dx of the kernels
+        type(kernels_t), private :: kernels, other_kernels
         integer, allocatable, private :: stack(:)
     end type norm_workspace_t
+
+    abstract interface
+        !> Told of each grid before it is solved, for those who have to wait.
+        subroutine norm_watch(grid)
+            import :: contact_grid_t
+            type(contact_grid_t), intent(in) :: grid !! placed
+        end subroutine norm_watch
+    end interface
 
 contains
 
@@ -116,7 +129,7 @@ contains
     !> `st_workspace_too_small` (no gap set, no memory), `st_out_of_range` (more elements than
     !> allowed, a contact beyond all proportion), `st_no_convergence`.
     !> Named limitation: `st_edge_of_data`, the contact runs to the end of the gap's points.
-    subroutine norm_solve(workspace, compliance, load, options, result, status, strips)
+    subroutine norm_solve(workspace, compliance, load, options, result, status, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: load                !! normal force Q, N
@@ -125,19 +138,20 @@ contains
                                                     !! `iterations` on all of them
         type(status_t), intent(out) :: status       !! how it ended
         type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
+        procedure(norm_watch), optional :: watch    !! is told of each grid
 
         call check_input(workspace, compliance, options, status)
         if (.not. is_error(status)) call check_load(load, status)
         if (is_error(status)) return
         call solve_gap(workspace, compliance, goal_t(by_load=.true., load=load), options, result, &
-                       status, strips)
+                       status, strips, watch)
     end subroutine norm_solve
 
     !> Solve the normal problem of the gap in the workspace for a penetration; the load is in the
     !> result. Errors as `norm_solve`, and `st_no_contact`: the bodies do not reach each other, or
     !> not the middle of any element.
     subroutine norm_solve_penetration(workspace, compliance, penetration, options, result, status, &
-                                      strips)
+                                      strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: penetration         !! approach D of the bodies, from h = 0, mm
@@ -145,6 +159,7 @@ contains
         type(normal_result_t), intent(out) :: result !! load, area, ...
         type(status_t), intent(out) :: status       !! how it ended
         type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
+        procedure(norm_watch), optional :: watch    !! is told of each grid
 
         call check_input(workspace, compliance, options, status)
         if (is_error(status)) return
@@ -159,7 +174,7 @@ contains
             call solve_gap(workspace, compliance, &
                            goal_t(by_load=.false., &
                                   penetration=penetration - workspace%curve%h_lowest), &
-                           options, result, status, strips)
+                           options, result, status, strips, watch)
         end if
     end subroutine norm_solve_penetration
 
@@ -245,7 +260,7 @@ contains
     end subroutine norm_solve_heights
 
     !> One spacing, two for an estimate, or as many as a target needs.
-    subroutine solve_gap(workspace, compliance, goal, options, result, status, strips)
+    subroutine solve_gap(workspace, compliance, goal, options, result, status, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(goal_t), intent(in) :: goal
@@ -253,6 +268,7 @@ contains
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
         type(contact_strips_t), intent(in), optional :: strips
+        procedure(norm_watch), optional :: watch
 
         type(extent_t) :: extent, guess
         type(normal_result_t) :: coarse
@@ -290,8 +306,8 @@ contains
             if (level < levels .and. .not. options%error_target > 0.0_wp) &
                 tolerance = max(tolerance, coarse_tolerance)
             call solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
-                               extent, guess, result, status, strips, &
-                               from_strips .and. level == 1)
+                               extent, guess, result, status, from_strips .and. level == 1, &
+                               strips, watch)
             if (is_error(status)) then
                 workspace%last%nx = 0
                 workspace%grid%nx = 0
@@ -317,7 +333,7 @@ contains
 
     !> Solve on grids of one spacing, each larger than the one before, until it holds the contact.
     subroutine solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
-                             extent, guess, result, status, strips, from_strips)
+                             extent, guess, result, status, from_strips, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(goal_t), intent(in) :: goal
@@ -328,8 +344,9 @@ contains
         type(extent_t), intent(in) :: guess
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
-        type(contact_strips_t), intent(in), optional :: strips
         logical, intent(in) :: from_strips
+        type(contact_strips_t), intent(in), optional :: strips
+        procedure(norm_watch), optional :: watch
 
         type(task_t) :: task
         type(minimised_t) :: found
@@ -348,6 +365,7 @@ contains
                                 //'middle where the bodies overlap')
                 return
             end if
+            if (present(watch)) call watch(workspace%grid)
             if (placing == 1 .and. from_strips) then
                 call pressures_of_strips(strips, workspace%grid)
             else if (workspace%last%nx > 0) then
@@ -422,20 +440,22 @@ contains
     !> Plans and kernels for the grid, then the minimisation.
     subroutine solve_on_grid(workspace, which, compliance, task, found, result, status)
         type(norm_workspace_t), intent(inout) :: workspace
-        integer, intent(in) :: which ! of the two convolutions
+        integer, intent(in) :: which ! of the two sets of kernels
         real(wp), intent(in) :: compliance
         type(task_t), intent(in) :: task
         type(minimised_t), intent(out) :: found
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
-        call prepare_kernels(workspace, which, status)
-        if (is_error(status)) return
         associate (grid => workspace%grid)
             call size_minimiser(workspace%minimiser, grid%nx, grid%ny)
             workspace%minimiser%s = grid%pressure
-            call minimise(workspace%convolution(which), grid%height, task, workspace%minimiser, &
-                          found)
+            if (which == 1) then
+                call minimise_on(workspace%kernels)
+            else
+                call minimise_on(workspace%other_kernels)
+            end if
+            if (is_error(status)) return
             grid%pressure = workspace%minimiser%s/(compliance*grid%dx)
         end associate
         result%passes = result%passes + 1
@@ -445,24 +465,36 @@ contains
             call set_status(status, st_no_convergence, 'the pressures did not converge: the gap ' &
                             //'in contact is '//trim(number_text(found%residual)) &
                             //' of the approach')
+
+    contains
+
+        subroutine minimise_on(kernels)
+            type(kernels_t), intent(inout) :: kernels
+
+            call prepare_kernels(workspace%grid, kernels, workspace%plans, status)
+            if (is_error(status)) return
+            call minimise(kernels%convolution, workspace%grid%height, task, workspace%minimiser, &
+                          found)
+        end subroutine minimise_on
     end subroutine solve_on_grid
 
     !> Influence numbers of the grid and their inverse, unless they are there.
-    subroutine prepare_kernels(workspace, which, status)
-        type(norm_workspace_t), intent(inout) :: workspace
-        integer, intent(in) :: which ! 1 or 2
+    subroutine prepare_kernels(grid, kernels, plans, status)
+        type(contact_grid_t), intent(in) :: grid
+        type(kernels_t), intent(inout) :: kernels
+        integer, intent(inout) :: plans ! is counted up if they had to be made
         type(status_t), intent(out) :: status
 
         real(wp), allocatable :: influence(:, :)
         real(wp) :: aspect
         integer :: i, j, half_x, half_y, before(2)
 
-        aspect = workspace%grid%dy/workspace%grid%dx
-        associate (convolution => workspace%convolution(which), grid => workspace%grid)
+        aspect = grid%dy/grid%dx
+        associate (convolution => kernels%convolution)
             before = [convolution%nx, convolution%ny]
             call reserve_convolution(convolution, grid%nx, grid%ny, 2, 1, status)
             if (is_error(status)) return
-            if (all(before == [grid%nx, grid%ny]) .and. workspace%aspect(which) == aspect) return
+            if (all(before == [grid%nx, grid%ny]) .and. kernels%aspect == aspect) return
             half_x = convolution%mx/2
             half_y = convolution%my/2
             allocate (influence(0:half_x, 0:half_y))
@@ -475,8 +507,8 @@ contains
             if (is_error(status)) return
             call set_inverse_kernel(convolution, kernel_inverse, kernel_influence, status)
         end associate
-        workspace%aspect(which) = aspect
-        workspace%plans = workspace%plans + 1
+        kernels%aspect = aspect
+        plans = plans + 1
     end subroutine prepare_kernels
 
     !> Proportions of pressures to start from on given heights: the overlap of the undeformed

@@ -36,7 +36,8 @@ module faststrip_numerics_convolution
 
     !> Room, plans, kernels and transformed sources for one grid. Owned by the caller, one per
     !> thread, never copied by assignment; given back by `release_convolution` or when it goes out
-    !> of scope.
+    !> of scope. A single object, not an array: gfortran 12 finalises the first element of an array
+    !> component for each of them.
     type :: convolution_t
         integer :: nx = 0        !! points of the grid along the first axis
         integer :: ny = 0        !! along the second
@@ -142,7 +143,7 @@ contains
     end subroutine reserve_convolution
 
     !> Give everything back; harmless if there is nothing.
-    impure elemental subroutine release_convolution(convolution)
+    subroutine release_convolution(convolution)
         type(convolution_t), intent(inout) :: convolution !! empty afterwards
 
         integer :: i
