@@ -619,6 +619,9 @@ contains
         else if (compliance <= 0.0_wp) then
             call set_status(status, st_bad_material, &
                             'the compliance is not positive: '//number_text(compliance))
+        else if (compliance < smallest .or. compliance > largest) then
+            call set_status(status, st_out_of_range, 'the compliance is beyond all proportion: ' &
+                            //number_text(compliance))
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, &
                             'the tolerance is not a finite number: '//number_text(options%tolerance))
@@ -641,6 +644,9 @@ contains
         else if (load <= 0.0_wp) then
             call set_status(status, st_bad_load, &
                             'the load is not positive: '//trim(number_text(load))//' N')
+        else if (load < smallest .or. load > largest) then
+            call set_status(status, st_out_of_range, 'the load is beyond all proportion: ' &
+                            //trim(number_text(load))//' N')
         end if
     end subroutine check_load
 end module faststrip_normal_variational

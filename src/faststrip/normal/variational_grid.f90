@@ -62,13 +62,11 @@ contains
         real(wp) :: x, y, square
 
         do j = 1, grid%ny
-            y = (element_y(grid, j) - other%y_first)/other%dy + 1.0_wp
-            y = min(max(y, -1.0_wp), other%ny + 2.0_wp)
+            y = place((element_y(grid, j) - other%y_first)/other%dy, other%ny)
             l = floor(y)
             y = y - l
             do i = 1, grid%nx
-                x = (element_x(grid, i) - other%x_first)/other%dx + 1.0_wp
-                x = min(max(x, -1.0_wp), other%nx + 2.0_wp)
+                x = place((element_x(grid, i) - other%x_first)/other%dx, other%nx)
                 k = floor(x)
                 x = x - k
                 square = (1.0_wp - y)*((1.0_wp - x)*squared(k, l) + x*squared(k + 1, l)) &
@@ -78,6 +76,18 @@ contains
         end do
 
     contains
+
+        !> Index of a distance from the first middle, with a fraction. Middles that coincide do so
+        !> exactly: else a trace of a neighbour would be in contact.
+        pure real(wp) function place(distance, n)
+            real(wp), intent(in) :: distance
+            integer, intent(in) :: n
+
+            real(wp), parameter :: coincide = 1.0e-6_wp
+
+            place = min(max(distance + 1.0_wp, -1.0_wp), n + 2.0_wp)
+            if (abs(place - anint(place)) < coincide) place = anint(place)
+        end function place
 
         pure real(wp) function squared(k, l)
             integer, intent(in) :: k, l
