@@ -7,6 +7,7 @@ module faststrip_app_bench
                                      option_integer, option_number
     use faststrip_app_bench_integral, only: bench_integral
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
+    use faststrip_app_bench_reference, only: bench_reference, bench_reference_most_elements
     use faststrip_app_bench_accuracy, only: bench_accuracy
     use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
@@ -17,13 +18,15 @@ module faststrip_app_bench
 
     public :: run_bench
 
+    integer, parameter :: name_length = 15
+
 contains
 
     !> Run the subcommand from the command line.
     subroutine run_bench()
         type(command_t) :: command
         character(len=:), allocatable :: what, file, folder
-        integer :: rounds, most_strips
+        integer :: rounds, most_strips, most_elements
         real(wp) :: seconds
 
         command%name = 'bench'
@@ -31,11 +34,13 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
-            option_t('--rounds', 'N', 'integral: how often everything is timed, 1 to 1000' &
-                     // ' (default 21)'), &
-            option_t('--contacts', 'FOLDER', 'others: the contacts (default reference/contact)'), &
+            option_t('--rounds', 'N', 'integral: how often everything is timed, 1 to' &
+                     // ' 1000 (default 21)'), &
+            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
-            option_t('--seconds', 'S', 'normal: for each number of strips (default 6)'), &
+            option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
+            option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
+                     // ' elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)'), &
             option_t('--quick', '', 'trade: few methods, few contacts')]
@@ -47,61 +52,62 @@ contains
             call usage_error('--rounds is not within 1 to 1000', command%name)
         folder = option_text(command, '--contacts', 'reference/contact')
         most_strips = option_integer(command, '--most-strips', bench_normal_most_strips)
+        most_elements = option_integer(command, '--most-elements', bench_reference_most_elements)
         seconds = option_number(command, '--seconds', 6.0_wp)
         if (seconds < 0.0_wp) call usage_error('--seconds is negative: ' &
             // trim(number_text(seconds)), command%name)
-        if (what /= 'trade') call refuse_options(command, what, &
-                                                 [character(len=9) :: '--methods', '--quick'])
         select case (what)
         case ('integral')
-            call refuse_options(command, what, &
-                                [character(len=13) :: '--contacts', '--most-strips', '--seconds'])
+            call allow([character(len=name_length) :: '--rounds'])
             call bench_integral(file, rounds)
         case ('normal')
-            call refuse_options(command, what, ['--rounds'])
+            call allow([character(len=name_length) :: '--contacts', '--most-strips', '--seconds'])
             call bench_normal(file, folder, most_strips, seconds)
+        case ('reference')
+            call allow([character(len=name_length) :: '--contacts', '--most-elements', '--seconds'])
+            call bench_reference(file, folder, most_elements, seconds)
         case ('certificate')
-            call refuse_options(command, what, [character(len=14) :: '--rounds', '--contacts', &
-                                                '--most-strips', '--seconds'])
+            call allow([character(len=name_length) ::])
             call run_certificate_study(file)
         case ('accuracy')
-            call refuse_options(command, what, &
-                                [character(len=13) :: '--rounds', '--most-strips', '--seconds'])
+            call allow([character(len=name_length) :: '--contacts'])
             call bench_accuracy(file, folder)
+        case ('robust')
+            call allow([character(len=name_length) :: '--contacts'])
+            call bench_robust(file, folder)
+        case ('convergence')
+            call allow([character(len=name_length) :: '--contacts', '--most-strips'])
+            call bench_convergence(file, folder, most_strips)
         case ('trade')
-            call refuse_options(command, what, [character(len=13) :: '--rounds', '--most-strips', &
-                                                '--seconds'])
+            call allow([character(len=name_length) :: '--contacts', '--methods', '--quick'])
             call bench_trade(file, option_text(command, '--methods', &
                                                'reference/trade_methods.csv'), folder, &
                              given(command, '--quick'))
-        case ('robust')
-            call refuse_options(command, what, &
-                                [character(len=13) :: '--rounds', '--most-strips', '--seconds'])
-            call bench_robust(file, folder)
-        case ('convergence')
-            call refuse_options(command, what, [character(len=9) :: '--rounds', '--seconds'])
-            call bench_convergence(file, folder, most_strips)
         case default
             call usage_error('there is no bench called ' // what, command%name)
         end select
+
+    contains
+
+        !> Refuse every option that was given beside `-o` and those of the bench.
+        subroutine allow(names)
+            character(len=*), intent(in) :: names(:)
+
+            integer :: i
+
+            do i = 2, size(command%options)
+                if (.not. command%options(i)%is_given) cycle
+                if (any(names == command%options(i)%name)) cycle
+                call usage_error(trim(command%options(i)%name) // ' goes without ' // what, &
+                                 command%name)
+            end do
+        end subroutine allow
     end subroutine run_bench
-
-    subroutine refuse_options(command, what, names)
-        type(command_t), intent(in) :: command
-        character(len=*), intent(in) :: what, names(:)
-
-        integer :: i
-
-        do i = 1, size(names)
-            if (given(command, trim(names(i)))) &
-                call usage_error(trim(names(i)) // ' goes without ' // what, command%name)
-        end do
-    end subroutine refuse_options
 
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(20) = [character(len=81) :: &
+        character(len=*), parameter :: lines(23) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -111,17 +117,20 @@ contains
             '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
             '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
             'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
-            'accuracy: its errors against CONTACT with 15 strips and auto.', &
-            'convergence: its errors with 5 to 81 strips, against 301 strips, and against', &
+            'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
+            'elements in contact: from nothing with new plans and with old ones (cold), from a', &
+            'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
+            'the approach.', &
+            'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
+            'convergence: their errors with 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
             'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
             '15 and 31 strips and auto against 401.', &
             'certificate: how often estimated errors bound the true ones (minutes; with -o', &
             'the shares on stdout).', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
-            'contact and method, on these contacts and 161 Hertz ellipses. Columns of', &
-            'FILE: see reference/trade_methods.csv.', &
-            'normal, accuracy, robust and convergence work on the paper''s 20 contacts.']
+            'contact and method. Columns of FILE: see reference/trade_methods.csv.', &
+            'The contacts are the paper''s 20; trade adds 161 Hertz ellipses.']
         integer :: i
 
         text = ''
