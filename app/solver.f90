@@ -117,6 +117,11 @@ contains
         call system_clock(after)
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
+        if (is_error(status) .or. solver%methods%normal == 'norm') return
+        call certify(solver%normal, material, outcome%normal, outcome%certificate, &
+                     outcome%is_certified)
+        outcome%is_estimated = outcome%is_certified
+    end subroutine solve
 
     !> Room for the elements of as many strips as there are rows.
     subroutine grow_field(solver, status)
