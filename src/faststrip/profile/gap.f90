@@ -45,8 +45,8 @@ contains
         if (status%code /= 0 .or. .not. allocated(gap%turn)) return
         if (size(gap%turn) /= size(gap%y)) then
             call set_status(status, st_bad_argument, 'y and turn of the gap differ in ' // &
-                            'length: ' // count_text(size(gap%y)) // ', ' // &
-                            count_text(size(gap%turn)))
+                            'length: ' // trim(count_text(size(gap%y))) // ', ' // &
+                            trim(count_text(size(gap%turn))))
             return
         end if
         do i = 1, size(gap%turn)
