@@ -36,12 +36,13 @@ program bench
             integer(c_int), value :: n
             real(c_double), intent(in) :: y(*), h(*), inv2r(*)
         end function faststrip_set_gap
-        integer(c_int) function faststrip_solve(workspace, case, result) bind(c)
+        integer(c_int) function c_solve(workspace, case, result) &
+            bind(c, name='faststrip_solve')
             import :: c_int, c_ptr, c_case_t, c_double
             type(c_ptr), value :: workspace
             type(c_case_t), intent(in) :: case
             real(c_double), intent(out) :: result(*)
-        end function faststrip_solve
+        end function c_solve
         integer(c_int) function faststrip_fastsim(a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, &
                                                   load, nx, ny, forces) bind(c)
             import :: c_int, c_double
@@ -121,7 +122,7 @@ contains
             call system_clock(from)
             do k = 1, calls
                 c_case%load = load*(1.0_wp + 0.01_wp*modulo(k, 2))
-                info = faststrip_solve(c_workspace, c_case, res)
+                info = c_solve(c_workspace, c_case, res)
                 total = total + res(3)
             end do
             least(2) = min(least(2), since(from)/calls)
