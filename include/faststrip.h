@@ -10,9 +10,10 @@
  *
  * A workspace serves one thread at a time; different workspaces are independent, and the library
  * remembers nothing outside of them. faststrip_new and faststrip_copy allocate, faststrip_free
- * frees, nothing else touches memory. No function stops, prints, reads or writes a file, changes
- * the locale, or leaves floating-point flags, traps or rounding other than it found them. Handing
- * over a pointer that is neither null nor what it should be cannot always be noticed. */
+ * frees, nothing else does (but the words of an error are made with a little memory of the Fortran
+ * run-time library). A call needs less than 64 kB of stack. No function stops, prints, reads or
+ * writes a file, changes the locale, or leaves floating-point flags, traps or rounding other than
+ * it found them. A pointer that is neither null nor what it should be cannot always be noticed. */
 #ifndef FASTSTRIP_H
 #define FASTSTRIP_H
 
@@ -29,10 +30,12 @@ extern "C" {
 
 enum faststrip_status {
     FASTSTRIP_OK = 0,
-    FASTSTRIP_FALLBACK_USED = 1, /* ends of patches did not settle: a fixed lattice gave the answer */
+    FASTSTRIP_FALLBACK_USED = 1, /* a fixed lattice gave the answer: patch ends did not settle */
     FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */
     FASTSTRIP_FEWER_STRIPS = 3,  /* more strips did not settle */
     FASTSTRIP_OVERLAP_LEFT = 4,  /* a rough gap's valleys overlap beside the patches */
+    FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
+    FASTSTRIP_CONFORMAL = 6,     /* the surfaces turn much within it: half-space doubtful */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
     FASTSTRIP_NOT_FINITE = 101,
@@ -45,7 +48,8 @@ enum faststrip_status {
     FASTSTRIP_NO_CONVERGENCE = 108,
     FASTSTRIP_OUT_OF_RANGE = 109,
     FASTSTRIP_WORKSPACE_TOO_SMALL = 110,
-    FASTSTRIP_LINEAR_ALGEBRA = 111
+    FASTSTRIP_LINEAR_ALGEBRA = 111,
+    FASTSTRIP_NO_FINITE_PATCH = 113
 };
 
 enum faststrip_normal {
@@ -140,8 +144,8 @@ int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, co
 int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,
                     faststrip_result *result);
 
-/* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in MPa,
- * number of the patch. room is the length of the arrays; *n becomes the number of strips even if
+/* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in
+ * MPa, number of the patch. room is the length of the arrays; *n becomes the number of strips even if
  * that is more. */
 int faststrip_get_strips(faststrip_workspace *workspace, int room, int *n, double *y_left,
                          double *y_right, double *half_length, double *p0, int *patch);
@@ -152,15 +156,15 @@ int faststrip_get_elements(faststrip_workspace *workspace, int room, int *n, dou
                            double *area, double *pn, double *px, double *py, double *sx,
                            double *sy, int *state);
 
-/* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear modulus,
- * MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces becomes Fx, Fy
- * (N), Mz (N mm). */
+/* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear
+ * modulus, MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces
+ * becomes Fx, Fy (N), Mz (N mm). */
 int faststrip_fastsim(double a, double b, double g, double c11, double c22, double c23, double cksi,
                       double ceta, double cphi, double mu, double load, int nx, int ny,
                       double forces[3]);
 
-/* Hertz's contact of the gap inv2r_x x^2 + inv2r_y y^2. figures becomes a, b, penetration (mm), pmax
- * (MPa). */
+/* Hertz's contact of the gap inv2r_x x^2 + inv2r_y y^2. figures becomes a, b, penetration (mm),
+ * pmax (MPa). */
 int faststrip_hertz(double e_wheel, double e_rail, double nu_wheel, double nu_rail, double inv2r_x,
                     double inv2r_y, double load, double figures[4]);
 

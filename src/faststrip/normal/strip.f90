@@ -1,4 +1,4 @@
-!> NFASTSTRIP: normal contact by strips along the rolling direction.
+!> Normal contact by strips along the rolling direction: NFASTSTRIP.
 !>
 !> The paper gives the influence of a strip and not the algorithm that finds the patch. Here the
 !> strips of a patch always fill it: its two ends move until the squared strip length, carried on

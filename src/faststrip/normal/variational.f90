@@ -1,4 +1,4 @@
-!> NORM: normal contact by Kalker's variational method on a grid of rectangles.
+!> Normal contact by Kalker's variational method on a grid of rectangles: NORM.
 !>
 !> Pressures constant on each rectangle minimise the potential energy of two elastic half-spaces,
 !> with the contact condition at the elements' middles (Kalker, Three-Dimensional Elastic Bodies in

@@ -1,4 +1,4 @@
-!> FASTSIM: Kalker's simplified theory of rolling contact on a Hertz ellipse.
+!> Kalker's simplified theory of rolling contact on a Hertz ellipse: FASTSIM.
 !>
 !> J. J. Kalker, A fast algorithm for the simplified theory of rolling contact, Vehicle System
 !> Dynamics 11 (1982) 1-13. The surface moves by `u = L p`; particles enter at the leading edge
