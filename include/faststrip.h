@@ -136,17 +136,19 @@ int faststrip_free(faststrip_workspace **workspace);
 int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 
 /* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
- * n >= 5 points, y strictly increasing, mm, mm, 1/mm. The numbers are copied. */
+ * n >= 5 points, y strictly increasing, mm, mm, 1/mm. turn says how far the surfaces have turned
+ * from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not known. The
+ * numbers are copied. */
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
-                      const double *inv2r);
+                      const double *inv2r, const double *turn);
 
 /* Solve one contact on the gap of the workspace. */
 int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,
                     faststrip_result *result);
 
 /* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in
- * MPa, number of the patch. room is the length of the arrays; *n becomes the number of strips even if
- * that is more. */
+ * MPa, number of the patch. room is the length of the arrays; *n becomes the number of strips even
+ * if that is more. */
 int faststrip_get_strips(faststrip_workspace *workspace, int room, int *n, double *y_left,
                          double *y_right, double *half_length, double *p0, int *patch);
 

@@ -30,11 +30,12 @@ program bench
             integer(c_int), value :: max_points
             type(c_ptr), intent(out) :: workspace
         end function faststrip_new
-        integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r) bind(c)
+        integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, turn) bind(c)
             import :: c_int, c_ptr, c_double
             type(c_ptr), value :: workspace
             integer(c_int), value :: n
             real(c_double), intent(in) :: y(*), h(*), inv2r(*)
+            type(c_ptr), value :: turn
         end function faststrip_set_gap
         integer(c_int) function c_solve(workspace, case, result) &
             bind(c, name='faststrip_solve')
@@ -74,7 +75,7 @@ program bench
     case%creepage = creepage_t(1.0e-3_wp, 5.0e-4_wp, 1.0e-4_wp)
     info = faststrip_default_case(c_case, c_sizeof(c_case))
     info = faststrip_new(c_case, points, c_workspace)
-    info = faststrip_set_gap(c_workspace, points, y, h, inv2r)
+    info = faststrip_set_gap(c_workspace, points, y, h, inv2r, c_null_ptr)
     call fsdflt(iopt, par)
     call fsinit(iopt, points, iwork, 8, info)
     call fsgap(iwork, points, y, h, inv2r, info)

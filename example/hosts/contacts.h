@@ -91,7 +91,7 @@ static uint64_t solve_example(faststrip_workspace *workspace, uint64_t number, i
 
     make_example(number, &e);
     memset(&result, 0, sizeof result);
-    *status = faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r);
+    *status = faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
     if (*status == 0) *status = faststrip_solve(workspace, &e.contact, &result);
     return bits_of(*status, &result);
 }

@@ -70,7 +70,7 @@ static long every_call(faststrip_workspace *workspace)
                            &e.contact.cphi};
         memcpy(field, all, sizeof all);
         e.contact.with_elements = number % 2;
-        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r) >= 100;
+        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
         failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
         faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
         for (i = 0; i < 10; i++) {
@@ -82,7 +82,7 @@ static long every_call(faststrip_workspace *workspace)
             *field[i] = kept;
         }
         e.h[number] = hostile[number % HOSTILE];
-        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r) >= 100;
+        failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
         failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
     }
     for (i = 0; i < HOSTILE; i++) {

@@ -149,24 +149,28 @@ class Contact:
         if hasattr(self, "_workspace"):
             self.close()
 
-    def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike) -> None:
+    def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike,
+                turn: Optional[npt.ArrayLike] = None) -> None:
         """The gap of the undeformed bodies, ``h(x, y) = h(y) + x**2 inv2r(y)``: y strictly
-        increasing, mm; h in mm; inv2r in 1/mm, also one number for all y. The numbers are copied.
+        increasing, mm; h in mm; inv2r in 1/mm, also one number for all y. turn says how far the
+        surfaces have turned from the tangent plane at y = 0, rad, by which conformal contacts are
+        told. The numbers are copied.
         """
         points = np.ascontiguousarray(y, dtype=np.float64)
         if points.ndim != 1:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), "y is not one-dimensional")
         try:
-            heights, curvatures = (
+            others = [
                 np.ascontiguousarray(np.broadcast_to(np.asarray(values, np.float64), points.shape))
-                for values in (h, inv2r))
+                for values in (h, inv2r, turn) if values is not None]
         except ValueError as problem:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "y, h and inv2r differ in length") from problem
+                                 "y, h, inv2r or turn differ in length") from problem
         if points.size > self._max_points:
             self._make_room(points.size)
-        check(library.faststrip_set_gap(self._workspace, points.size,
-                                        *_addresses([points, heights, curvatures])),
+        addresses = _addresses([points, *others])
+        check(library.faststrip_set_gap(self._workspace, points.size, *addresses[:3],
+                                        addresses[3] if turn is not None else None),
               self._workspace)
 
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
@@ -232,7 +236,7 @@ def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
 
 def hertz(inv2r_x: float, inv2r_y: float, load: float,
           material: Material = Material()) -> Tuple[float, float, float, float]:
-    """Hertz's contact of the gap ``inv2r_x x**2 + inv2r_y y**2``: semi-axes a along x and b along y,
+    """Hertz's contact of the gap ``inv2r_x x**2 + inv2r_y y**2``: semi-axes a along x, b along y,
     penetration (mm), largest pressure (MPa)."""
     figures = (c_double * 4)()
     check(library.faststrip_hertz(material.e_wheel, material.e_rail, material.nu_wheel,

@@ -108,7 +108,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "new": [POINTER(Case), c_int, POINTER(handle)],
         "free": [POINTER(handle)],
         "copy": [handle, handle],
-        "set_gap": [handle, c_int, *[c_void_p] * 3],
+        "set_gap": [handle, c_int, *[c_void_p] * 4],
         "solve": [handle, POINTER(Case), POINTER(Figures)],
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],

@@ -132,6 +132,13 @@ class Contacts(HostTest):
         result = contact.solve(load=1e5)
         self.assertEqual((result.status, result.word), (2, "edge_of_data"))
 
+    def test_surfaces_that_turn_are_conformal(self):
+        contact = self.faststrip.Contact()
+        contact.set_gap(*self.gap, turn=0.1 * self.y)
+        self.assertEqual(contact.solve(load=1e5).word, "conformal")
+        contact.set_gap(*self.gap, turn=0.0)
+        self.assertEqual(contact.solve(load=1e5).word, "ok")
+
     def test_a_longer_gap_gets_room(self):
         contact = self.faststrip.Contact(max_points=10)
         contact.set_gap(*self.gap)

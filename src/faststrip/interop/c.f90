@@ -169,14 +169,15 @@ contains
     end function faststrip_copy
 
     !> Hand over the gap that the next solutions are for.
-    integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r) bind(c) result(code)
+    integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, turn) bind(c) result(code)
         type(c_ptr), value :: workspace   !! a handle
         integer(c_int), value :: n        !! number of points
         type(c_ptr), value :: y, h, inv2r !! `n` numbers each, mm, mm, 1/mm
+        type(c_ptr), value :: turn        !! `n` numbers, rad, or null: not known
 
         type(handle_t), pointer :: handle
         type(status_t) :: status
-        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:)
+        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:), turn_of(:)
 
         call find_handle(workspace, handle, status)
         code = status%code
@@ -187,7 +188,10 @@ contains
             call c_f_pointer(y, y_of, [n])
             call c_f_pointer(h, h_of, [n])
             call c_f_pointer(inv2r, inv2r_of, [n])
-            call handle_gap(handle, y_of, h_of, inv2r_of)
+            turn_of => null()
+            if (c_associated(turn)) call c_f_pointer(turn, turn_of, [n])
+            ! A null pointer counts as an argument that is not present.
+            call handle_gap(handle, y_of, h_of, inv2r_of, turn_of)
         end if
         code = handle%status%code
     end function faststrip_set_gap
@@ -215,7 +219,8 @@ contains
         end if
         call c_f_pointer(case, fields)
         call c_f_pointer(result, figures)
-        call handle_solve(handle, case_of(fields), fields%with_elements /= 0, solution)
+        call take_case(fields, handle%case)
+        call handle_solve(handle, fields%with_elements /= 0, solution)
         code = handle%status%code
         figures%size = c_sizeof(figures)
         associate (normal => solution%normal, tangential => solution%tangential)
@@ -382,8 +387,9 @@ contains
                                     fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
     end function methods_of
 
-    pure type(contact_case_t) function case_of(fields) result(case)
+    pure subroutine take_case(fields, case)
         type(c_case_t), intent(in) :: fields
+        type(contact_case_t), intent(inout) :: case
 
         case%material = material_t(fields%e_wheel, fields%e_rail, fields%nu_wheel, fields%nu_rail)
         case%mu = fields%mu
@@ -393,7 +399,7 @@ contains
         case%creepage = creepage_t(fields%cksi, fields%ceta, fields%cphi)
         case%methods = methods_of(fields)
         case%warm_start = fields%warm_start /= 0
-    end function case_of
+    end subroutine take_case
 
     !> Tell how many there are, and refuse arrays that are missing or too short.
     subroutine check_room(handle, room, count, n, arrays)

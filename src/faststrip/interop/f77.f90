@@ -203,21 +203,22 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
-        type(contact_case_t) :: case
         type(contact_result_t) :: result
 
         res = 0.0_c_double
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        case%material = material_t(par(1), par(2), par(3), par(4))
-        case%mu = par(5)
-        case%by_load = iopt(7) /= 0
-        case%load = par(6)
-        case%penetration = par(6)
-        case%creepage = creepage_t(par(7), par(8), par(9))
-        case%methods = methods_of(iopt)
-        case%warm_start = iopt(8) /= 0
-        call handle_solve(handle, case, iopt(9) /= 0, result)
+        associate (case => handle%case)
+            case%material = material_t(par(1), par(2), par(3), par(4))
+            case%mu = par(5)
+            case%by_load = iopt(7) /= 0
+            case%load = par(6)
+            case%penetration = par(6)
+            case%creepage = creepage_t(par(7), par(8), par(9))
+            case%methods = methods_of(iopt)
+            case%warm_start = iopt(8) /= 0
+        end associate
+        call handle_solve(handle, iopt(9) /= 0, result)
         info = handle%status%code
         if (is_error(handle%status)) return
         associate (normal => result%normal, tangential => result%tangential)

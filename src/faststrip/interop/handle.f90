@@ -23,6 +23,7 @@ module faststrip_interop_handle
     type :: handle_t
         integer(int64) :: mark = 0
         type(workspace_t) :: workspace
+        type(contact_case_t) :: case      !! filled in anew for every call, without a gap
         type(tangential_field_t) :: field !! elements of the last contact, if room was made
         type(status_t) :: status          !! of the last call
     end type handle_t
@@ -88,25 +89,25 @@ contains
     end subroutine find_handle
 
     !> Hand a gap over.
-    subroutine handle_gap(handle, y, h, inv2r)
+    subroutine handle_gap(handle, y, h, inv2r, turn)
         type(handle_t), intent(inout) :: handle         !! its status tells how it ended
         real(wp), intent(in) :: y(:), h(:), inv2r(:)    !! mm, mm, 1/mm
+        real(wp), intent(in), optional :: turn(:)       !! rad
 
-        call set_contact_gap(handle%workspace, y, h, inv2r, handle%status)
+        call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, turn)
     end subroutine handle_gap
 
-    !> Solve a contact on the gap that was handed over.
-    subroutine handle_solve(handle, case, with_field, result)
+    !> Solve the handle's case on the gap that was handed over.
+    subroutine handle_solve(handle, with_field, result)
         type(handle_t), intent(inout) :: handle       !! its status tells how it ended
-        type(contact_case_t), intent(in) :: case      !! without a gap of its own
         logical, intent(in) :: with_field             !! are the elements wanted?
         type(contact_result_t), intent(out) :: result !! figures
 
         handle%field%n = 0
         if (with_field) then
-            call solve_contact(handle%workspace, case, result, handle%status, handle%field)
+            call solve_contact(handle%workspace, handle%case, result, handle%status, handle%field)
         else
-            call solve_contact(handle%workspace, case, result, handle%status)
+            call solve_contact(handle%workspace, handle%case, result, handle%status)
         end if
     end subroutine handle_solve
 

@@ -1,4 +1,4 @@
-!> TANG: the tangential problem by Kalker's variational method, for bodies of like materials.
+!> TANG, the tangential problem by Kalker's variational method, for bodies of like materials.
 !>
 !> Given pressures on a grid of rectangles, friction and creepages, tractions are sought that are
 !> nowhere above mu times the pressure, oppose the slip where they reach it, and have no slip where
