@@ -170,23 +170,25 @@ contains
         convolution%n_sources = 0
     end subroutine release_convolution
 
-    !> The smallest even number from n on that is a product of 2, 3, 5 and 7 alone.
+    !> The smallest size from n on that FFTW's unmeasured plans are quick with: a multiple of 4 that
+    !> is a product of 2, 5 and 7, with one 3 at most. Sizes with 9 take up to twice as long.
     pure integer function good_size(n)
         integer, intent(in) :: n !! at least 1
 
-        integer, parameter :: primes(4) = [2, 3, 5, 7]
+        integer, parameter :: primes(3) = [2, 5, 7]
         integer :: rest, i
 
-        good_size = n + modulo(n, 2)
+        good_size = n + modulo(-n, 4)
         do
             rest = good_size
+            if (modulo(rest, 3) == 0) rest = rest/3
             do i = 1, size(primes)
                 do while (modulo(rest, primes(i)) == 0)
                     rest = rest/primes(i)
                 end do
             end do
             if (rest == 1) return
-            good_size = good_size + 2
+            good_size = good_size + 4
         end do
     end function good_size
 
