@@ -4,8 +4,9 @@ module faststrip_app_sweep
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, close_csv
     use faststrip_app_console, only: fail, fail_on_error, note, progress, exit_bad_input
-    use faststrip_app_options, only: command_t, option_t, parse_command, option_text
+    use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text
     use faststrip_app_methods, only: methods_t, word_length
+    use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: case_t, read_case
     use faststrip_app_scene, only: scene_t, make_scene
     use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
@@ -27,12 +28,12 @@ contains
         type(command_t) :: command
         type(case_t) :: case
         type(scene_t) :: scene
-        type(solver_t) :: solver(size(pairs, 2))
+        type(solver_t) :: solver(size(pairs, 2) + 1)
         type(methods_t) :: methods
         type(outcome_t) :: outcome
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
-        integer :: i, m, n_failed
+        integer :: i, m, n_failed, n_solvers
 
         command%name = 'sweep'
         command%usage = 'CASE.nml'
@@ -40,20 +41,31 @@ contains
             'Solve the contact of a case at every lateral shift of its group &sweep, by strips' &
             // new_line('a') // 'with faststrip and fastsim and by hertz with fastsim. CSV, one' &
             // ' row per shift' // new_line('a') // 'and method; one that fails gets its status' &
-            // ' word and empty figures.' // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)')]
+            // ' word and empty figures.' // new_line('a') // 'With --normal or --tangential' &
+            // ' there is one row more, by these methods.' // new_line('a')
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+                           method_options]
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)
+        call take_method_options(command, case%methods)
         if (size(case%shifts) == 0) &
             call fail(exit_bad_input, 'missing group: &sweep with shifts_mm (' &
                       // command%arguments(1)%text // ')')
         if (len(case%gap_file) > 0) &
             call fail(exit_bad_input, 'a sweep needs profiles, not a gap file: ' &
                       // case%gap_file // ' (' // command%arguments(1)%text // ')')
-        do m = 1, size(solver)
+        n_solvers = size(pairs, 2)
+        if (given(command, '--normal') .or. given(command, '--tangential')) then
+            ! Unless it is one of the three.
+            if (.not. any(pairs(1, :) == case%methods%normal &
+                          .and. pairs(2, :) == case%methods%tangential)) n_solvers = n_solvers + 1
+        end if
+        do m = 1, n_solvers
             methods = case%methods
-            methods%normal = pairs(1, m)
-            methods%tangential = pairs(2, m)
+            if (m <= size(pairs, 2)) then
+                methods%normal = pairs(1, m)
+                methods%tangential = pairs(2, m)
+            end if
             call make_solver(methods, .false., solver(m), status)
             call fail_on_error(status)
         end do
@@ -64,7 +76,7 @@ contains
         do i = 1, size(case%shifts)
             call progress('shifts', i, size(case%shifts))
             call make_scene(case, case%shifts(i), scene, placed)
-            do m = 1, size(solver)
+            do m = 1, n_solvers
                 status = placed
                 if (.not. is_error(placed)) &
                     call solve(solver(m), scene%gap, case%material, case%mu, scene%demand, &
@@ -80,7 +92,7 @@ contains
         call close_csv(writer, written)
         call fail_on_error(written)
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
-                                    // integer_text(size(case%shifts)*size(solver)) &
+                                    // integer_text(size(case%shifts)*n_solvers) &
                                     // ' contacts failed')
     end subroutine run_sweep
 end module faststrip_app_sweep

@@ -72,6 +72,8 @@ class CaseFiles(ProgramTest):
                    .replace("  load_N = 1\n", ""), "(c.nml:5)", "vertical")
         for line, value in (("strips_per_patch = -2", "-2"), ("normal = 'guess'", "guess"),
                             ("points_per_strip = 1001", "1001"), ("fastsim_nx = -1", "-1"),
+                            ("element_dx_mm = 0", "0"), ("element_dy_mm = -0.2", "-0.2"),
+                            ("error_target = -1", "-1"), ("norm_start = 'guess'", "guess"),
                             ("gap_step_mm = 0", "0.0"), ("gap_height_mm = -1", "-1.0")):
             self.check(gap_case(extra=f"&numerics\n {line}\n/\n"), "(c.nml:13)",
                        line.split(" ")[0], value)

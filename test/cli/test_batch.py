@@ -175,6 +175,12 @@ class Sweep(ProgramTest):
         self.assertEqual(numbers(rows, "yw_mm"), [shift for shift in shifts for _ in range(3)])
         self.assertEqual([(row["normal"], row["tangential"]) for row in rows],
                          [("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim")] * 5)
+        more = self.good("sweep", case, "--normal", "norm", "--element-dx", "0.4",
+                         "--element-dy", "0.4")
+        self.assertEqual([row["normal"] for row in more], ["strip", "strip", "hertz", "norm"] * 5)
+        for strip, norm in zip(more[::4], more[3::4]):
+            self.assert_close(float(norm["penetration_mm"]), float(strip["penetration_mm"]), 3e-3)
+        self.assertEqual(len(self.good("sweep", case, "--tangential", "fastsim")), 15)
         one = self.good("contact", case, "--shift", "2")[0]
         for name in one:
             if not name.endswith("_us"):

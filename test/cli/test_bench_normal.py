@@ -50,6 +50,26 @@ class Bench(ProgramTest):
             self.assertTrue(1.0 < float(row["ns_per_entry"]) < 1e4, row["ns_per_entry"])
             self.assertGreaterEqual(int(row["runs"]), 1)
 
+    def test_reference(self):
+        rows, said = self.bench("reference", "--most-elements", "1000", "--seconds", "0.2")
+        self.assertEqual(list(rows[0]), (
+            "method,start,tolerance,elements,us,iterations,convolutions,dx_mm,grid,flags,compiler,"
+            "cpu,case,runs").split(","))
+        for elements in (500, 1000):
+            self.assertIn(f"{elements} elements, ", said)
+        starts = {"new_plans", "cold", "coarse", "strips", "warm_load"}
+        for tolerance in (1e-9, 1e-4):
+            first = {row["start"]: row for row in rows if row["case"] == "shift_-5"
+                     and float(row["tolerance"]) == tolerance and float(row["dx_mm"]) < 0.4}
+            self.assertEqual(set(first), starts)
+            self.assertLessEqual(float(first["strips"]["iterations"]),
+                                 float(first["cold"]["iterations"]))
+            self.assertEqual(first["new_plans"]["iterations"], first["cold"]["iterations"])
+        for row in rows:
+            self.assertGreater(float(row["us"]), 0.0)
+            self.assertGreaterEqual(float(row["convolutions"]), float(row["iterations"]))
+            self.assertGreater(int(row["grid"]), int(row["elements"]))
+
     def test_accuracy(self):
         rows, said = self.bench("accuracy")
         self.assertEqual([(row["case"], row["strips"]) for row in rows],

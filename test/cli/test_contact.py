@@ -120,7 +120,7 @@ class GapFile(ProgramTest):
     def test_penetration_gives_back_the_load(self):
         self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.05 * y)))
         for normal, relative in (("strip", 1e-6), ("hertz", 1e-12), ("equal_area", 1e-6),
-                                 ("equal_moments", 1e-6)):
+                                 ("equal_moments", 1e-6), ("norm", 1e-7)):
             row = self.contact("--normal", normal, gap_file="lopsided.csv")
             text = gap_case(gap_file="lopsided.csv").replace(
                 "load_N = 1e5", f"penetration_mm = {float(row['penetration_mm'])!r}")
@@ -130,7 +130,7 @@ class GapFile(ProgramTest):
             self.assert_close(float(deep["N_N"]), 1e5, 1e-5 + relative, what=normal)
             self.same(deep, row, 1e-4)
         self.write("deep.nml", text.replace("penetration_mm = ", "penetration_mm = -"))
-        for normal in ("strip", "hertz", "equal_area"):
+        for normal in ("strip", "hertz", "equal_area", "norm"):
             self.refused(1, "contact", "deep.nml", "--normal", normal, says=["deep.nml", "touch"])
 
     def test_strips_left_to_the_solver(self):
@@ -164,6 +164,43 @@ class GapFile(ProgramTest):
             self.assert_close(float(row["pmax_MPa"]), 1.5e5 / float(row["area_mm2"]), 1e-6)
             axes[normal] = float(row["xmax_mm"])
         self.assertNotEqual(axes["equal_area"], axes["equal_moments"])
+
+    def test_kalkers_method(self):
+        hertz = self.contact("--normal", "hertz", motion="cksi = 0.001")
+        norm = self.contact("--normal", "norm", motion="cksi = 0.001")
+        self.assertEqual((norm["status"], norm["normal"]), ("ok", "norm"))
+        for name, relative in (("penetration_mm", 5e-4), ("pmax_MPa", 2e-3), ("area_mm2", 2e-2),
+                               ("Fx_N", 2e-2)):
+            self.assert_close(float(norm[name]), float(hertz[name]), relative, what=name)
+        self.assertLess(float(norm["residual_inside"]), 1e-8)
+        self.assertLess(float(norm["overlap_outside"]), 1e-8)
+        error = abs(float(norm["penetration_mm"]) / float(hertz["penetration_mm"]) - 1.0)
+        self.assertLess(error, float(norm["est_err_penetration"]))
+        # From strips, without the coarser grid that gives the errors.
+        warm = self.contact("--normal", "norm", "--norm-start", "strips", motion="cksi = 0.001")
+        self.same(warm, norm, 1e-6)
+        self.assertEqual(warm["est_err_pmax"], "")
+        # Sides from the case file, from the options, from the error that is asked.
+        coarse = self.contact("--normal", "norm", "--element-dx", "0.5", "--element-dy", "0.25",
+                              motion="cksi = 0.001")
+        group = "&numerics\n normal = 'norm', element_dx_mm = 0.5, element_dy_mm = 0.25\n/\n"
+        self.same(self.contact(motion="cksi = 0.001", extra=group), coarse)
+        self.assertNotEqual(coarse["pmax_MPa"], norm["pmax_MPa"])
+        fine = self.contact("--normal", "norm", "--error-target", "1e-3")
+        self.assertLess(float(fine["est_err_pmax"]), 1e-3)
+        self.assert_close(float(fine["pmax_MPa"]), float(hertz["pmax_MPa"]), 1e-3)
+
+    def test_rows_of_kalkers_method_as_strips(self):
+        for tangential in ("faststrip", "fastsim"):
+            row = self.contact("--normal", "norm", "--tangential", tangential, "--strips", "s.csv",
+                               "--fields", "f.csv", motion="cksi = 0.001")
+            strips, field = self.read("s.csv"), self.read("f.csv")
+            self.assert_close(sum(numbers(strips, "load_N")), float(row["N_N"]), 1e-9)
+            for left, right in zip(numbers(strips, "y_left_mm"), numbers(strips, "y_right_mm")):
+                self.assert_close(right - left, 0.2, 1e-9)
+            force = sum(px * area for px, area in zip(numbers(field, "px_MPa"),
+                                                      numbers(field, "area_mm2")))
+            self.assert_close(force, float(row["Fx_N"]), 1e-6)
 
     def test_gap_that_was_read_is_the_gap_that_is_written(self):
         self.contact("--gap", "g.csv")

@@ -87,6 +87,9 @@ class Usage(ProgramTest):
             (["contact", "case.nml", "--strips-per-patch", "-3"], "-3"),
             (["contact", "case.nml", "--points-per-strip", "1001"], "1001"),
             (["contact", "case.nml", "--fastsim-nx", "0"], "0"),
+            (["contact", "case.nml", "--element-dx", "0"], "0"),
+            (["contact", "case.nml", "--error-target", "-1"], "-1"),
+            (["contact", "case.nml", "--norm-start", "guess"], "guess"),
             (["contact", "case.nml", "--shift", "1"], "--shift"),
             (["contact", "case.nml", "--profiles", "p.csv"], "--profiles"),
             (["batch"], "CASES.csv"),
@@ -95,7 +98,7 @@ class Usage(ProgramTest):
             (["batch", "a.csv", "--normal", "guess"], "guess"),
             (["sweep"], "CASE.nml"),
             (["sweep", "a.nml", "b.nml"], "b.nml"),
-            (["sweep", "a.nml", "--normal", "hertz"], "--normal"),
+            (["sweep", "a.nml", "--shift", "1"], "--shift"),
         ):
             with self.subTest(words):
                 text = self.refused(2, *words, says=[says])

@@ -15,6 +15,7 @@ DEGREES = "out/degrees.csv"
 INTEGRAL = "out/bench_integral.csv"
 CONVERGENCE = "out/convergence.csv"
 NORMAL = "out/bench_normal.csv"
+REFERENCE = "out/bench_reference.csv"
 
 
 def curve_rows(*distances, error=0.01):
@@ -80,12 +81,25 @@ def normal_rows():
     ]
 
 
+def reference_rows():
+    return [
+        dict(method="norm", start=start, tolerance=tolerance, elements=elements + more,
+             us=factor * elements**1.2 * again, iterations=12)
+        for start, factor in (("cold", 1.0), ("coarse", 0.9), ("strips", 0.7), ("warm_load", 0.8),
+                              ("new_plans", 1.2))
+        for tolerance in (1e-9, 1e-4)
+        for elements in (500, 1000, 4000, 16000, 100000)
+        for again, more in ((1.0, 0), (1.1, 30), (3.0, -20))
+    ]
+
+
 HEADERS = {
     CURVES: "n,L,b,exact,published,rel_err",
     DEGREES: "basis,fit,n,degree,max_rel_err,rms_rel_err,condition",
     INTEGRAL: "method,n,b,loop,ns,rel_err,flags,compiler,cpu",
     CONVERGENCE: "case,strips,status,penetration_err,pmax_err,area_err",
     NORMAL: "start,strips,us,iterations,ns_per_entry,fastsim_us",
+    REFERENCE: "method,start,tolerance,elements,us,iterations",
 }
 ROWS = {
     CURVES: curve_rows(0, 1, 2, 4, 5, 20),
@@ -93,6 +107,7 @@ ROWS = {
     INTEGRAL: integral_rows(),
     CONVERGENCE: convergence_rows(),
     NORMAL: normal_rows(),
+    REFERENCE: reference_rows(),
 }
 COMMANDS = {
     "integrals": (CURVES, "exact", ("out/integrals.png", "out/integral_errors.png")),
@@ -100,6 +115,7 @@ COMMANDS = {
     "bench_integral": (INTEGRAL, "ns", ("out/bench_integral.png",)),
     "convergence": (CONVERGENCE, "pmax_err", ("out/convergence.png",)),
     "bench_normal": (NORMAL, "us", ("out/bench_normal.png",)),
+    "bench_reference": (REFERENCE, "us", ("out/bench_reference.png",)),
 }
 
 
@@ -139,7 +155,8 @@ class Pictures(unittest.TestCase):
     def test_other_names(self):
         self.drawn("integrals", None, "--folder", "p",
                    pictures=("p/integrals.png", "p/integral_errors.png"))
-        for command in ("degrees", "bench_integral", "convergence", "bench_normal"):
+        for command in ("degrees", "bench_integral", "convergence", "bench_normal",
+                        "bench_reference"):
             with self.subTest(command):
                 self.drawn(command, None, "-o", "p/q.png", pictures=["p/q.png"])
 
@@ -219,6 +236,11 @@ class BadInput(unittest.TestCase):
             ("bench_normal", dict(strips=0), "strips is not above zero: 0"),
             ("bench_normal", dict(start="hot"), "none of cold, warm_load,"
                                               " warm_shift in column start: hot"),
+            ("bench_reference", dict(us=-1), "us is not above zero: -1"),
+            ("bench_reference", dict(elements=0), "elements is not above zero: 0"),
+            ("bench_reference", dict(method="hope"), "none of norm in column method: hope"),
+            ("bench_reference", dict(start="hot"), "none of cold, coarse, strips, warm_load,"
+                                                   " new_plans in column start: hot"),
         ):
             with self.subTest(command=command, words=words):
                 name = COMMANDS[command][0]
@@ -359,6 +381,21 @@ class Drawn(unittest.TestCase):
             for n, value in zip(number, most):
                 if low <= n <= high:
                     self.assertGreater(bottom * (n / high) ** -2.0, value)
+
+    def test_medians_and_slopes_of_elements(self):
+        bench = load("bench_reference")
+        rows = [row for row in reference_rows() if row["tolerance"] == 1e-9]
+        values = {name: np.array([row[name] for row in rows], dtype=float)
+                  for name in ("elements", "us", "iterations")}
+        cold = np.array([k for k, row in enumerate(rows) if row["start"] == "cold"])
+        run = bench.medians(cold, values)
+        np.testing.assert_allclose(run["elements"], [500, 1000, 4000, 16000, 100000])
+        np.testing.assert_allclose(run["us"], 1.1 * run["elements"] ** 1.2)
+        self.assertEqual([list(part) for part in bench.ends(run["elements"])],
+                         [[0, 1, 2], [3, 4]])
+        axes = style.new_figure(4.0, 3.0).subplots()
+        bench.draw_times(axes, [("norm", "cold", 1e-9, run), ("norm", "cold", 1e-4, run)])
+        self.assertEqual(texts(axes), ["∝ $N^{1.20}$"] * 2)
 
     def test_medians_and_slopes_of_times(self):
         bench = load("bench_normal")

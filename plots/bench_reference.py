@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Draw the time of Kalker's variational method against the number of elements, with slopes.
+
+Lines are from nothing, from a coarser grid, from strips and from the previous step; iterations are
+those of all grids, to 1e-9 (filled dots) and to 1e-4 of the approach (rings).
+"""
+
+import math
+import sys
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter
+
+from faststrip_plots import command, scales, style
+from faststrip_plots.results import revision
+from faststrip_plots.tables import InputError, read_table
+
+BENCH = "out/bench_reference.csv"
+STARTS = {
+    "cold": style.Look("cold start", "#0b3c78", "-", 2.0),
+    "coarse": style.Look("from a coarser grid", "#2e7d32", "-", 1.8),
+    "strips": style.Look("from 15 strips", "#b03a2e", (0, (5, 1.8)), 1.8),
+    "warm_load": style.Look("previous step, load ±5 %", "#f08519", (0, (1.5, 1.5)), 1.8),
+    "new_plans": style.Look("cold, plans made anew", "#8a8a8a", (0, (1.2, 1.2)), 1.6),
+}
+METHODS = {"norm": "NORM"}
+GOALS = {"norm": (3700, 5.0)}  # elements and milliseconds
+SLOPE_PART = 8.0  # slopes are measured over this factor in elements, at both ends
+CLASS = 2.0 ** 0.5  # elements within this factor belong together
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--bench", default=BENCH, metavar="CSV",
+                        help="what `faststrip bench reference` wrote")
+    parser.add_argument("-o", "--output", default="out/bench_reference.png", metavar="PNG",
+                        help="picture to write")
+    options = parser.parse_args(arguments)
+    table = read_table(options.bench, ("method", "start", "tolerance", "elements", "us",
+                                       "iterations"))
+    values = {name: table.numbers(name) for name in ("tolerance", "elements", "us", "iterations")}
+    for name in ("tolerance", "elements", "us"):
+        for row in np.flatnonzero(values[name] <= 0.0):
+            raise InputError(
+                f"{name} is not above zero: {values[name][row]:g}"
+                f" ({options.bench}:{table.lines[row]})"
+            )
+    for name, known in (("method", METHODS), ("start", STARTS)):
+        for word, line in zip(table.words(name), table.lines):
+            if word not in known:
+                raise InputError(
+                    f"none of {', '.join(known)} in column {name}: {word} ({options.bench}:{line})"
+                )
+    runs = [(*key, medians(rows, values)) for key, rows in
+            scales.groups(table.words("method"), table.words("start"), values["tolerance"])]
+
+    figure = style.new_figure(10.4, 4.8)
+    time, iterations = figure.subplots(1, 2, width_ratios=[1.5, 1.0], sharex=True)
+    draw_times(time, runs)
+    draw_iterations(iterations, runs)
+    for axes in (time, iterations):
+        axes.set_xscale("log")
+        axes.set_xlabel("elements in contact")
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    style.legend_above(figure, time)
+    style.save(figure, options.output, [revision(table)],
+               "medians, one core; ring: goal at 3700 elements")
+    print(options.output)
+
+
+def finest(runs):
+    """The smallest tolerance of the runs."""
+    return min(tolerance for _, _, tolerance, _ in runs)
+
+
+def draw_times(axes, runs):
+    """Time against elements to the smallest tolerance, with slopes of the cold start and goals."""
+    axes.set_yscale("log")
+    for method, start, tolerance, run in runs:
+        if tolerance != finest(runs):
+            continue
+        look = STARTS[start]
+        axes.plot(run["elements"], 1e-3 * run["us"], color=look.colour, linestyle=look.line,
+                  linewidth=look.width, marker="o", markersize=3.6, label=look.label, zorder=3)
+        if start != "cold":
+            continue
+        for part in ends(run["elements"]):
+            slope = scales.power(run["elements"][part], run["us"][part])
+            if math.isfinite(slope):
+                middle = part[len(part) // 2]
+                axes.annotate(f"∝ $N^{{{slope:.2f}}}$",
+                              (run["elements"][middle], 1e-3 * run["us"][middle]), (-8.0, 8.0),
+                              textcoords="offset points", ha="right", va="bottom",
+                              color=look.colour)
+        elements, goal = GOALS[method]
+        axes.plot(elements, goal, linestyle="none", marker="o", markersize=10, zorder=5,
+                  markerfacecolor="none", markeredgecolor=look.colour, markeredgewidth=1.6)
+    axes.set_ylabel("time of one contact, ms")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
+    style.title(axes, "Kalker's variational method: time against elements")
+
+
+def draw_iterations(axes, runs):
+    """Iterations against elements, filled for the smallest tolerance."""
+    for _, start, tolerance, run in runs:
+        if start == "new_plans":
+            continue
+        look = STARTS[start]
+        filled = tolerance == finest(runs)
+        axes.plot(run["elements"], run["iterations"], color=look.colour, linestyle=look.line,
+                  linewidth=look.width, marker="o", markersize=4.0, zorder=3,
+                  markerfacecolor=look.colour if filled else "white")
+    axes.set_ylim(bottom=0.0)
+    style.title(axes, "Iterations, all grids")
+
+
+def ends(elements):
+    """Indices of the fewest and of the most elements, one set where they are all."""
+    few = np.flatnonzero(elements <= SLOPE_PART * elements[0])
+    many = np.flatnonzero(elements >= elements[-1] / SLOPE_PART)
+    if np.intersect1d(few, many).size > 1:
+        return [np.arange(elements.size)]
+    return [few, many]
+
+
+def medians(rows, values):
+    """Each column's median over rows with nearly as many elements, ascending."""
+    order = rows[np.argsort(values["elements"][rows], kind="stable")]
+    classes = []
+    for row in order:
+        if classes and values["elements"][row] <= CLASS * values["elements"][classes[-1][0]]:
+            classes[-1].append(row)
+        else:
+            classes.append([row])
+    return {name: np.array([np.median(values[name][own]) for own in classes])
+            for name in ("elements", "us", "iterations")}
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))
