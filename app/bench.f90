@@ -11,6 +11,7 @@ module faststrip_app_bench
     use faststrip_app_bench_accuracy, only: bench_accuracy
     use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
+    use faststrip_app_bench_extremes, only: bench_extremes, extreme_parts
     use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
     implicit none
@@ -43,7 +44,12 @@ contains
                      // ' elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)'), &
-            option_t('--quick', '', 'trade: few methods, few contacts')]
+            option_t('--quick', '', 'trade, extremes: few methods, few contacts'), &
+            option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
+                     // ' rounding'), &
+            option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
+                     // ' (default reference/influence)'), &
+            option_t('--scenes', 'FOLDER', 'extremes: the scenes (default example/scenes)')]
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
@@ -78,6 +84,17 @@ contains
         case ('convergence')
             call allow([character(len=name_length) :: '--contacts', '--most-strips'])
             call bench_convergence(file, folder, most_strips)
+        case ('extremes')
+            call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
+                        '--references', '--scenes'])
+            if (given(command, '--only') .and. &
+                all(extreme_parts /= option_text(command, '--only', ''))) &
+                call usage_error('--only: there is no part called ' &
+                                 // option_text(command, '--only', ''), command%name)
+            call bench_extremes(file, option_text(command, '--only', ''), &
+                                given(command, '--quick'), folder, &
+                                option_text(command, '--references', 'reference/influence'), &
+                                option_text(command, '--scenes', 'example/scenes'))
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--quick'])
             call bench_trade(file, option_text(command, '--methods', &
@@ -107,7 +124,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(23) = [character(len=84) :: &
+        character(len=*), parameter :: lines(27) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -130,6 +147,10 @@ contains
             'the shares on stdout).', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
             'contact and method. Columns of FILE: see reference/trade_methods.csv.', &
+            'extremes: the errors of everything at its extremes: strips, ellipses, loads,', &
+            'creepages, gaps beyond all use; noise of one unit in the last place; rounding', &
+            'up, down and to zero. CSV: chapter,case,method,x_name,x,y_name,y,quantity,', &
+            'value,judge,status.', &
             'The contacts are the paper''s 20; trade adds 161 Hertz ellipses.']
         integer :: i
 

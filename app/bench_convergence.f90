@@ -6,11 +6,11 @@ module faststrip_app_bench_convergence
                              close_csv
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
+    use faststrip_app_bench_ellipse, only: make_ellipse
     use faststrip_app_console, only: fail_on_error, note, progress, put_origin
     implicit none
     private
@@ -23,7 +23,7 @@ module faststrip_app_bench_convergence
     ! a/b of the ellipses, and what they all share.
     real(wp), parameter :: ratios(12) = [0.01_wp, 0.02_wp, 0.05_wp, 0.1_wp, 0.2_wp, 0.5_wp, &
                                          1.0_wp, 2.0_wp, 5.0_wp, 10.0_wp, 20.0_wp, 50.0_wp]
-    real(wp), parameter :: hertz_load = 1.0e5_wp, sharpest = 1.0e-3_wp ! N; of A and B, 1/mm
+    real(wp), parameter :: hertz_load = 1.0e5_wp ! N
     integer, parameter :: hertz_points = 801
 
     !> Room for the solutions.
@@ -83,7 +83,7 @@ contains
         end do
         do i = 1, size(ratios)
             call progress('contacts', size(cases) + i, size(cases) + size(ratios))
-            call make_ellipse(compliance, ratios(i), gap, truth)
+            call make_ellipse(compliance, ratios(i), hertz_load, hertz_points, gap, truth)
             call set_strip_gap(room%workspace, gap, status)
             call fail_on_error(status)
             call put_errors(room, compliance, hertz_load, most_strips, 'hertz_' &
@@ -126,48 +126,4 @@ contains
             call end_row(writer)
         end do
     end subroutine put_errors
-
-    !> The gap whose contact is an ellipse of given proportions, and that contact.
-    subroutine make_ellipse(compliance, ratio, gap, truth)
-        real(wp), intent(in) :: compliance, ratio
-        type(gap_t), intent(out) :: gap
-        type(normal_result_t), intent(out) :: truth
-
-        type(hertz_t) :: hertz
-        type(status_t) :: status
-        real(wp) :: low, high, middle
-        integer :: i
-
-        ! a/b grows with ln(B/A), by two thirds of it at the circle and by a half far from it.
-        low = -20.0_wp
-        high = 20.0_wp
-        do i = 1, 60
-            middle = 0.5_wp*(low + high)
-            call solve_ratio(middle)
-            if (hertz%a > ratio*hertz%b) then
-                high = middle
-            else
-                low = middle
-            end if
-        end do
-        truth%penetration = hertz%penetration
-        truth%pmax = hertz%pmax
-        truth%area = hertz%area
-        allocate (gap%y(hertz_points), gap%h(hertz_points), gap%inv2r(hertz_points))
-        do i = 1, hertz_points
-            gap%y(i) = 2.0_wp*hertz%b*(2*i - 1 - hertz_points)/(hertz_points - 1)
-        end do
-        gap%h = sharpest*exp(min(middle, 0.0_wp))*gap%y**2
-        gap%inv2r = sharpest*exp(-max(middle, 0.0_wp))
-
-    contains
-
-        subroutine solve_ratio(logarithm)
-            real(wp), intent(in) :: logarithm
-
-            call hertz_solve(compliance, sharpest*exp(-max(logarithm, 0.0_wp)), &
-                             sharpest*exp(min(logarithm, 0.0_wp)), hertz_load, hertz, status)
-            call fail_on_error(status)
-        end subroutine solve_ratio
-    end subroutine make_ellipse
 end module faststrip_app_bench_convergence
