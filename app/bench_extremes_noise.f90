@@ -45,6 +45,8 @@ module faststrip_app_bench_extremes_noise
     ! Loads: their number and the step from one to the next.
     integer, parameter :: loads = 200, quick_loads = 20
     real(wp), parameter :: load_step = 1.0e-3_wp
+    ! A figure that jumps by more, relative, from one load to the next is said to.
+    real(wp), parameter :: largest_jump = 1.0e-3_wp
     ! A change by more than this part per part of noise is no slope any more.
     real(wp), parameter :: steepest = 1.0e4_wp
     character(len=*), parameter :: figure_names(6) = [character(len=11) :: 'penetration', 'pmax', &
@@ -135,32 +137,29 @@ contains
         end do
     end subroutine find_contacts
 
-    !> The figures of a contact.
-    subroutine figures_of(solver, contact, gap, figures, status)
+    !> The figures of a contact, and the units their changes are measured in; zero and one if there
+    !> is an error.
+    subroutine figures_of(solver, contact, gap, figures, units, status)
         type(solver_t), intent(inout) :: solver
         type(contact_t), intent(in) :: contact
         type(gap_t), intent(in) :: gap
-        real(wp), intent(out) :: figures(size(figure_names))
+        real(wp), dimension(size(figure_names)), intent(out) :: figures, units
         type(status_t), intent(out) :: status
 
         type(outcome_t) :: outcome
 
         call solve(solver, gap, contact%material, contact%mu, contact%demand, contact%creepage, &
                    outcome, status)
+        figures = 0.0_wp
+        units = 1.0_wp
+        if (is_error(status)) return
         figures = [outcome%normal%penetration, outcome%normal%pmax, outcome%normal%area, &
                    outcome%tangential%fx, outcome%tangential%fy, outcome%tangential%mz]
-    end subroutine figures_of
-
-    !> What changes of the figures are measured by.
-    pure function units(contact, figures)
-        type(contact_t), intent(in) :: contact
-        real(wp), intent(in) :: figures(size(figure_names))
-        real(wp) :: units(size(figure_names))
-
         units(:3) = figures(:3)
-        units(4:5) = contact%mu*contact%demand%load
+        units(4:5) = outcome%normal%load
+        if (contact%mu > 0.0_wp) units(4:5) = contact%mu*outcome%normal%load
         units(6) = units(4)*sqrt(figures(3)/pi)
-    end function units
+    end subroutine figures_of
 
     !> The largest change of each figure by noise of each level.
     subroutine disturb(solver, contact, quick, writer)
@@ -172,11 +171,11 @@ contains
         type(gap_t) :: gap
         type(status_t) :: base_status, status
         type(row_t) :: row
-        real(wp), dimension(size(figure_names)) :: base, figures, change
+        real(wp), dimension(size(figure_names)) :: base, unit, figures, units, change
         integer(int64) :: state
         integer :: level, draw, n_draws, k, other_status
 
-        call figures_of(solver, contact, contact%gap, base, base_status)
+        call figures_of(solver, contact, contact%gap, base, unit, base_status)
         state = 20141
         do level = 1, size(levels)
             n_draws = draws(level)
@@ -187,10 +186,10 @@ contains
                 gap = contact%gap
                 call add_noise(levels(level), level == 1, state, gap%h)
                 call add_noise(levels(level), level == 1, state, gap%inv2r)
-                call figures_of(solver, contact, gap, figures, status)
+                call figures_of(solver, contact, gap, figures, units, status)
                 if (status%code /= base_status%code) other_status = other_status + 1
                 if (is_error(status) .or. is_error(base_status)) cycle
-                change = max(change, abs(figures - base)/units(contact, base))
+                change = max(change, abs(figures - base)/unit)
             end do
             row = row_t(chapter='noise', case=contact%name, method='strip+faststrip', &
                         x_name='noise', x=levels(level), y_name='draws', y=real(n_draws, wp), &
@@ -221,8 +220,9 @@ contains
         type(contact_t) :: loaded
         type(status_t) :: status, worst
         type(row_t) :: row
-        real(wp), dimension(size(figure_names)) :: unit, jump
-        real(wp) :: figures(size(figure_names), loads), factor
+        real(wp), dimension(size(figure_names)) :: jump
+        real(wp), dimension(size(figure_names), loads) :: figures, units
+        real(wp) :: factor
         integer :: i, k, n
 
         n = merge(quick_loads, loads, quick)
@@ -231,22 +231,23 @@ contains
             factor = exp(load_step*(i - 1 - n/2))
             loaded%demand%load = factor*contact%demand%load
             loaded%demand%penetration = factor*contact%demand%penetration
-            call figures_of(solver, loaded, contact%gap, figures(:, i), status)
+            call figures_of(solver, loaded, contact%gap, figures(:, i), units(:, i), status)
             if (i == 1 .or. status%code > worst%code) worst = status
         end do
-        unit = units(contact, figures(:, n/2))
         jump = 0.0_wp
         do i = 2, n - 2
             jump = max(jump, 0.5_wp*abs(figures(:, i + 2) - 3.0_wp*figures(:, i + 1) &
-                                        + 3.0_wp*figures(:, i) - figures(:, i - 1))/unit)
+                                        + 3.0_wp*figures(:, i) - figures(:, i - 1)) &
+                       /units(:, n/2))
         end do
         row = row_t(chapter='load_steps', case=contact%name, method='strip+faststrip', &
                     x_name='step', x=load_step, y_name='loads', y=real(n, wp), &
                     judge='neighbours')
-        call status_of(worst, row)
         do k = 1, size(figure_names)
+            call status_of(worst, row)
             row%quantity = figure_names(k)
             row%value = jump(k)
+            if (jump(k) > largest_jump .and. row%status == 'ok') row%status = 'jump'
             call put_row(writer, row)
         end do
     end subroutine step_load
@@ -320,24 +321,23 @@ contains
         type(ieee_round_type) :: modes(4), before
         type(row_t) :: row
         type(status_t) :: status, worst
-        real(wp) :: figures(size(figure_names), 4), unit(size(figure_names))
+        real(wp), dimension(size(figure_names), 4) :: figures, units
         integer :: mode, k
 
         modes = [ieee_nearest, ieee_up, ieee_down, ieee_to_zero]
         call ieee_get_rounding_mode(before)
         do mode = 1, size(modes)
             call ieee_set_rounding_mode(modes(mode))
-            call figures_of(solver, contact, contact%gap, figures(:, mode), status)
+            call figures_of(solver, contact, contact%gap, figures(:, mode), units(:, mode), status)
             call ieee_set_rounding_mode(before)
             if (mode == 1 .or. status%code > worst%code) worst = status
         end do
-        unit = units(contact, figures(:, 1))
         row = row_t(chapter='rounding', case=contact%name, method='strip+faststrip', &
                     judge='4 modes')
         call status_of(worst, row)
         do k = 1, size(figure_names)
             row%quantity = figure_names(k)
-            if (row%has_value) row%value = (maxval(figures(k, :)) - minval(figures(k, :)))/unit(k)
+            row%value = (maxval(figures(k, :)) - minval(figures(k, :)))/units(k, 1)
             call put_row(writer, row)
         end do
     end subroutine round_contact
