@@ -15,7 +15,10 @@ module faststrip_normal_strip_newton
     integer, parameter :: newton_failed = 2       !! no convergence or a singular system
 
     integer, parameter :: max_iterations = 40
-    integer, parameter :: damped_iteration = 12
+    integer, parameter :: max_backs = 4
+    real(wp), parameter :: most_growth = 1.5_wp, part = 0.4_wp
+    integer, parameter :: sure_iteration = 10
+    real(wp), parameter :: splitting_step = 0.3_wp
     real(wp), parameter :: max_log_length_step = 0.7_wp
     real(wp), parameter :: max_penetration_step = 0.5_wp
 
@@ -77,47 +80,95 @@ contains
         integer, intent(out) :: outcome          !! one of the `newton_` codes
         type(newton_workspace_t), intent(inout) :: workspace !! reserved for n strips
 
-        integer :: n, iteration
+        integer :: n, iteration, backs
         logical :: singular
-        real(wp) :: limit, p_scale, largest
+        real(wp) :: limit, p_scale, largest, depth, missing, missing_before
 
         n = size(p0)
         outcome = newton_failed
         workspace%kept = .false.
         leaves = .false.
-        do iteration = 1, max_iterations
-            iterations = iterations + 1
-            p_scale = maxval(abs(p0))
-            call strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, half_length, &
-                                penetration, p_scale, workspace%jacobian, workspace%step, &
-                                workspace%y, workspace%influence)
-            call lu_factor(2*n + 1, workspace%jacobian, workspace%pivot, singular)
-            if (singular) return
-            call lu_solve(2*n + 1, workspace%jacobian, workspace%pivot, workspace%step)
-            associate (step => workspace%step(:2*n + 1))
-                if (.not. all(abs(step) < huge(1.0_wp))) return
-                limit = 1.0_wp
-                largest = maxval(abs(step(n + 1:2*n)))
-                if (largest > max_log_length_step) limit = max_log_length_step/largest
-                if (abs(step(2*n + 1)) > max_penetration_step) &
-                    limit = min(limit, max_penetration_step/abs(step(2*n + 1)))
-                ! Steps that go back and forth between two states settle at half the length.
-                if (iteration > damped_iteration) limit = 0.5_wp*limit
-                p0 = p0 + limit*p_scale*step(:n)
-                half_length = half_length*exp(limit*step(n + 1:2*n))
-                penetration = penetration*(1.0_wp + limit*step(2*n + 1))
-                if (iteration >= 2 .or. maxval(abs(step)) <= tolerance) then
+        backs = 0
+        missing_before = 1.0e100_wp
+        p_scale = 1.0_wp
+        limit = 1.0_wp
+        depth = penetration
+        associate (step => workspace%step(:2*n + 1), last => workspace%history(:2*n + 1, 1), &
+                   before => workspace%history(:2*n, 2))
+            do iteration = 1, max_iterations
+                iterations = iterations + 1
+                largest = maxval(abs(p0))
+                call strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
+                                    half_length, penetration, largest, workspace%jacobian, &
+                                    workspace%step, workspace%y, workspace%influence)
+                missing = norm2(step)
+                if (missing > most_growth*missing_before .and. backs < max_backs) then
+                    ! The step led too far: a part of it from where it began.
+                    backs = backs + 1
+                    limit = part*limit
+                else
+                    backs = 0
+                    missing_before = missing
+                    p_scale = largest
+                    call lu_factor(2*n + 1, workspace%jacobian, workspace%pivot, singular)
+                    if (singular) return
+                    call lu_solve(2*n + 1, workspace%jacobian, workspace%pivot, workspace%step)
+                    if (.not. all(abs(step) < huge(1.0_wp))) return
+                    limit = 1.0_wp
+                    largest = maxval(abs(step(n + 1:2*n)))
+                    if (largest > max_log_length_step) limit = max_log_length_step/largest
+                    if (abs(step(2*n + 1)) > max_penetration_step) &
+                        limit = min(limit, max_penetration_step/abs(step(2*n + 1)))
+                    last = step
+                    before(:n) = p0
+                    before(n + 1:) = half_length
+                    depth = penetration
+                end if
+                p0 = before(:n) + limit*p_scale*last(:n)
+                half_length = before(n + 1:)*exp(limit*last(n + 1:2*n))
+                penetration = depth*(1.0_wp + limit*last(2*n + 1))
+                largest = maxval(abs(last))
+                if (iteration >= 2 .or. largest <= tolerance) then
                     call mark_leaving_strips(y_left, y_right, p0, half_length, leaves)
+                    ! Far from the solution only ends are sure to leave.
+                    if (largest > splitting_step .and. iteration < sure_iteration) &
+                        call keep_inner_strips(y_left, y_right, leaves)
                     if (any(leaves)) then
                         outcome = newton_strips_leave
                         return
                     end if
                 end if
-                if (maxval(abs(step)) <= tolerance) then
+                if (largest <= tolerance .and. backs == 0) then
                     outcome = newton_converged
                     return
                 end if
-            end associate
-        end do
+            end do
+        end associate
     end subroutine solve_strips
+
+    !> Take back the marks of strips that no other marked ones join to an end of their patch.
+    pure subroutine keep_inner_strips(y_left, y_right, leaves)
+        real(wp), intent(in) :: y_left(:), y_right(:)
+        logical, intent(inout) :: leaves(:)
+
+        logical :: to_left, to_right(size(leaves))
+        integer :: k, n
+
+        n = size(leaves)
+        to_right = leaves
+        do k = n - 1, 1, -1
+            if (y_right(k) >= y_left(k + 1)) to_right(k) = leaves(k) .and. to_right(k + 1)
+        end do
+        to_left = .false.
+        do k = 1, n
+            if (k == 1) then
+                to_left = leaves(1)
+            else if (y_right(max(1, k - 1)) < y_left(k)) then
+                to_left = leaves(k)
+            else
+                to_left = to_left .and. leaves(k)
+            end if
+            leaves(k) = to_left .or. to_right(k)
+        end do
+    end subroutine keep_inner_strips
 end module faststrip_normal_strip_newton
