@@ -11,7 +11,9 @@ module faststrip_app_bench_normal
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_material, only: material_t, normal_compliance
-    use faststrip_influence_row, only: center_influence_column_gradient, influence_column_gradient
+    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_profile, only: profile_t, make_wheel_profile, make_rail_profile, standard_cant
     use faststrip_profile_contact, only: wheelset_t, track_t, rigid_contact_t, find_rigid_contact
     use faststrip_profile_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
@@ -62,7 +64,10 @@ module faststrip_app_bench_normal
     type :: times_t
         real(wp) :: us = 0.0_wp         ! of a solution
         real(wp) :: gap_us = 0.0_wp     ! of handing over the gap
-        real(wp) :: iterations = 0.0_wp ! of Newton's method
+        real(wp) :: iterations = 0.0_wp ! steps
+        real(wp) :: factorings = 0.0_wp ! those of them with a Jacobian
+        real(wp) :: values = 0.0_wp, gradients = 0.0_wp ! influence numbers computed
+        real(wp) :: operations = 0.0_wp ! of the linear algebra
         integer :: runs = 0
     end type times_t
 
@@ -86,7 +91,8 @@ contains
         call put_origin(writer)
         call put_header(writer, [character(len=12) :: 'start', 'strips', 'us', 'iterations', &
                                  'ns_per_entry', 'fastsim_us', 'ratio', 'flags', 'compiler', &
-                                 'cpu', 'gap_us', 'case', 'runs'])
+                                 'cpu', 'gap_us', 'case', 'runs', &
+                                 'factorings', 'ns_per_value', 'entries_us', 'algebra_us'])
         do i = 1, size(strip_counts)
             if (strip_counts(i) > most_strips) exit
             call measure_strips(bench, strip_counts(i), 1.0e6_wp*seconds, writer)
@@ -148,7 +154,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(times_t) :: times
-        real(wp) :: entry_ns, fastsim_us, us(size(bench%cases), size(starts)), share
+        real(wp) :: entry_ns, value_ns, operation_ns, fastsim_us, us(size(bench%cases), size(starts)), share
         real(wp) :: fastsim(size(bench%cases))
         integer(int64) :: begin, now
         integer :: i, k, start, counts(size(starts)), n_fastsim
@@ -168,12 +174,18 @@ contains
                 fastsim(n_fastsim) = fastsim_us
             end if
             entry_ns = 0.0_wp
+            value_ns = 0.0_wp
+            operation_ns = 0.0_wp
             do start = 1, size(starts)
                 call measure_start(bench, i, start, n, share, times, solved)
                 if (.not. solved) cycle
                 counts(start) = counts(start) + 1
                 us(counts(start), start) = times%us
-                if (entry_ns == 0.0_wp) entry_ns = entry_time(bench%strips)
+                if (entry_ns == 0.0_wp) then
+                    entry_ns = entry_time(bench%strips, .true.)
+                    value_ns = entry_time(bench%strips, .false.)
+                    operation_ns = operation_time(2*bench%strips%n + 3)
+                end if
                 call put_cell(writer, trim(starts(start)))
                 call put_cell(writer, n)
                 call put_cell(writer, times%us)
@@ -187,6 +199,10 @@ contains
                 call put_cell(writer, times%gap_us)
                 call put_cell(writer, bench%cases(i)%name)
                 call put_cell(writer, times%runs)
+                call put_cell(writer, times%factorings)
+                call put_cell(writer, value_ns)
+                call put_cell(writer, 1.0e-3_wp*(value_ns*times%values + entry_ns*times%gradients))
+                call put_cell(writer, 1.0e-3_wp*operation_ns*times%operations)
                 call end_row(writer)
             end do
             call system_clock(now)
@@ -222,7 +238,8 @@ contains
         type(strip_options_t) :: options
         type(normal_result_t) :: result
         type(status_t) :: status
-        real(wp) :: us(most_runs), gap_us(most_runs), iterations(most_runs), load
+        real(wp) :: us(most_runs), gap_us(most_runs), load
+        real(wp), dimension(most_runs) :: iterations, factorings, values, gradients, operations
         real(wp) :: from, between, to
         integer(int64) :: begin, now
         integer :: run, first
@@ -260,7 +277,11 @@ contains
             times%runs = run
             gap_us(run) = between - from
             us(run) = to - between
-            iterations(run) = result%iterations
+            iterations(run) = result%effort%iterations
+            factorings(run) = result%effort%factorings
+            values(run) = result%effort%values
+            gradients(run) = result%effort%gradients
+            operations(run) = result%effort%operations
             call system_clock(now)
             if (microseconds(begin, now) > budget_us .and. &
                 (run >= fewest_runs .or. us(run) > budget_us)) exit
@@ -268,36 +289,81 @@ contains
         times%us = median(us(:times%runs))
         times%gap_us = median(gap_us(:times%runs))
         times%iterations = median(iterations(:times%runs))
+        times%factorings = median(factorings(:times%runs))
+        times%values = median(values(:times%runs))
+        times%gradients = median(gradients(:times%runs))
+        times%operations = median(operations(:times%runs))
     end subroutine measure_start
 
-    !> Time of one influence number with its derivatives, ns: all columns of a solved contact, on
-    !> the centre lines and at the tips, as one Newton iteration needs them.
-    real(wp) function entry_time(strips)
+    !> Time of one influence number, ns: all columns of a solved contact, on the centre lines and at
+    !> the tips, as one iteration needs them, with derivatives or without.
+    real(wp) function entry_time(strips, with_derivatives)
         type(contact_strips_t), intent(in) :: strips
+        logical, intent(in) :: with_derivatives
 
         integer, parameter :: runs = 7, fewest_entries = 5000
         real(wp), dimension(strips%n) :: y, value, d_x, d_half_length
         real(wp) :: us(runs), from
         integer :: run, s, i, repetitions
 
-        y = 0.5_wp*(strips%y_left(:strips%n) + strips%y_right(:strips%n))
-        repetitions = 1 + fewest_entries/(2*strips%n**2)
+        associate (left => strips%y_left, right => strips%y_right, &
+                   half_length => strips%half_length(:strips%n))
+            y = 0.5_wp*(left(:strips%n) + right(:strips%n))
+            repetitions = 1 + fewest_entries/(2*strips%n**2)
+            do run = 1, runs
+                from = cpu_microseconds()
+                do i = 1, repetitions
+                    do s = 1, strips%n
+                        if (with_derivatives) then
+                            call center_influence_column_gradient(half_length(s), left(s), &
+                                                                  right(s), y, value, d_half_length)
+                            call tip_influence_column_gradient(half_length(s), left(s), right(s), &
+                                                               half_length, y, value, d_x, &
+                                                               d_half_length)
+                        else
+                            call center_influence_column(half_length(s), left(s), right(s), y, &
+                                                         value)
+                            call tip_influence_column(half_length(s), left(s), right(s), &
+                                                      half_length, y, value)
+                        end if
+                    end do
+                end do
+                us(run) = (cpu_microseconds() - from)/repetitions
+            end do
+        end associate
+        entry_time = 1.0e3_wp*median(us)/(2.0_wp*strips%n**2)
+    end function entry_time
+
+    !> Time of one operation in the factorisation and solution of m equations, ns.
+    real(wp) function operation_time(m)
+        integer, intent(in) :: m
+
+        integer, parameter :: runs = 5
+        real(wp), allocatable :: a(:, :), factors(:, :), b(:)
+        integer, allocatable :: pivot(:)
+        real(wp) :: us(runs), from
+        integer :: run, i, k, repetitions
+        logical :: singular
+
+        allocate (a(m, m), factors(m, m), b(m), pivot(m))
+        do k = 1, m
+            do i = 1, m
+                a(i, k) = 1.0_wp/(1.0_wp + abs(i - k))
+            end do
+        end do
+        repetitions = 1 + 100000/m**3
         do run = 1, runs
             from = cpu_microseconds()
             do i = 1, repetitions
-                do s = 1, strips%n
-                    call center_influence_column_gradient( &
-                        strips%half_length(s), strips%y_left(s), strips%y_right(s), y, value, &
-                        d_half_length)
-                    call influence_column_gradient( &
-                        strips%half_length(s), strips%y_left(s), strips%y_right(s), &
-                        strips%half_length(:strips%n), y, value, d_x, d_half_length)
-                end do
+                factors = a
+                b = 1.0_wp
+                call lu_factor(m, factors, pivot, singular)
+                if (.not. singular) call lu_solve(m, factors, pivot, b)
             end do
             us(run) = (cpu_microseconds() - from)/repetitions
         end do
-        entry_time = 1.0e3_wp*median(us)/(2.0_wp*strips%n**2)
-    end function entry_time
+        operation_time = 1.0e3_wp*median(us)/(2.0_wp/3.0_wp*real(m, wp)**3 + 2.0_wp*real(m, wp)**2)
+    end function operation_time
 
     !> Time of FASTSIM on the Hertz ellipse of a contact, us; not a number if it has none.
     real(wp) function fastsim_time(bench, i) result(time)

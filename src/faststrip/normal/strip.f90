@@ -21,7 +21,7 @@ module faststrip_normal_strip
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
-    use faststrip_normal_strip_equations, only: goal_t
+    use faststrip_normal_strip_equations, only: goal_t, effort_t
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_coupled, only: settle_coupled
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
@@ -87,7 +87,7 @@ module faststrip_normal_strip
         integer :: n_patches = 0         !! number of contact patches
         integer :: passes = 0            !! how often the ends were moved
         integer :: iterations = 0        !! steps of all passes
-        integer :: factorings = 0        !! those of them for which a Jacobian was factored
+        type(effort_t) :: effort         !! what it took
     end type normal_result_t
 
 contains
@@ -215,6 +215,7 @@ contains
                 scratch = .true.
             end if
         end do
+        result%iterations = result%effort%iterations
         if (n_settled == 0) then
             workspace%old%n = 0
             call fall_back(workspace, compliance, goal, min(maxval(levels(:n_levels)), most_fallback_strips), &
@@ -317,7 +318,7 @@ contains
         logical, intent(out) :: settled
 
         real(wp) :: trial, move, best_move, pass_tolerance, narrowest
-        integer :: pass, outcome, n, splits, couplings, before
+        integer :: pass, outcome, n, splits, couplings
         logical :: changed, at_rest, coupled
         type(patches_t) :: solved
 
@@ -339,13 +340,11 @@ contains
             coupled = near .and. pass == 1
             if (.not. coupled) then
                 pass_tolerance = max(pass_tolerance, tolerance)
-                before = result%iterations
                 call solve_strips( &
                     workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
                     workspace%inv2r(:n), compliance, goal, pass_tolerance, &
                     workspace%p0(:n), workspace%half_length(:n), trial, workspace%leaves(:n), &
-                    result%iterations, outcome, workspace%newton)
-                result%factorings = result%factorings + result%iterations - before
+                    result%effort, outcome, workspace%newton)
                 result%passes = result%passes + 1
                 if (outcome == newton_strips_leave) then
                     call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
@@ -387,7 +386,7 @@ contains
             if (.not. coupled) cycle
             couplings = couplings + 1
             call settle_coupled(workspace, compliance, goal, tolerance, solved, trial, &
-                                result%factorings, result%iterations, coupled)
+                                result%effort, coupled)
             if (.not. coupled) cycle
             patches = solved
             penetration = trial

@@ -13,7 +13,7 @@
 module faststrip_normal_strip_coupled
     use faststrip_kinds, only: wp, pi
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, strip_residual, strip_jacobian, &
+    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
@@ -46,15 +46,14 @@ contains
     !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
     !> nothing of patches, penetration and the workspace's strips counts.
     pure subroutine settle_coupled(workspace, compliance, goal, tolerance, patches, penetration, &
-                                   factorings, iterations, settled)
+                                   effort, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips placed and started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(goal_t), intent(in) :: goal             !! load or penetration
         real(wp), intent(in) :: tolerance            !! relative size of what is left
         type(patches_t), intent(inout) :: patches    !! their ends move
         real(wp), intent(inout) :: penetration       !! above the lowest height, mm
-        integer, intent(inout) :: factorings         !! increased by the Jacobians factored
-        integer, intent(inout) :: iterations         !! increased by the steps taken
+        type(effort_t), intent(inout) :: effort      !! increased
         logical, intent(out) :: settled              !! converged
 
         type(end_t) :: ends(2*max_patches)
@@ -76,15 +75,14 @@ contains
             if (exact) then
                 if (factored == max_factorings) return
                 factored = factored + 1
-                factorings = factorings + 1
-                iterations = iterations + 1
+                call add_effort(effort, n, m, .true., count(.not. ends(:n_ends)%fixed))
                 call factor(workspace, compliance, goal, patches, ends(:n_ends), n, penetration, &
                             p_scale, singular)
                 if (singular) return
                 workspace%newton%kept = .true.
                 updates = 0
             else
-                iterations = iterations + 1
+                call add_effort(effort, n, m, .false., 1)
                 call residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
                               workspace%newton%step)
             end if

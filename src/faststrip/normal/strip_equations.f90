@@ -18,7 +18,7 @@ module faststrip_normal_strip_equations
     implicit none
     private
 
-    public :: goal_t, strip_residual, strip_jacobian, mark_leaving_strips
+    public :: goal_t, effort_t, add_effort, strip_residual, strip_jacobian, mark_leaving_strips
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.
@@ -31,7 +31,33 @@ module faststrip_normal_strip_equations
         real(wp) :: penetration = 0.0_wp !! above the lowest height, mm
     end type goal_t
 
+    !> What a solution took.
+    type :: effort_t
+        integer :: iterations = 0 !! steps
+        integer :: factorings = 0 !! those of them for which a Jacobian was factored
+        integer :: values = 0     !! influence numbers computed
+        integer :: gradients = 0  !! influence numbers computed with their derivatives
+        real(wp) :: operations = 0.0_wp !! of the linear algebra, multiplications and additions
+    end type effort_t
+
 contains
+
+    !> Count one step with n strips and m equations.
+    pure subroutine add_effort(effort, n, m, factored, residuals)
+        type(effort_t), intent(inout) :: effort !! added to
+        integer, intent(in) :: n                !! strips
+        integer, intent(in) :: m                !! equations
+        logical, intent(in) :: factored         !! was a Jacobian factored?
+        integer, intent(in) :: residuals        !! residuals taken besides
+
+        effort%iterations = effort%iterations + 1
+        effort%values = effort%values + 2*n*n*residuals
+        effort%operations = effort%operations + 2.0_wp*real(m, wp)**2
+        if (.not. factored) return
+        effort%factorings = effort%factorings + 1
+        effort%gradients = effort%gradients + 2*n*n
+        effort%operations = effort%operations + 2.0_wp/3.0_wp*real(m, wp)**3
+    end subroutine add_effort
 
     !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
     !> tips, load (or zero).

@@ -2,7 +2,7 @@
 module faststrip_normal_strip_newton
     use faststrip_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, strip_jacobian, mark_leaving_strips
+    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_patches, only: max_patches
     implicit none
     private
@@ -64,7 +64,7 @@ contains
 
     !> Pressures, half-lengths and penetration of strips with given edges under a given load.
     subroutine solve_strips(y_left, y_right, height, inv2r, compliance, goal, tolerance, p0, &
-                            half_length, penetration, leaves, iterations, outcome, workspace)
+                            half_length, penetration, leaves, effort, outcome, workspace)
         real(wp), intent(in) :: y_left(:)        !! left edges, (n), mm
         real(wp), intent(in) :: y_right(:)       !! right edges, (n), mm
         real(wp), intent(in) :: height(:)        !! h on the centre lines, above the lowest, (n), mm
@@ -76,7 +76,7 @@ contains
         real(wp), intent(inout) :: half_length(:) !! start and result, (n), mm
         real(wp), intent(inout) :: penetration   !! D above the lowest height, mm
         logical, intent(out) :: leaves(:)        !! strips that leave the contact, (n)
-        integer, intent(inout) :: iterations     !! increased by the iterations taken
+        type(effort_t), intent(inout) :: effort  !! increased
         integer, intent(out) :: outcome          !! one of the `newton_` codes
         type(newton_workspace_t), intent(inout) :: workspace !! reserved for n strips
 
@@ -96,7 +96,6 @@ contains
         associate (step => workspace%step(:2*n + 1), last => workspace%history(:2*n + 1, 1), &
                    before => workspace%history(:2*n, 2))
             do iteration = 1, max_iterations
-                iterations = iterations + 1
                 largest = maxval(abs(p0))
                 call strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
                                     half_length, penetration, largest, workspace%jacobian, &
@@ -105,9 +104,11 @@ contains
                 if (missing > most_growth*missing_before .and. backs < max_backs) then
                     ! The step led too far: a part of it from where it began.
                     backs = backs + 1
+                    call add_effort(effort, n, 0, .false., 1)
                     limit = part*limit
                 else
                     backs = 0
+                    call add_effort(effort, n, 2*n + 1, .true., 0)
                     missing_before = missing
                     p_scale = largest
                     call lu_factor(2*n + 1, workspace%jacobian, workspace%pivot, singular)
