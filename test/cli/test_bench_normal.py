@@ -31,7 +31,7 @@ class Bench(ProgramTest):
         rows, said = self.bench("normal", "--most-strips", "9", "--seconds", "0.2")
         self.assertEqual(list(rows[0]), (
             "start,strips,us,iterations,ns_per_entry,fastsim_us,ratio,flags,compiler,cpu,gap_us,"
-            "case,runs").split(","))
+            "case,runs,factorings,ns_per_value,entries_us,algebra_us").split(","))
         for strips in (5, 7, 9):
             self.assertIn(f"{strips} strips, ", said)
             own = [row for row in rows if int(row["strips"]) == strips]
@@ -49,6 +49,14 @@ class Bench(ProgramTest):
             # An entry costs tens of nanoseconds: a factor of a hundred is a wrong unit.
             self.assertTrue(1.0 < float(row["ns_per_entry"]) < 1e4, row["ns_per_entry"])
             self.assertGreaterEqual(int(row["runs"]), 1)
+            self.assertTrue(1.0 < float(row["ns_per_value"]) < 1e4, row["ns_per_value"])
+            # A load that changes a little needs no new Jacobian.
+            factorings = float(row["factorings"])
+            self.assertLess(factorings, float(row["iterations"]))
+            if row["start"] == "cold":
+                self.assertGreaterEqual(factorings, 1.0)
+            for name in ("entries_us", "algebra_us"):
+                self.assertTrue(0.0 < float(row[name]) < 3.0 * float(row["us"]), name)
 
     def test_reference(self):
         rows, said = self.bench("reference", "--most-elements", "1000", "--seconds", "0.2")

@@ -24,6 +24,25 @@ class Fuzz(ProgramTest):
                     self.assertLess(abs(float(row["load_error"])), 1e-6, row)
                     self.assertGreater(float(row["pmax_MPa"]), 0.0, row)
 
+    def test_what_did_not_settle_once_settles(self):
+        """Slender contacts and jumps of 1/(2R), where passes used to go back and forth."""
+        for case in (42, 98, 770, 832, 906, 947, 950):
+            with self.subTest(case):
+                done = self.run_program("fuzz", "--cases", 1, "--first", case, "-o", "case.csv")
+                self.assertEqual(done.returncode, 0, done.stdout)
+                row = self.read("case.csv")[0]
+                self.assertNotIn(row["status"], ("fallback_used", "fewer_strips"), row)
+                self.assertLess(int(row["iterations"]), 300, row)
+
+    def test_overlap_outside_is_named(self):
+        for case in (1400, 6120, 6285, 21260):
+            with self.subTest(case):
+                done = self.run_program("fuzz", "--cases", 1, "--first", case, "-o", "case.csv")
+                self.assertEqual(done.returncode, 0, done.stdout)
+                row = self.read("case.csv")[0]
+                if float(row["overlap"]) > 0.02:
+                    self.assertIn("overlap", row["status"] + row["message"], row)
+
     def test_a_case_is_the_same_wherever_the_run_starts(self):
         for words, name in ((("--first", 11, "--cases", 20), "many.csv"),
                             (("--first", 30, "--cases", 1), "one.csv")):

@@ -239,13 +239,9 @@ class Solver(unittest.TestCase):
             raise AssertionError(f"{' '.join(words)}: {done.returncode}\n{done.stdout}")
         return done.stdout
 
-    def solved(self, name):
-        """Rows of kind, strips, status code, allocations; and the bits by kind and strips.
-
-        A linear algebra library that shares one system among threads rounds differently from
-        about 35 strips on; that is its own business, and switched off.
-        """
-        text = self.command(str(self.folder / name), OPENBLAS_NUM_THREADS="1")
+    def solved(self, name, library_threads=1):
+        """Rows of kind, strips, status code, allocations; and the bits by kind and strips."""
+        text = self.command(str(self.folder / name), OPENBLAS_NUM_THREADS=str(library_threads))
         rows, bits = [], {}
         for line in text.splitlines():
             if not line.startswith("solved"):
@@ -272,6 +268,8 @@ class Solver(unittest.TestCase):
         self.assertGreater(len(set().union(*first.values())), 15)
         _, _, again = self.solved("counting")
         self.assertEqual(again, first)
+        _, _, shared = self.solved("counting", library_threads=2)
+        self.assertEqual(shared, first)
         _, rows, threads = self.solved("threads")
         self.assertEqual(len(rows), 60)
         self.assertEqual(threads, first)
