@@ -5,8 +5,8 @@
 !>
 !> - no finite patch: A is positive nowhere in the contact. Bodies that are cylinders along x, or
 !>   hollow, touch along all of it;
-!> - flat along x: A was below a thousandth of the gap's largest somewhere in the contact, or not
-!>   positive, and was raised to that. The patch there is as long as this makes it;
+!> - flat along x: somewhere in the contact A was not positive, or below 3 % of the geometric mean
+!>   of the gap, and was raised to that. The patch there is as long as this makes it;
 !> - half-space doubtful: a slope of the gap above 0.2 across a strip or at its tip, or surfaces that turn by more
 !>   than 20 degrees over it. A half-space takes surfaces for planes and moves them along one
 !>   normal; the slope's square, 4 %, is what is left out. The gap does not tell by how much the

@@ -18,8 +18,8 @@ module faststrip_profile_gap_curve
     public :: gap_at, gap_curvature, level_intervals
     public :: gap_inv2r, largest_turn
 
-    !> The smallest longitudinal term in use, over the largest of the gap.
-    real(wp), parameter :: flattest_ratio = 1.0e-3_wp
+    !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
+    real(wp), parameter :: flattest_ratio = 0.03_wp
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
@@ -114,7 +114,7 @@ contains
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
-        curve%least_inv2r = flattest_ratio*max(maxval(inv2r), 0.0_wp)
+        curve%least_inv2r = flattest_ratio*usual_inv2r(inv2r)
         curve%turn_is_known = .false.
         call spline_setup(curve%y(:n), curve%h(:n), spline_not_a_knot, curve%slope(:n), &
                           curve%work, status)
@@ -122,6 +122,27 @@ contains
         curve%n = n
         call cut_into_monotone_pieces(curve)
     end subroutine take_points
+
+    !> Geometric mean of the terms that are positive; the least of all where no other is so much
+    !> larger that it matters; 0 if none is.
+    pure real(wp) function usual_inv2r(inv2r) result(usual)
+        real(wp), intent(in) :: inv2r(:)
+
+        real(wp) :: total
+        integer :: i, n
+
+        usual = minval(inv2r)
+        if (usual >= flattest_ratio*maxval(inv2r) .and. usual > 0.0_wp) return
+        total = 0.0_wp
+        n = 0
+        do i = 1, size(inv2r)
+            if (inv2r(i) <= 0.0_wp) cycle
+            n = n + 1
+            total = total + log(inv2r(i))
+        end do
+        usual = 0.0_wp
+        if (n > 0) usual = exp(total/n)
+    end function usual_inv2r
 
     pure subroutine cut_into_monotone_pieces(curve)
         type(gap_curve_t), intent(inout) :: curve
@@ -182,9 +203,9 @@ contains
 
     !> Height and longitudinal term of the gap; outside the points those of the nearest one.
     !>
-    !> A term below a thousandth of the gap's largest is raised to that: strips would become
-    !> longer than 30 times their neighbours, and endless where it is not positive. `gap_inv2r`
-    !> tells it as it was given.
+    !> A term below 3 % of the gap's geometric mean is raised to that: strips would become more
+    !> than six times as long as usual, and endless where it is not positive. `gap_inv2r` tells it
+    !> as it was given.
     pure subroutine gap_at(curve, y, h, inv2r)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y              !! lateral position, mm
