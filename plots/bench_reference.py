@@ -17,11 +17,11 @@ from faststrip_plots.tables import InputError, read_table
 
 BENCH = "out/bench_reference.csv"
 STARTS = {
-    "cold": style.Look("cold start", "#0b3c78", "-", 2.0),
-    "coarse": style.Look("from a coarser grid", "#2e7d32", "-", 1.8),
-    "strips": style.Look("from 15 strips", "#b03a2e", (0, (5, 1.8)), 1.8),
+    "cold": style.Look("cold", "#0b3c78", "-", 2.0),
+    "coarse": style.Look("coarser grid", "#2e7d32", "-", 1.8),
+    "strips": style.Look("15 strips", "#b03a2e", (0, (5, 1.8)), 1.8),
     "warm_load": style.Look("previous step, load ±5 %", "#f08519", (0, (1.5, 1.5)), 1.8),
-    "new_plans": style.Look("cold, plans made anew", "#8a8a8a", (0, (1.2, 1.2)), 1.6),
+    "new_plans": style.Look("cold, new plans", "#8a8a8a", (0, (1.2, 1.2)), 1.6),
 }
 METHODS = {"norm": "NORM"}
 GOALS = {"norm": (3700, 5.0)}  # elements and milliseconds

@@ -17,7 +17,8 @@ module faststrip_normal_variational
                                 st_no_contact, st_no_convergence, st_not_finite, &
                                 st_out_of_range, st_workspace_too_small
     use faststrip_influence_rectangle, only: rectangle_potential
-    use faststrip_numerics_convolution, only: convolution_t, reserve_convolution, set_kernel, &
+    use faststrip_numerics_convolution, only: convolution_t, reserve_convolution, &
+                                              release_convolution, set_kernel, &
                                               set_inverse_kernel, even
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
@@ -38,7 +39,7 @@ module faststrip_normal_variational
     private
 
     public :: norm_options_t, norm_workspace_t, goal_t
-    public :: reserve_norm, set_norm_gap, norm_solve, norm_solve_penetration, norm_solve_heights
+    public :: reserve_norm, release_norm, set_norm_gap, norm_solve, norm_solve_penetration, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
@@ -111,6 +112,15 @@ contains
 
         call reserve_gap_curve(workspace%curve, max_points, status)
     end subroutine reserve_norm
+
+    !> Give plans and kernels back. This also happens when a workspace goes out of scope, unless it
+    !> is an element of an array: gfortran 12 forgets all but the first.
+    subroutine release_norm(workspace)
+        type(norm_workspace_t), intent(inout) :: workspace !! serves again
+
+        call release_convolution(workspace%kernels%convolution)
+        call release_convolution(workspace%other_kernels%convolution)
+    end subroutine release_norm
 
     !> Hand over the gap that the next solutions are for.
     subroutine set_norm_gap(workspace, gap, status)

@@ -176,6 +176,7 @@ contains
         minimiser%v = 0.0_wp
         minimiser%r = 0.0_wp
         call set_approach(task, minimiser, found%approach)
+        changed = .false.
         call let_in(found%approach, minimiser, changed)
         if (changed) call set_approach(task, minimiser, found%approach)
     end subroutine set_start
