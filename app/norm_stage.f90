@@ -8,7 +8,8 @@ module faststrip_app_norm_stage
     use faststrip_normal_strip, only: normal_result_t, strips_auto
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                            set_norm_gap, norm_solve, norm_solve_penetration
+                                            release_norm, set_norm_gap, norm_solve, &
+                                            norm_solve_penetration
     use faststrip_normal_variational_grid, only: contact_grid_t
     use faststrip_normal_variational_rows, only: rows_as_strips, count_rows
     use faststrip_contact_methods, only: normal_strip
@@ -19,7 +20,7 @@ module faststrip_app_norm_stage
     implicit none
     private
 
-    public :: norm_stage_t, make_norm_room, solve_by_norm, take_rows
+    public :: norm_stage_t, make_norm_room, release_norm_stage, solve_by_norm, take_rows
 
     ! Strips to start from where their number is left to the solver.
     integer, parameter :: start_strips = 15
@@ -42,6 +43,13 @@ contains
 
         call reserve_norm(stage%workspace, size(gap%y), status)
     end subroutine make_norm_room
+
+    !> Give back what the compiler does not: plans of stages in an array.
+    subroutine release_norm_stage(stage)
+        type(norm_stage_t), intent(inout) :: stage !! serves again
+
+        call release_norm(stage%workspace)
+    end subroutine release_norm_stage
 
     !> Solve the normal problem, from a coarser grid or from strips; if these fail, from the
     !> coarser grid.

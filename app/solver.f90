@@ -15,12 +15,13 @@ module faststrip_app_solver
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal, certify
-    use faststrip_app_norm_stage, only: norm_stage_t, make_norm_room, solve_by_norm, take_rows
+    use faststrip_app_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
+                                        solve_by_norm, take_rows
     use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
     private
 
-    public :: solver_t, demand_t, outcome_t, make_solver, solve
+    public :: solver_t, release_solver, demand_t, outcome_t, make_solver, solve
 
     !> Methods with the room they need, used for one contact after the other.
     type :: solver_t
@@ -59,6 +60,13 @@ contains
         call make_normal_stage(methods, solver%normal)
         if (with_field) call reserve_contact_field(solver%field, solver%normal%methods, status)
     end subroutine make_solver
+
+    !> Give back what the compiler does not, of solvers in an array.
+    subroutine release_solver(solver)
+        type(solver_t), intent(inout) :: solver !! serves again
+
+        call release_norm_stage(solver%norm)
+    end subroutine release_solver
 
     !> Solve one contact.
     subroutine solve(solver, gap, material, mu, demand, creepage, outcome, status)

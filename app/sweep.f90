@@ -9,7 +9,7 @@ module faststrip_app_sweep
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: case_t, read_case
     use faststrip_app_scene, only: scene_t, make_scene
-    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_app_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
     private
@@ -88,6 +88,9 @@ contains
                           // trim(solver(m)%methods%normal) // ' and ' &
                           // trim(solver(m)%methods%tangential) // ': ' // trim(status%message))
             end do
+        end do
+        do m = 1, n_solvers
+            call release_solver(solver(m))
         end do
         call close_csv(writer, written)
         call fail_on_error(written)

@@ -39,7 +39,8 @@ module faststrip_normal_variational
     private
 
     public :: norm_options_t, norm_workspace_t, goal_t
-    public :: reserve_norm, release_norm, set_norm_gap, norm_solve, norm_solve_penetration, norm_solve_heights
+    public :: reserve_norm, release_norm, set_norm_gap
+    public :: norm_solve, norm_solve_penetration, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
@@ -383,7 +384,8 @@ contains
             else
                 call guess_pressures(workspace%curve, guess, workspace%grid)
             end if
-            call solve_on_grid(workspace, 1 + modulo(level, 2), compliance, task, found, result, status)
+            call solve_on_grid(workspace, 1 + modulo(level, 2), compliance, task, found, result, &
+                               status)
             if (is_error(status)) return
             call take_missing_rows(workspace%curve, compliance, workspace%grid, found%approach, &
                                    extent, is_missing)
@@ -603,7 +605,7 @@ contains
             call set_status(status, st_not_finite, 'a side of the elements or the error target ' &
                             //'is not a finite number')
         else if (min(options%dx, options%dy) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'the sides of the elements are not positive: ' &
+            call set_status(status, st_bad_argument, 'a side of the elements is not positive: ' &
                             //trim(number_text(options%dx))//' by ' &
                             //trim(number_text(options%dy))//' mm')
         else if (min(options%dx, options%dy) < smallest &
@@ -634,7 +636,8 @@ contains
                             //number_text(compliance))
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, &
-                            'the tolerance is not a finite number: '//number_text(options%tolerance))
+                            'the tolerance is not a finite number: ' &
+                            //number_text(options%tolerance))
         else if (options%tolerance <= 0.0_wp .or. options%tolerance >= 1.0_wp) then
             call set_status(status, st_bad_argument, &
                             'the tolerance is not in (0, 1): '//number_text(options%tolerance))

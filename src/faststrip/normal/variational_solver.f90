@@ -2,8 +2,8 @@
 !>
 !>     minimise 1/2 p.A p + (h - D).p  over p >= 0,   with D given, or with the sum of p given,
 !>
-!> A the influence of the elements. In contact the deformed gap h + A p - D vanishes, elsewhere it is
-!> not negative.
+!> A the influence of the elements. In contact the deformed gap h + A p - D vanishes, elsewhere it
+!> is not negative.
 !>
 !> After Polonsky and Keer (Wear 231, 1999) and Vollebregt (J. Sci. Comput. 59, 2014): the pressures
 !> move along a conjugate direction of the elements in contact; those that become negative are cut
