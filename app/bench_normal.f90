@@ -154,7 +154,8 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(times_t) :: times
-        real(wp) :: entry_ns, value_ns, operation_ns, fastsim_us, us(size(bench%cases), size(starts)), share
+        real(wp) :: entry_ns, value_ns, operation_ns, fastsim_us, share
+        real(wp) :: us(size(bench%cases), size(starts))
         real(wp) :: fastsim(size(bench%cases))
         integer(int64) :: begin, now
         integer :: i, k, start, counts(size(starts)), n_fastsim

@@ -1,8 +1,7 @@
 !> Columns of influence numbers at the tips of strips, as many and as exact as an iteration needs.
 !>
-!> The same integrals as in faststrip_influence_row to a relative 1e-8: fewer nodes, and for thin
-!> strips no more terms than their width asks for. Values come with derivatives or, at two thirds
-!> of the price, without. What fits no rule goes to the scalar procedure of
+!> The same integrals as in faststrip_influence_row to a relative 3e-8: fewer nodes, and for thin
+!> strips no more terms than their width asks for. What fits no rule goes to the scalar procedure of
 !> faststrip_influence_offcentre.
 !>
 !> At its own tip a strip's influence depends on one ratio only. With `kappa = w/(4 xd)`
@@ -78,7 +77,7 @@ module faststrip_influence_tip
 
 contains
 
-    !> Influence of a strip on the tips of others and on its own; relative error 1e-8.
+    !> Influence of a strip on the tips of others and on its own; relative error below 1e-7.
     pure subroutine tip_influence_column(half_length, y_left, y_right, x, y, value)
         real(wp), intent(in) :: half_length !! xd of the strip with the pressure, mm, > 0
         real(wp), intent(in) :: y_left      !! its left edge, mm
@@ -321,7 +320,8 @@ contains
         middle = (0.5_wp*(cl + cr))**2
         select case (form)
         case (1)
-            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
             do j = 1, n
                 rest = q(j) - x*p(j)
                 u = 1.0_wp - rest
@@ -336,7 +336,8 @@ contains
                 s2 = s2 + u*u*ker
             end do
         case (2)
-            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
             do j = 1, n
                 rest = q(j) - x*p(j)
                 u = 1.0_wp - rest
@@ -353,7 +354,8 @@ contains
                 s2 = s2 + u*u*ker
             end do
         case (3)
-            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
             do j = 1, n
                 rest = q(j) - x*p(j)
                 u = 1.0_wp - rest
@@ -371,7 +373,8 @@ contains
                 s2 = s2 + u*u*ker
             end do
         case default
-            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
             do j = 1, n
                 rest = q(j) - x*p(j)
                 u = 1.0_wp - rest

@@ -2,8 +2,9 @@
 !>
 !> The paper gives the influence of a strip and not the algorithm that finds the patch. Here the
 !> strips of a patch always fill it: its two ends move until the squared strip length, carried on
-!> by a quadratic through the last three strips, vanishes at them. Passes alternate between
-!> Newton's method for given edges (`faststrip_normal_strip_newton`) and moving the ends; strips
+!> by a quadratic through the last three strips, vanishes at them. Near the solution strips and
+!> ends are solved for together (`faststrip_normal_strip_coupled`). Far from it, passes alternate
+!> between Newton's method for given edges (`faststrip_normal_strip_newton`) and moving ends; strips
 !> that leave cut or split a patch, and a scan outside the patches finds gaps that the deformed
 !> surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
@@ -99,9 +100,10 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion), `st_no_finite_patch` (a contact
     !> that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
-    !> `faststrip_normal_lattice` gave the answer, or one or two strips were asked and three used; `st_overlap_left`, a rough gap's valleys
-    !> overlap beside the strips; `st_edge_of_data`, the contact runs to the end of the gap's
-    !> points; `st_flat_along_x` and `st_conformal`: see `faststrip_normal_limitations`;
+    !> `faststrip_normal_lattice` gave the answer, or one or two strips were asked and three used;
+    !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
+    !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
+    !> `st_conformal`: see `faststrip_normal_limitations`;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -218,8 +220,9 @@ contains
         result%iterations = result%effort%iterations
         if (n_settled == 0) then
             workspace%old%n = 0
-            call fall_back(workspace, compliance, goal, min(maxval(levels(:n_levels)), most_fallback_strips), &
-                           strips, result, status)
+            call fall_back(workspace, compliance, goal, &
+                           min(maxval(levels(:n_levels)), most_fallback_strips), strips, result, &
+                           status)
             return
         end if
         workspace%old_load = result%load
@@ -329,7 +332,12 @@ contains
         pass_tolerance = merge(near_tolerance, far_tolerance, near)
         at_rest = .false.
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
+        solved = patches
         call share_strips(strips_per_patch, patches)
+        ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
+        if (near .and. maxval(solved%at(:solved%n)%n_strips) == strips_per_patch &
+            .and. all(abs(solved%at(:solved%n)%n_strips - patches%at(:solved%n)%n_strips) <= 1)) &
+            patches = solved
         do pass = 1, max_passes
             call drop_slivers(narrowest, patches)
             if (patches%n == 0) exit

@@ -13,7 +13,8 @@
 module faststrip_normal_strip_coupled
     use faststrip_kinds, only: wp, pi
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, strip_residual, strip_jacobian, &
+    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, &
+                                                strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates

@@ -216,12 +216,13 @@ contains
         type(contact_strips_t), intent(in) :: strips !! a solution
 
         real(wp), parameter :: beside(4) = [0.6_wp, 1.0_wp, 1.5_wp, 2.2_wp] ! widths from an end
+        real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
         real(wp) :: depth, width
         integer :: j, k
 
         depth = 0.0_wp
         do j = 2, curve%n_pieces
-            if (curve%h_node(j) > curve%h_node(j - 1) .or. curve%h_node(j) > curve%h_node(j + 1)) cycle
+            if (curve%h_node(j) > min(curve%h_node(j - 1), curve%h_node(j + 1))) cycle
             depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
                                                curve%y_node(j)))
         end do
@@ -229,14 +230,14 @@ contains
             width = strips%y_right(k) - strips%y_left(k)
             if (is_end(strips, k, k - 1)) then
                 do j = 1, size(beside)
-                    depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
-                                                       strips%y_left(k) - beside(j)*width))
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, strips, &
+                                                             strips%y_left(k) - beside(j)*width))
                 end do
             end if
             if (is_end(strips, k, k + 1)) then
                 do j = 1, size(beside)
-                    depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
-                                                       strips%y_right(k) + beside(j)*width))
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, strips, &
+                                                             strips%y_right(k) + beside(j)*width))
                 end do
             end if
         end do

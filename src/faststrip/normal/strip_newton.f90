@@ -2,7 +2,8 @@
 module faststrip_normal_strip_newton
     use faststrip_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, strip_jacobian, mark_leaving_strips
+    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, &
+                                                strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_patches, only: max_patches
     implicit none
     private
@@ -152,24 +153,21 @@ contains
         real(wp), intent(in) :: y_left(:), y_right(:)
         logical, intent(inout) :: leaves(:)
 
-        logical :: to_left, to_right(size(leaves))
-        integer :: k, n
+        integer :: first, last, from, to
 
-        n = size(leaves)
-        to_right = leaves
-        do k = n - 1, 1, -1
-            if (y_right(k) >= y_left(k + 1)) to_right(k) = leaves(k) .and. to_right(k + 1)
-        end do
-        to_left = .false.
-        do k = 1, n
-            if (k == 1) then
-                to_left = leaves(1)
-            else if (y_right(max(1, k - 1)) < y_left(k)) then
-                to_left = leaves(k)
-            else
-                to_left = to_left .and. leaves(k)
+        first = 1
+        do last = 1, size(leaves)
+            if (last < size(leaves)) then
+                if (y_right(last) >= y_left(last + 1)) cycle
             end if
-            leaves(k) = to_left .or. to_right(k)
+            do from = first, last
+                if (.not. leaves(from)) exit
+            end do
+            do to = last, from, -1
+                if (.not. leaves(to)) exit
+            end do
+            leaves(from:to) = .false.
+            first = last + 1
         end do
     end subroutine keep_inner_strips
 end module faststrip_normal_strip_newton

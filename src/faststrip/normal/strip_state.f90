@@ -213,6 +213,7 @@ contains
         bend = ((y(3) - y(2))/(x(3) - x(2)) - slope)/(x(3) - x(1))
         low = minval(y)
         high = maxval(y)
-        between = max(low*low/high, min(high*high/low, y(1) + (at - x(1))*(slope + (at - x(2))*bend)))
+        between = y(1) + (at - x(1))*(slope + (at - x(2))*bend)
+        between = max(low*low/high, min(high*high/low, between))
     end function between
 end module faststrip_normal_strip_state

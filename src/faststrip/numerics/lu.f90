@@ -18,8 +18,8 @@ contains
     !> Factors P A = L U in place.
     pure subroutine lu_factor(n, a, pivot, singular)
         integer, intent(in) :: n           !! order
-        real(wp), intent(inout) :: a(:, :) !! the matrix in the first n rows and columns; then U, and
-                                           !! below the diagonal L, whose diagonal is 1
+        real(wp), intent(inout) :: a(:, :) !! the matrix, in the first n rows and columns; then
+                                           !! U, and below it L, whose diagonal is 1
         integer, intent(inout) :: pivot(:) !! row exchanged with row k in step k, (n)
         logical, intent(out) :: singular   !! a pivot is below 1e-150 or above 1e150: not factored
 
