@@ -263,6 +263,101 @@ static void memory(void)
     faststrip_free(&other);
 }
 
+/* Every pointer null in turn, wrong sizes, no workspace: is the status what it should be? */
+static void errors(void)
+{
+    faststrip_workspace *workspace = make_workspace(), *none = NULL;
+    long garbage[100] = {0};
+    faststrip_workspace *wrong = (faststrip_workspace *)garbage;
+    example e = examples[0];
+    faststrip_case other;
+    faststrip_result result;
+    double a[400], f[4];
+    int k[400], n = -1;
+    char text[FASTSTRIP_TEXT], little[4];
+    int checked = 0, wrong_lines = 0;
+
+#define EXPECT(value, call) \
+    do { \
+        checked++; \
+        if ((int)(call) != (value)) { \
+            wrong_lines++; \
+            printf("line %d\n", __LINE__); \
+        } \
+    } while (0)
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_version(NULL, 10));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_version(text, 0));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_version(little, sizeof little));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_message(106, NULL, 10));
+    EXPECT(0, faststrip_message(106, text, sizeof text));
+    EXPECT(0, strcmp(text, "no_contact"));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_message(106, little, sizeof little));
+    EXPECT(0, strcmp(little, "no_"));
+    EXPECT(0, faststrip_message(-1, text, sizeof text));
+    EXPECT(0, strcmp(text, "unknown_status"));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(NULL, sizeof other));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, sizeof other - 8));
+    EXPECT(0, faststrip_default_case(&other, sizeof other));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(NULL, 100, &none));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 100, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 4, &none));
+    other.size -= 8;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 100, &none));
+    EXPECT(1, none == NULL);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_free(NULL));
+    EXPECT(0, faststrip_free(&none));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(none, POINTS, e.y, e.h, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(wrong, POINTS, e.y, e.h, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(workspace, POINTS, NULL, e.h, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(workspace, POINTS, e.y, NULL, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(workspace, POINTS, e.y, e.h, NULL, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(workspace, -1, e.y, e.h, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_TOO_FEW_POINTS, faststrip_set_gap(workspace, 0, e.y, e.h, e.inv2r, NULL));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(0, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, e.h));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(NULL, &e.contact, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, NULL, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &other, &result));
+    EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+    EXPECT(1, strlen(text) > 10);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_last_message(NULL, text, sizeof text));
+    e.contact.mu = NAN;
+    EXPECT(FASTSTRIP_NOT_FINITE, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(1, result.fx == 0.0 && result.penetration == 0.0);
+    e.contact.mu = 0.3;
+    e.contact.tangential = 9;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(0, faststrip_get_strips(workspace, 400, &n, a, a, a, a, k));
+    EXPECT(0, n);
+    e.contact.tangential = 1;
+    e.contact.with_elements = 1;
+    EXPECT(1, faststrip_solve(workspace, &e.contact, &result) < FASTSTRIP_FIRST_ERROR);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_strips(workspace, 400, NULL, a, a, a, a, k));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_strips(workspace, 400, &n, a, a, a, NULL, k));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_get_strips(workspace, 1, &n, a, a, a, a, k));
+    EXPECT(1, n == result.n_strips);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_strips(NULL, 400, &n, a, a, a, a, k));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL,
+           faststrip_get_elements(workspace, 1, &n, a, a, a, a, a, a, a, a, k));
+    EXPECT(1, n == result.n_elements);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_elements(workspace, 400, &n, a, a, a, a, a, a, a, a, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(workspace, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(NULL, workspace));
+    EXPECT(0, faststrip_copy(workspace, workspace));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_fastsim(6, 5, 8e4, 4, 4, 1.5, 0, 0, 0, 0.3, 1e5, 9, 9, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_fastsim(6, 5, 8e4, 4, 4, 1.5, 0, 0, 0, 0.3, 1e5, 0, 9, f));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_hertz(2e5, 2e5, 0.3, 0.3, 1e-3, 1e-3, 1e5, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_kalker(1.0, 0.3, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_free(&wrong));
+    EXPECT(0, faststrip_free(&workspace));
+    EXPECT(1, workspace == NULL);
+    printf("checked %d\nwrong %d\n", checked, wrong_lines);
+}
+
 int main(int argc, char **argv)
 {
     const char *what = argc > 1 ? argv[1] : "";
@@ -275,6 +370,7 @@ int main(int argc, char **argv)
     else if (strcmp(what, "stack") == 0) stack_use();
     else if (strcmp(what, "little_memory") == 0) little_memory();
     else if (strcmp(what, "memory") == 0) memory();
+    else if (strcmp(what, "errors") == 0) errors();
 #ifdef COUNTING
     else if (strcmp(what, "quiet") == 0) quiet();
 #endif

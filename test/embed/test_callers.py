@@ -51,6 +51,16 @@ class Callers(HostTest):
         self.assertEqual(self.results("./caller_cpp"), self.results("./caller_static"))
         self.assertNotIn("libfaststrip", self.shell("ldd caller_static"))
 
+    def test_hosts_that_trap(self):
+        sources = dict(blocks())
+        traps = "-g -ffpe-trap=invalid,zero,overflow,underflow"
+        for language, name, flags in (("fortran", "caller.f90", "--cflags --libs"),
+                                      ("f77", "caller.f", "--libs")):
+            self.write(name, sources[language])
+            self.shell(f"gfortran -std=legacy {traps} {name}"
+                       f" $(pkg-config {flags} faststrip) -o trapping")
+            self.assertEqual(self.results("./trapping")[0], 0)
+
     def test_the_header_compiles_alone_in_old_dialects(self):
         self.write("header.c", "#include <faststrip.h>\n#include <faststrip.h>\nint x;\n")
         for compiler in ("gcc -std=c90", "gcc -std=c11", "g++ -x c++ -std=c++98"):

@@ -35,6 +35,12 @@ class Hosts(HostTest):
         self.assertEqual(len(set(found["failures"])), 1)
         self.assertGreater(found["failures"][0], 200)
 
+    def test_every_pointer_and_size_is_checked(self):
+        found = self.findings("./host errors")
+        self.assertEqual(found.get("line", []), [])
+        self.assertEqual(found["wrong"], [0])
+        self.assertGreater(found["checked"][0], 50)
+
     def test_the_locale_stays(self):
         self.assertEqual(self.findings("./host locale"), {"program": [1], "thread": [1]})
 
@@ -70,8 +76,8 @@ class Hosts(HostTest):
     @unittest.skipUnless(sanitizer(), "needs the address sanitizer")
     def test_no_leak_under_the_address_sanitizer(self):
         self.compile_host("host.c", "asan", "-fsanitize=address,undefined")
-        found = self.findings("./asan memory")
-        self.assertEqual(found["copy"], [0])
+        self.assertEqual(self.findings("./asan memory")["copy"], [0])
+        self.assertEqual(self.findings("./asan errors")["wrong"], [0])
 
 
 class Threads(HostTest):

@@ -1,4 +1,4 @@
-"""The fixed-form wheelset of example/legacy: it hunts as Klingel says, with the Fortran API's bits."""
+"""Fixed-form Fortran: its errors; the wheelset of example/legacy, which hunts as Klingel says."""
 
 import math
 import unittest
@@ -7,6 +7,86 @@ from installed import HOSTS, ROOT, HostTest
 
 # Rolling radius and half the distance of the contacts, mm; cone.
 R0, S, CONE = 460.0, 750.0, 0.05
+
+
+ERRORS = """\
+      PROGRAM ERRORS
+      INTEGER IOPT(9), IW(8), IW2(8), N, INFO, K(400)
+      DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3)
+      CHARACTER*12 TEXT
+      DATA Y /-2.0D0, -1.0D0, 0.0D0, 1.0D0, 2.0D0, 3.0D0/
+      DATA H /0.4D0, 0.1D0, 0.0D0, 0.1D0, 0.4D0, 0.9D0/, A /6*1.0D-3/
+      CALL FSDFLT(IOPT, PAR)
+      CALL FSINIT(IOPT, 5, IW, -1, INFO)
+      WRITE (*, *) 'query', IW(1)*1000 + INFO
+      CALL FSINIT(IOPT, 5, IW, 7, INFO)
+      WRITE (*, *) 'short', INFO
+      CALL FSINIT(IOPT, 4, IW, 8, INFO)
+      WRITE (*, *) 'points', INFO
+      CALL FSGAP(IW, 5, Y, H, A, INFO)
+      WRITE (*, *) 'unmade', INFO
+      CALL FSLAST(IW, TEXT)
+      WRITE (*, *) 'blank', INDEX(TEXT, 'no workspace')
+      IOPT(9) = 1
+      CALL FSINIT(IOPT, 5, IW, 8, INFO)
+      WRITE (*, *) 'made', INFO
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'gapless', INFO
+      CALL FSGAP(IW, -1, Y, H, A, INFO)
+      WRITE (*, *) 'negative', INFO
+      CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'long', INFO
+      CALL FSCONT(IW, 5, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'loadless', INFO
+      CALL FSLAST(IW, TEXT)
+      WRITE (*, *) 'words', INDEX(TEXT, 'the load')
+      CALL FSMSG(INFO, TEXT)
+      WRITE (*, *) 'word', INDEX(TEXT, 'bad_load    ')
+      PAR(6) = 1.0D3
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'solved', INFO
+      CALL FSSTRP(IW, 400, N, X, X, X, X, K, INFO)
+      WRITE (*, *) 'strips', N*1000 + INFO - INT(RES(14))*1000
+      CALL FSSTRP(IW, 2, N, X, X, X, X, K, INFO)
+      WRITE (*, *) 'few', INFO
+      CALL FSELEM(IW, 400, N, X, X, X, X, X, X, X, X, K, INFO)
+      WRITE (*, *) 'elements', N - 15*INT(RES(14))
+      CALL FSINIT(IOPT, 5, IW2, 8, INFO)
+      CALL FSCOPY(IW, IW2, INFO)
+      WRITE (*, *) 'copied', INFO
+      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'again', INFO
+      CALL FSFREE(IW2, INFO)
+      WRITE (*, *) 'freed', INFO
+      CALL FSFREE(IW2, INFO)
+      WRITE (*, *) 'twice', INFO
+      CALL FSCOPY(IW, IW2, INFO)
+      WRITE (*, *) 'nowhere', INFO
+      CALL FSFREE(IW, INFO)
+      CALL FSTSIM(6D0, 0D0, 8D4, 4D0, 4D0, 2D0, 0D0, 0D0, 0D0, 0.3D0,
+     &  1D5, 9, 9, F(1), F(2), F(3), INFO)
+      WRITE (*, *) 'flat', INFO
+      CALL FSKALK(0D0, 0.3D0, X, INFO)
+      WRITE (*, *) 'ratio', INFO
+      CALL FSHERZ(PAR, 1D-3, -1D-3, 1D5, X(1), X(2), X(3), X(4), INFO)
+      WRITE (*, *) 'saddle', INFO
+      END
+"""
+ANSWERS = {
+    "query": 8000, "short": 110, "points": 100, "unmade": 100, "blank": 1, "made": 0,
+    "gapless": 110, "negative": 100, "long": 110, "loadless": 105, "words": 1, "word": 1,
+    "solved": 0, "strips": 0, "few": 110, "elements": 0, "copied": 0, "again": 0, "freed": 0,
+    "twice": 100, "nowhere": 100, "flat": 100, "ratio": 109, "saddle": 107,
+}
+
+
+class Errors(HostTest):
+    def test_every_subroutine_says_what_is_wrong(self):
+        self.write("errors.f", ERRORS)
+        self.shell("gfortran -std=legacy -g -ffpe-trap=invalid,zero,overflow errors.f"
+                   " $(pkg-config --libs faststrip) -o errors")
+        found = self.findings("./errors")
+        self.assertEqual({name: value for name, (value,) in found.items()}, ANSWERS)
 
 
 class Wheelset(HostTest):

@@ -1,5 +1,6 @@
 """The Python package: installed by pip, found, its arrays, its exceptions."""
 
+import concurrent.futures
 import os
 import subprocess
 import sys
@@ -143,6 +144,15 @@ class Contacts(HostTest):
         contact = self.faststrip.Contact(max_points=10)
         contact.set_gap(*self.gap)
         self.assertEqual(contact.solve(load=1e5).word, "ok")
+
+    def test_threads_of_python_give_the_serial_results(self):
+        def work(first):
+            contact = self.contact()
+            return [contact.solve(load=1e4 * (i + 1)) for i in range(first, 40, 4)]
+
+        serial = [work(first) for first in range(4)]
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            self.assertEqual(list(pool.map(work, range(4))), serial)
 
     def test_other_kinds_of_arrays(self):
         contact = self.faststrip.Contact()
