@@ -20,8 +20,14 @@ module faststrip_app_bench_extremes_noise
     use faststrip_creepage, only: creepage_t
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at
-    use faststrip_material, only: material_t
+    use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
+                                      strip_solve_penetration
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_tangential_faststrip, only: faststrip_solve, default_points
+    use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_app_case_file, only: case_t, read_case
@@ -97,7 +103,8 @@ contains
         call fail_on_error(status)
         call round_influence(writer)
         do i = 1, size(contacts), merge(quick_step, 1, quick)
-            call round_contact(solver, contacts(i), writer)
+            call round_contact(solver, .true., contacts(i), writer)
+            call round_contact(solver, .false., contacts(i), writer)
         end do
     end subroutine rounding_extremes
 
@@ -312,9 +319,11 @@ contains
         end do
     end subroutine round_influence
 
-    !> A contact in the four rounding modes.
-    subroutine round_contact(solver, contact, writer)
+    !> A contact in the four rounding modes: by the whole library, which rounds to nearest whatever
+    !> its host does, or by its solvers called directly, which do as they are told.
+    subroutine round_contact(solver, whole, contact, writer)
         type(solver_t), intent(inout) :: solver
+        logical, intent(in) :: whole
         type(contact_t), intent(in) :: contact
         type(csv_writer_t), intent(inout) :: writer
 
@@ -328,12 +337,20 @@ contains
         call ieee_get_rounding_mode(before)
         do mode = 1, size(modes)
             call ieee_set_rounding_mode(modes(mode))
-            call figures_of(solver, contact, contact%gap, figures(:, mode), units(:, mode), status)
+            if (whole) then
+                call figures_of(solver, contact, contact%gap, figures(:, mode), units(:, mode), &
+                                status)
+            else
+                call solve_directly(contact, figures(:, mode), status)
+            end if
             call ieee_set_rounding_mode(before)
             if (mode == 1 .or. status%code > worst%code) worst = status
         end do
+        if (.not. whole) call figures_of(solver, contact, contact%gap, units(:, 2), units(:, 1), &
+                                         status)
         row = row_t(chapter='rounding', case=contact%name, method='strip+faststrip', &
                     judge='4 modes')
+        if (.not. whole) row%method = 'solvers alone'
         call status_of(worst, row)
         do k = 1, size(figure_names)
             row%quantity = figure_names(k)
@@ -341,4 +358,38 @@ contains
             call put_row(writer, row)
         end do
     end subroutine round_contact
+
+    !> The same figures without the part of the library that looks after its host.
+    subroutine solve_directly(contact, figures, status)
+        type(contact_t), intent(in) :: contact
+        real(wp), intent(out) :: figures(size(figure_names))
+        type(status_t), intent(out) :: status
+
+        integer, parameter :: room = 100
+        type(strip_workspace_t) :: workspace
+        type(contact_strips_t) :: strips
+        type(normal_result_t) :: normal
+        type(tangential_result_t) :: forces
+        type(status_t) :: tangential_status
+
+        figures = 0.0_wp
+        call reserve_strips(strips, room, status)
+        call reserve_strip_workspace(workspace, room, size(contact%gap%y), status)
+        if (is_error(status)) return
+        call set_strip_gap(workspace, contact%gap, status)
+        if (is_error(status)) return
+        if (contact%demand%by_load) then
+            call strip_solve(workspace, normal_compliance(contact%material), &
+                             contact%demand%load, strip_options_t(), strips, normal, status)
+        else
+            call strip_solve_penetration(workspace, normal_compliance(contact%material), &
+                                         contact%demand%penetration, strip_options_t(), strips, &
+                                         normal, status)
+        end if
+        if (is_error(status)) return
+        call faststrip_solve(strips, contact%material, contact%mu, contact%creepage, &
+                             default_points, forces, tangential_status)
+        if (is_error(tangential_status)) status = tangential_status
+        figures = [normal%penetration, normal%pmax, normal%area, forces%fx, forces%fy, forces%mz]
+    end subroutine solve_directly
 end module faststrip_app_bench_extremes_noise

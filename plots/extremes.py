@@ -306,24 +306,23 @@ def draw_steadiness(path, rows, scalar, stamp):
 def draw_digits(axes, rows, scalar):
     """Digits that all four rounding modes share, the fewest of all contacts."""
     names = ["influence", *FIGURES]
-    labels = ["influence", *FIGURES.values()]
-    for k, (source, label) in enumerate(((rows, "with vector functions"),
-                                         (scalar, "without"))):
-        if source is None:
-            continue
-        own = select(source, chapter="rounding")
-        digits = []
-        for name in names:
-            worst = largest(select(own, quantity=name).value)
-            digits.append(-np.log10(max(worst, EPSILON / 10.0)))
-        axes.barh(np.arange(len(names)) + 0.2 - 0.4 * k, digits, height=0.38, color=COLOURS[k],
-                  label=label)
-    axes.set_yticks(np.arange(len(names)), labels)
+    bars = [("whole library", rows, "strip+faststrip"),
+            ("solvers alone, vector functions", rows, ("closed", "solvers alone"))]
+    if scalar is not None:
+        bars.append(("solvers alone, no vector functions", scalar, ("closed", "solvers alone")))
+    height = 0.8 / len(bars)
+    for k, (label, source, methods) in enumerate(bars):
+        own = select(source, chapter="rounding", method=methods)
+        worst = np.array([largest(select(own, quantity=name).value) for name in names])
+        digits = -np.log10(np.maximum(worst, EPSILON / 2.0))
+        axes.barh(np.arange(len(names)) + height * (k - 0.5 * (len(bars) - 1)), digits,
+                  height=0.94 * height, color=COLOURS[k], label=label)
+    axes.set_yticks(np.arange(len(names)), ["influence", *FIGURES.values()])
     axes.invert_yaxis()
     axes.set_xlim(0.0, 16.5)
     axes.set_xlabel("digits that agree")
     style.title(axes, "Four rounding modes")
-    axes.legend(fontsize=style.SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
+    axes.legend(fontsize=style.SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.12))
 
 
 def largest(values):

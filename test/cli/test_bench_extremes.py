@@ -74,7 +74,10 @@ class Extremes(ProgramTest):
     def test_normal(self):
         rows = self.part("normal")
         for row in rows:
-            self.assertEqual(row["status"], "ok", row)
+            # Some are as large as the bodies, which the solver says and Hertz does not mind.
+            self.assertIn(row["status"], ("ok", "conformal"), row)
+            if row["chapter"] != "ellipses":
+                self.assertEqual(row["status"], "ok", row)
         for chapter in ("ellipses", "flat_gaps"):
             for quantity in ("penetration_err", "pmax_err", "area_err"):
                 self.assertTrue(1e-6 < self.largest(rows, chapter=chapter, quantity=quantity)
@@ -118,6 +121,11 @@ class Extremes(ProgramTest):
         rows = self.part("rounding")
         centre = [row for row in rows if row["quantity"] == "influence" and float(row["y"]) == 0.0]
         self.assertTrue(1e-17 < self.largest(centre) < 1e-13)
+        # The library rounds to nearest whatever its host does; its solvers alone do not.
+        for row in rows:
+            if row["method"] == "strip+faststrip":
+                self.assertEqual(row["value"], 0.0, row)
+        self.assertGreater(self.largest(rows, method="solvers alone"), 1e-17)
 
     def test_refused(self):
         for words, says in ((["extremes", "--only", "guess"], "guess"),

@@ -65,7 +65,10 @@ def noise_rows():
 
 
 def rounding_rows(spread):
-    return [row("rounding", "both", 0.0, 0.0, name, spread) for name in ("influence", *FIGURES)]
+    rows = [row("rounding", "closed", 1.0, 0.0, "influence", spread)]
+    rows += [row("rounding", method, 0.0, 0.0, name, value) for name in FIGURES
+             for method, value in (("strip+faststrip", 0.0), ("solvers alone", spread))]
+    return rows
 
 
 def single_rows():
