@@ -71,3 +71,20 @@ class Fuzz(ProgramTest):
                             (["--solver", "newton"], "newton")):
             with self.subTest(words):
                 self.refused(2, "fuzz", *words, says=[says])
+
+    def test_rows_of_two_runs_make_one_table(self):
+        tables = {}
+        for words, name in ((("--cases", 8), "all.csv"), (("--cases", 5), "1.csv"),
+                            (("--first", 6, "--cases", 3), "2.csv")):
+            tables[name] = self.run_program("fuzz", *words, "-o", name)
+        lines = (self.folder / "2.csv").read_text(encoding="utf-8").splitlines()
+        rows = [line for line in lines if not line.startswith("#")][1:]
+        with (self.folder / "1.csv").open("a", encoding="utf-8") as joined:
+            joined.write("\n".join(rows) + "\n")
+        read = self.run_program("fuzz", "--read", "1.csv")
+        share = [line for line in read.stdout.splitlines() if " %  " in line]
+        whole = [line for line in tables["all.csv"].stdout.splitlines() if " %  " in line]
+        self.assertEqual(share, whole)
+        self.assertIn("slowest, ms:", read.stdout)
+        self.assertEqual(self.run_program("fuzz", "--case", 6).returncode, 0)
+        self.refused(2, "fuzz", "--case", 6, "--cases", 2, says=["--case"])
