@@ -22,8 +22,8 @@
 !>     area          1.30 (rms t + 2.5 mean |m|)
 !>     pmax          0.62 (max |e_left + e_right|/2 D/(2 H w pmax) + 0.75 max |q_k/q* - 1|/2)
 !>
-!> with means over y. Of n strips across the patch with the largest pressure, fewer than nine raise
-!> the area's estimate by 9/n, because a cubic through few lengths tells less of the tips; and
+!> with means over y. Of n strips across the patch with the largest pressure, fewer than eight raise
+!> the area's estimate by 8/n, because a cubic through few lengths tells less of the tips; and
 !> pmax is not trusted beyond 0.15/n^2, the discretisation error of slim ellipses, whose pressures
 !> are so smooth along y that both terms miss it. The first term of pmax is the pressure that closes a wave of the amplitude e
 !> over the strip's width w on a half-space, over the strip with the largest pressure and its
@@ -61,7 +61,7 @@ module faststrip_normal_certificate
     real(wp), parameter :: penetration_factor = 0.6_wp, penetration_middle = 3.0_wp
     real(wp), parameter :: area_factor = 1.3_wp, area_middle = 2.5_wp
     real(wp), parameter :: pmax_factor = 0.62_wp, pmax_curve = 0.75_wp
-    real(wp), parameter :: area_strips = 9.0_wp, pmax_least = 0.15_wp
+    real(wp), parameter :: area_strips = 8.0_wp, pmax_least = 0.15_wp
 
     integer, parameter :: middle_stride = 2  ! strips from one middle sampled to the next
     integer, parameter :: tips_ahead = 4     ! of a block of strips, sampled outside
