@@ -40,7 +40,7 @@ contains
             // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
-            option_t('--strips', 'FILE', 'write the strips there'), &
+            option_t('--strips', 'FILE', 'write the strips there, with the sums over each'), &
             option_t('--fields', 'FILE', 'write pressure, tractions and slip per element there'), &
             option_t('--gap', 'FILE', 'write the undeformed gap there'), &
             option_t('--profiles', 'FILE', 'write wheel and rail in contact there'), &
@@ -58,7 +58,8 @@ contains
         call make_scene(case, option_number(command, '--shift', case%shift), scene, status)
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
-        call make_solver(case%methods, given(command, '--fields'), solver, status)
+        call make_solver(case%methods, given(command, '--fields'), solver, status, &
+                         with_strip_forces=given(command, '--strips'))
         call fail_on_error(status)
         call solve(solver, scene%gap, case%material, case%mu, scene%demand, scene%creepage, &
                    outcome, status)
@@ -68,7 +69,8 @@ contains
         call put_sweep_header(writer(1), case)
         call put_sweep_row(writer(1), case, case%methods, scene, outcome, status)
         if (given(command, '--strips')) &
-            call put_strips(writer(2), case%name, solver%normal%workspace%strips)
+            call put_strips(writer(2), case%name, solver%normal%workspace%strips, &
+                            solver%strip_forces)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
         if (given(command, '--gap')) call put_gap(writer(4), solver%gap, &
                                                   case%methods%smoothing_um)

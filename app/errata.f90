@@ -26,8 +26,8 @@ module faststrip_app_errata
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_errata_literal, only: literal_table_influence, literal_area_integral, &
-                                        literal_offcentre_influence, center_pressures, &
-                                        march_reading_t, march_sum_t, printed_march
+                                        literal_offcentre_influence, center_pressures
+    use faststrip_tangential_paper, only: march_reading_t, march_sum_t, printed_march
     use faststrip_errata_printed_integral, only: printed_influence, rule_qags, rule_cquad
     use faststrip_app_console, only: fail_on_error, put_origin, say
     implicit none

@@ -13,11 +13,13 @@ module faststrip_app_method_options
     !> For the table of a subcommand.
     type(option_t), parameter :: method_options(11) = [ &
         option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm'), &
-        option_t('--tangential', 'NAME', 'faststrip (default) or fastsim'), &
+        option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
+                 // ' faststrip-corrected, fastsim,' // new_line('a') &
+                 // 'fastsim-elliptic, fastsim-weighted, linear, she, polach'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
-        option_t('--points-per-strip', 'N', 'points along a strip, faststrip (default 15)'), &
-        option_t('--fastsim-nx', 'N', 'points along a row, fastsim (default 50)'), &
-        option_t('--fastsim-ny', 'N', 'rows, fastsim (default 50)'), &
+        option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
+        option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
+        option_t('--fastsim-ny', 'N', 'rows, fastsim... (default 50)'), &
         option_t('--element-dx', 'MM', 'side of the elements along x, norm (default 0.2)'), &
         option_t('--element-dy', 'MM', 'side of the elements along y, norm (default 0.2)'), &
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &

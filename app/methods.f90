@@ -13,15 +13,18 @@ module faststrip_app_methods
     public :: norm_starts
 
     !> Length of a method's name, characters.
-    integer, parameter :: word_length = 16
+    integer, parameter :: word_length = 24
     !> Names of the normal methods: strips; the Hertz ellipse of the contact point; the strips'
     !> patches as ellipses, with the proportions of Hertz or of the second moments; Kalker's
     !> variational method.
     character(len=word_length), parameter :: normal_methods(5) = [character(len=word_length) :: &
         'strip', 'hertz', 'equal_area', 'equal_moments', 'norm']
-    !> Names of the tangential methods.
-    character(len=word_length), parameter :: tangential_methods(2) = &
-        [character(len=word_length) :: 'faststrip', 'fastsim']
+    !> Names of the tangential methods: marching in the strips (the best, the paper's, the paper's
+    !> corrected); FASTSIM on ellipses, with the parabolic bound and three flexibilities, the
+    !> elliptic bound, or one flexibility; laws that know forces only.
+    character(len=word_length), parameter :: tangential_methods(9) = &
+        [character(len=word_length) :: 'faststrip', 'faststrip-paper', 'faststrip-corrected', &
+         'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach']
     !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']
@@ -34,9 +37,9 @@ module faststrip_app_methods
         character(len=word_length) :: normal = 'strip'         !! one of `normal_methods`
         character(len=word_length) :: tangential = 'faststrip' !! one of `tangential_methods`
         integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
-        integer :: points_per_strip = 15 !! points along a strip, faststrip
-        integer :: fastsim_nx = 50       !! points along a row, fastsim
-        integer :: fastsim_ny = 50       !! rows, fastsim
+        integer :: points_per_strip = 15 !! points along a strip, faststrip...
+        integer :: fastsim_nx = 50       !! points along a row, fastsim...
+        integer :: fastsim_ny = 50       !! rows, fastsim...
         real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
         real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, mm
         real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, mm

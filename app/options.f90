@@ -13,7 +13,7 @@ module faststrip_app_options
     type :: option_t
         character(len=20) :: name = ''        !! with its dashes
         character(len=16) :: value_name = ''  !! blank: a flag
-        character(len=80) :: help = ''        !! one line
+        character(len=160) :: help = ''       !! one line, or two parted by a line feed
         logical :: is_given = .false.         !! was it on the command line?
         character(len=:), allocatable :: text !! its value
     end type option_t
@@ -111,7 +111,7 @@ contains
         type(command_t), intent(in) :: command
 
         character(len=38) :: left
-        integer :: i
+        integer :: i, cut
 
         call say('usage: faststrip ' // trim(command%name // ' ' // command%usage) &
                  // ' [options]')
@@ -120,7 +120,12 @@ contains
         call say('options:')
         do i = 1, size(command%options)
             left = trim(command%options(i)%name) // ' ' // command%options(i)%value_name
-            call say('  ' // left(:34) // trim(command%options(i)%help))
+            cut = index(command%options(i)%help, new_line('a'))
+            if (cut > 0) then
+                call say('  ' // left(:34) // command%options(i)%help(:cut - 1))
+                left = ''
+            end if
+            call say('  ' // left(:34) // trim(command%options(i)%help(cut + 1:)))
         end do
         left = '--help'
         call say('  ' // left(:34) // 'this text')

@@ -4,7 +4,7 @@ module faststrip_app_result_csv
     use faststrip_status, only: status_t, is_error, status_word, number_text
     use faststrip_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
-    use faststrip_tangential_types, only: tangential_field_t
+    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
     use faststrip_app_console, only: put_origin
     use faststrip_app_solver, only: outcome_t
     implicit none
@@ -47,7 +47,11 @@ contains
         call put_cell(writer, outcome%tangential%fy)
         call put_cell(writer, outcome%tangential%mz)
         call put_cell(writer, outcome%tangential%friction_power)
-        call put_cell(writer, outcome%tangential%stick_fraction)
+        if (outcome%knows_stick) then
+            call put_cell(writer, outcome%tangential%stick_fraction)
+        else
+            call put_cell(writer, '')
+        end if
         call put_cell(writer, outcome%normal_us)
         call put_cell(writer, outcome%tangential_us)
         associate (certificate => outcome%certificate)
@@ -88,16 +92,18 @@ contains
     end subroutine put_smoothing
 
     !> The strips of a contact, one row a strip.
-    subroutine put_strips(writer, case_name, strips)
+    subroutine put_strips(writer, case_name, strips, forces)
         type(csv_writer_t), intent(inout) :: writer  !! an open file
         character(len=*), intent(in) :: case_name    !! for the column `case`
         type(contact_strips_t), intent(in) :: strips !! mm, MPa
+        type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
 
-        integer :: k
+        integer :: k, j
 
         call put_origin(writer)
-        call put_header(writer, [character(len=14) :: 'case', 'patch', 'strip', 'y_left_mm', &
-                                 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N'])
+        call put_header(writer, [character(len=16) :: 'case', 'patch', 'strip', 'y_left_mm', &
+                                 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N', &
+                                 'Fx_N', 'Fy_N', 'friction_power_N'])
         do k = 1, strips%n
             associate (left => strips%y_left(k), right => strips%y_right(k), &
                        length => strips%half_length(k), p0 => strips%p0(k))
@@ -110,6 +116,15 @@ contains
                 call put_cell(writer, length)
                 call put_cell(writer, p0)
                 call put_cell(writer, strip_load(p0, length, right - left))
+                if (forces%n == strips%n) then
+                    call put_cell(writer, forces%fx(k))
+                    call put_cell(writer, forces%fy(k))
+                    call put_cell(writer, forces%friction_power(k))
+                else
+                    do j = 1, 3
+                        call put_cell(writer, '')
+                    end do
+                end if
                 call end_row(writer)
             end associate
         end do
@@ -124,8 +139,8 @@ contains
         integer :: i
 
         call put_origin(writer)
-        call put_header(writer, [character(len=8) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
-                                 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy'])
+        call put_header(writer, [character(len=9) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
+                                 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa'])
         do i = 1, field%n
             call put_cell(writer, case_name)
             call put_cell(writer, field%x(i))
@@ -137,6 +152,7 @@ contains
             call put_cell(writer, field%py(i))
             call put_cell(writer, field%sx(i))
             call put_cell(writer, field%sy(i))
+            call put_cell(writer, field_power(field, i))
             call end_row(writer)
         end do
     end subroutine put_field

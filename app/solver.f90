@@ -9,7 +9,9 @@ module faststrip_app_solver
     use faststrip_profile_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: normal_result_t
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
+                                          strip_forces_t, reserve_strip_forces
+    use faststrip_contact_methods, only: gives_stick
     use faststrip_contact_solve, only: reserve_contact_field
     use faststrip_app_clock, only: microseconds
     use faststrip_app_methods, only: methods_t
@@ -30,6 +32,8 @@ module faststrip_app_solver
         type(normal_stage_t) :: normal      !! with the strips of the last contact
         type(norm_stage_t) :: norm          !! if that is the normal method
         type(tangential_field_t) :: field   !! of the last contact, if wanted
+        logical :: with_strip_forces = .false. !! are the sums of each strip wanted?
+        type(strip_forces_t) :: strip_forces   !! of the last contact, if wanted
         type(gap_t) :: gap                  !! of the last contact, smoothed if that was asked for
     end type solver_t
 
@@ -37,6 +41,7 @@ module faststrip_app_solver
     type :: outcome_t
         type(normal_result_t) :: normal         !! penetration, area, ...
         type(tangential_result_t) :: tangential !! forces, friction power, ...
+        logical :: knows_stick = .true.         !! does the stick fraction count?
         logical :: is_certified = .false.       !! do the certificate's residuals count?
         logical :: is_estimated = .false.       !! and its errors?
         type(certificate_t) :: certificate      !! how wrong the normal solution is
@@ -48,17 +53,19 @@ module faststrip_app_solver
 contains
 
     !> Make room for a choice of methods.
-    subroutine make_solver(methods, with_field, solver, status)
+    subroutine make_solver(methods, with_field, solver, status, with_strip_forces)
         type(methods_t), intent(in) :: methods  !! checked
         logical, intent(in) :: with_field       !! are the elements wanted?
         type(solver_t), intent(out) :: solver   !! ready
         type(status_t), intent(out) :: status   !! from the library
+        logical, intent(in), optional :: with_strip_forces !! are the sums of each strip wanted?
 
         solver%methods = methods
         solver%with_field = with_field
         call clear_status(status)
         call make_normal_stage(methods, solver%normal)
         if (with_field) call reserve_contact_field(solver%field, solver%normal%methods, status)
+        if (present(with_strip_forces)) solver%with_strip_forces = with_strip_forces
     end subroutine make_solver
 
     !> Give back what the compiler does not, of solvers in an array.
@@ -123,6 +130,16 @@ contains
                                   tangential_status)
         end if
         call system_clock(after)
+        if (solver%with_strip_forces .and. .not. is_error(tangential_status)) then
+            ! Once more, so that the time is that of the forces.
+            call reserve_strip_forces(solver%strip_forces, &
+                                      size(solver%normal%workspace%strips%p0), &
+                                      tangential_status)
+            if (.not. is_error(tangential_status)) &
+                call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
+                                      tangential_status, per_strip=solver%strip_forces)
+        end if
+        outcome%knows_stick = gives_stick(solver%normal%methods%tangential)
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
         if (is_error(status) .or. solver%methods%normal == 'norm') return

@@ -4,7 +4,7 @@ module faststrip_app_tangential_stage
     use faststrip_status, only: status_t
     use faststrip_material, only: material_t
     use faststrip_creepage, only: creepage_t
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t
     use faststrip_contact_solve, only: contact_case_t, solve_contact_tangential
     use faststrip_app_normal_stage, only: normal_stage_t
     implicit none
@@ -15,7 +15,8 @@ module faststrip_app_tangential_stage
 contains
 
     !> Solve the tangential problem on a normal solution.
-    subroutine solve_tangential(normal, material, mu, creepage, tangential, status, field)
+    subroutine solve_tangential(normal, material, mu, creepage, tangential, status, field, &
+                                per_strip)
         type(normal_stage_t), intent(in) :: normal   !! with a solution
         type(material_t), intent(in) :: material     !! moduli, MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction
@@ -23,6 +24,7 @@ contains
         type(tangential_result_t), intent(out) :: tangential !! figures
         type(status_t), intent(out) :: status        !! an error, or a named limitation
         type(tangential_field_t), intent(inout), optional :: field !! elements, if wanted
+        type(strip_forces_t), intent(inout), optional :: per_strip !! of faststrip, if wanted
 
         type(contact_case_t) :: case
 
@@ -30,6 +32,7 @@ contains
         case%mu = mu
         case%creepage = creepage
         case%methods = normal%methods
-        call solve_contact_tangential(normal%workspace, case, tangential, status, field)
+        call solve_contact_tangential(normal%workspace, case, tangential, status, field, &
+                                      per_strip)
     end subroutine solve_tangential
 end module faststrip_app_tangential_stage

@@ -37,17 +37,27 @@ module faststrip
                                       reserve_strip_workspace, set_strip_gap, strip_solve, &
                                       strip_solve_penetration, strips_auto
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
-                                          state_adhesion, state_slip
+                                          field_power, strip_forces_t, &
+                                          reserve_strip_forces, state_adhesion, state_slip
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
-                                            fastsim_coefficients_solve
+                                            fastsim_coefficients_solve, fastsim_variant_t
     use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_paper, only: paper_solve, corrected_solve
+    use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
+                                         law_shen_hedrick_elkins, law_polach
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name, method_name_length, &
                                          normal_strip, normal_hertz, normal_equal_area, &
                                          normal_equal_moments, tangential_none, &
-                                         tangential_faststrip, tangential_fastsim
+                                         tangential_faststrip, tangential_fastsim, &
+                                         tangential_faststrip_paper, &
+                                         tangential_faststrip_corrected, &
+                                         tangential_fastsim_elliptic, &
+                                         tangential_fastsim_weighted, tangential_linear, &
+                                         tangential_she, tangential_polach, gives_elements, &
+                                         gives_stick
     use faststrip_contact_solve, only: contact_case_t, contact_result_t, workspace_t, &
                                        reserve_workspace, reserve_contact_field, &
                                        set_contact_gap, solve_contact, solve_contact_normal, &

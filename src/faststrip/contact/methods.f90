@@ -10,6 +10,10 @@ module faststrip_contact_methods
     public :: normal_method_name, tangential_method_name, method_name_length
     public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments
     public :: tangential_none, tangential_faststrip, tangential_fastsim
+    public :: tangential_faststrip_paper, tangential_faststrip_corrected
+    public :: tangential_fastsim_elliptic, tangential_fastsim_weighted
+    public :: tangential_linear, tangential_she, tangential_polach
+    public :: gives_elements, gives_stick
     public :: most_strips, most_rows
 
     integer, parameter :: normal_strip = 1         !! strips
@@ -21,13 +25,22 @@ module faststrip_contact_methods
     integer, parameter :: tangential_none = 0      !! no forces
     integer, parameter :: tangential_faststrip = 1 !! marching in the strips
     integer, parameter :: tangential_fastsim = 2   !! Kalker's, on the patches' ellipses
+    integer, parameter :: tangential_faststrip_paper = 3     !! TFASTSTRIP as printed
+    integer, parameter :: tangential_faststrip_corrected = 4 !! TFASTSTRIP as corrected
+    integer, parameter :: tangential_fastsim_elliptic = 5    !! FASTSIM with the elliptic bound
+    integer, parameter :: tangential_fastsim_weighted = 6    !! FASTSIM with a single flexibility
+    integer, parameter :: tangential_linear = 7 !! Kalker's linear theory; forces only, like
+    integer, parameter :: tangential_she = 8    !! Shen, Hedrick and Elkins, and
+    integer, parameter :: tangential_polach = 9 !! Polach
 
     !> Length of a method's name, characters.
-    integer, parameter :: method_name_length = 16
+    integer, parameter :: method_name_length = 24
     character(len=method_name_length), parameter :: normal_names(4) = &
         [character(len=method_name_length) :: 'strip', 'hertz', 'equal_area', 'equal_moments']
-    character(len=method_name_length), parameter :: tangential_names(0:2) = &
-        [character(len=method_name_length) :: 'none', 'faststrip', 'fastsim']
+    character(len=method_name_length), parameter :: tangential_names(0:9) = &
+        [character(len=method_name_length) :: 'none', 'faststrip', 'fastsim', &
+         'faststrip-paper', 'faststrip-corrected', 'fastsim-elliptic', 'fastsim-weighted', &
+         'linear', 'she', 'polach']
 
     !> Most strips per patch.
     integer, parameter :: most_strips = 1000
@@ -39,9 +52,9 @@ module faststrip_contact_methods
         integer :: normal = normal_strip             !! one of the `normal_` numbers
         integer :: tangential = tangential_faststrip !! one of the `tangential_` numbers
         integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
-        integer :: points_per_strip = 15 !! points along a strip, faststrip
-        integer :: fastsim_nx = 50       !! points along a row, fastsim
-        integer :: fastsim_ny = 50       !! rows, fastsim
+        integer :: points_per_strip = 15 !! points along a strip, faststrip...
+        integer :: fastsim_nx = 50       !! points along a row, fastsim...
+        integer :: fastsim_ny = 50       !! rows, fastsim...
     end type contact_methods_t
 
 contains
@@ -102,6 +115,21 @@ contains
         if (method >= 0 .and. method <= ubound(tangential_names, 1)) &
             name = tangential_names(method)
     end function tangential_method_name
+
+    !> Does a tangential method know tractions, or forces only?
+    elemental logical function gives_elements(method)
+        integer, intent(in) :: method !! one of the `tangential_` numbers
+
+        gives_elements = method /= tangential_linear .and. method /= tangential_she &
+                         .and. method /= tangential_polach
+    end function gives_elements
+
+    !> Does a tangential method know how much of the contact sticks?
+    elemental logical function gives_stick(method)
+        integer, intent(in) :: method !! one of the `tangential_` numbers
+
+        gives_stick = gives_elements(method) .or. method == tangential_linear
+    end function gives_stick
 
     pure integer function position(name, names)
         character(len=*), intent(in) :: name, names(:)

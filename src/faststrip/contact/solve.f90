@@ -21,12 +21,22 @@ module faststrip_contact_solve
                                       reserve_strip_workspace, strip_solve, &
                                       strip_solve_penetration, strips_auto
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
-    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
+                                          strip_forces_t
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
+                                            fastsim_variant_t
     use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
+                                         law_shen_hedrick_elkins, law_polach
+    use faststrip_tangential_paper, only: paper_solve, corrected_solve
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
                                          normal_strip, normal_equal_area, tangential_none, &
-                                         tangential_faststrip
+                                         tangential_faststrip, tangential_faststrip_paper, &
+                                         tangential_faststrip_corrected, tangential_fastsim, &
+                                         tangential_fastsim_elliptic, &
+                                         tangential_fastsim_weighted, tangential_linear, &
+                                         tangential_she, tangential_polach, gives_elements, &
+                                         tangential_method_name
     implicit none
     private
 
@@ -126,6 +136,12 @@ contains
 
         call check_contact_methods(methods, status)
         if (is_error(status)) return
+        if (.not. gives_elements(methods%tangential)) then
+            call set_status(status, st_bad_argument, &
+                            trim(tangential_method_name(methods%tangential)) // ' gives forces ' &
+                            // 'only, no tractions element by element')
+            return
+        end if
         elements = max(int(strip_room(methods), int64)*methods%points_per_strip, &
                        int(methods%fastsim_nx, int64)*methods%fastsim_ny*most_patches)
         failure = 1
@@ -204,17 +220,19 @@ contains
 
     !> The tangential problem on the workspace's normal solution: other creepages, friction or
     !> resolution without solving the normal problem again.
-    subroutine solve_contact_tangential(workspace, case, tangential, status, field)
+    subroutine solve_contact_tangential(workspace, case, tangential, status, field, per_strip)
         type(workspace_t), intent(in) :: workspace            !! with a normal solution
         type(contact_case_t), intent(in) :: case              !! material, mu, creepages, method
         type(tangential_result_t), intent(out) :: tangential  !! figures
         type(status_t), intent(out) :: status                 !! as `solve_contact`
         type(tangential_field_t), intent(inout), optional :: field !! elements, if wanted
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! sums over each strip, if wanted and if the method is `tangential_faststrip`
 
         type(environment_t) :: environment
 
         call hold_environment(environment)
-        call solve_tangential(workspace, case, tangential, status, field)
+        call solve_tangential(workspace, case, tangential, status, field, per_strip)
         call restore_environment(environment)
     end subroutine solve_contact_tangential
 
@@ -303,12 +321,13 @@ contains
         end associate
     end subroutine solve_hertz
 
-    subroutine solve_tangential(workspace, case, tangential, status, field)
+    subroutine solve_tangential(workspace, case, tangential, status, field, per_strip)
         type(workspace_t), intent(in) :: workspace
         type(contact_case_t), intent(in) :: case
         type(tangential_result_t), intent(out) :: tangential
         type(status_t), intent(out) :: status
         type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
 
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
@@ -316,24 +335,84 @@ contains
             call set_status(status, st_bad_argument, 'no normal solution in the workspace')
             return
         end if
-        associate (methods => case%methods)
-            if (methods%tangential == tangential_none) then
-                call clear_status(status)
-                if (present(field)) field%n = 0
-            else if (methods%tangential == tangential_faststrip) then
-                call faststrip_solve(workspace%strips, case%material, case%mu, case%creepage, &
-                                     methods%points_per_strip, tangential, status, field)
-            else if (workspace%solved_by == normal_hertz) then
-                call fastsim_solve(workspace%hertz, case%material, case%mu, case%creepage, &
-                                   methods%fastsim_nx, methods%fastsim_ny, tangential, status, &
-                                   field)
-            else
-                call fastsim_strips_solve(workspace%strips, case%material, case%mu, &
-                                          case%creepage, methods%fastsim_nx, methods%fastsim_ny, &
-                                          tangential, status, field)
+        if (present(per_strip)) per_strip%n = 0
+        if (present(field)) then
+            field%n = 0
+            if (.not. gives_elements(case%methods%tangential)) then
+                call set_status(status, st_bad_argument, 'the tangential method gives forces ' // &
+                                'only, no tractions element by element')
+                return
             end if
+        end if
+        associate (methods => case%methods)
+            select case (methods%tangential)
+            case (tangential_none)
+                call clear_status(status)
+            case (tangential_faststrip)
+                call faststrip_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                                     methods%points_per_strip, tangential, status, field, &
+                                     per_strip)
+            case (tangential_faststrip_paper)
+                call paper_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                                 methods%points_per_strip, tangential, status, field)
+            case (tangential_faststrip_corrected)
+                call corrected_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                                     methods%points_per_strip, tangential, status, field)
+            case (tangential_fastsim)
+                call solve_fastsim(workspace, case, fastsim_variant_t(), tangential, status, field)
+            case (tangential_fastsim_elliptic)
+                call solve_fastsim(workspace, case, fastsim_variant_t(elliptic_bound=.true.), &
+                                   tangential, status, field)
+            case (tangential_fastsim_weighted)
+                call solve_fastsim(workspace, case, fastsim_variant_t(single_flexibility=.true.), &
+                                   tangential, status, field)
+            case (tangential_linear)
+                call solve_law(workspace, case, law_linear, tangential, status)
+            case (tangential_she)
+                call solve_law(workspace, case, law_shen_hedrick_elkins, tangential, status)
+            case (tangential_polach)
+                call solve_law(workspace, case, law_polach, tangential, status)
+            end select
         end associate
     end subroutine solve_tangential
+
+    !> FASTSIM on the Hertz ellipse, if there is one, or on the patches' ellipses.
+    subroutine solve_fastsim(workspace, case, variant, tangential, status, field)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(fastsim_variant_t), intent(in) :: variant
+        type(tangential_result_t), intent(out) :: tangential
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
+            if (workspace%solved_by == normal_hertz) then
+                call fastsim_solve(workspace%hertz, case%material, case%mu, case%creepage, nx, &
+                                   ny, tangential, status, field, variant)
+            else
+                call fastsim_strips_solve(workspace%strips, case%material, case%mu, &
+                                          case%creepage, nx, ny, tangential, status, field, &
+                                          variant)
+            end if
+        end associate
+    end subroutine solve_fastsim
+
+    !> A creep force law on the Hertz ellipse, if there is one, or on the patches' ellipses.
+    subroutine solve_law(workspace, case, law, tangential, status)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        integer, intent(in) :: law
+        type(tangential_result_t), intent(out) :: tangential
+        type(status_t), intent(out) :: status
+
+        if (workspace%solved_by == normal_hertz) then
+            call law_solve(law, workspace%hertz, case%material, case%mu, case%creepage, &
+                           tangential, status)
+        else
+            call law_strips_solve(law, workspace%strips, case%material, case%mu, case%creepage, &
+                                  tangential, status)
+        end if
+    end subroutine solve_law
 
     !> Room for the strips of all patches together.
     pure integer function strip_room(methods)

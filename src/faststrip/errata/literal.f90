@@ -6,42 +6,16 @@ module faststrip_errata_literal
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_not_finite, st_out_of_range, &
                                 st_no_convergence
-    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
     use faststrip_influence_closed, only: strip_influence, strip_influence_edges
     use faststrip_influence_polynomial, only: published_coefficients, table_last_distance
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
-    use faststrip_normal_strips, only: contact_strips_t, strips_load
-    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_tangential_motion, only: check_motion
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_patch_ellipse, only: check_strips
     implicit none
     private
 
     public :: literal_table_influence, literal_area_integral, literal_offcentre_influence
     public :: center_pressures
-    public :: march_reading_t, march_sum_t, printed_march
-
-    !> Which of the paper's statements (25)-(48) are taken as printed.
-    type :: march_reading_t
-        logical :: bound_of_strip = .true. !! (34) T0 = mu p0_i; else one T0, mu max(p0)
-        logical :: way_from_edge = .true.  !! (41) adds s (ae - xe); else s times the last step
-        logical :: bare_moment = .true.    !! (44) with coordinates of the ellipse; else in mm
-        logical :: scaled = .true.         !! (46)-(48); else the sum of the tractions
-        logical :: from_reference = .true. !! (32) y from the reference point; else from y0 (28)
-        integer :: points = 0              !! points along a strip; 0: nx = Int(8a) of (31)
-    end type march_reading_t
-
-    !> What the march adds up.
-    type :: march_sum_t
-        real(wp) :: tx = 0.0_wp !! force along x, N
-        real(wp) :: ty = 0.0_wp !! force along y, N
-        real(wp) :: mz = 0.0_wp !! moment, N mm (bare: N)
-        real(wp) :: a = 0.0_wp  !! semi-axis of the virtual ellipse (27), mm
-        real(wp) :: b = 0.0_wp  !! semi-axis (26), mm
-        integer :: points = 0   !! points along each strip
-    end type march_sum_t
 
 contains
 
@@ -168,94 +142,4 @@ contains
         call dgetrs(merge('T', 'N', transposed), n, 1, matrix, n, pivot, right, n, info)
         p0(:n) = right(:, 1)
     end subroutine center_pressures
-
-    !> Eqs. (25)-(48) statement by statement, with the chosen ones as printed.
-    subroutine printed_march(strips, material, mu, creepage, reading, total, status)
-        type(contact_strips_t), intent(in) :: strips  !! one patch
-        type(material_t), intent(in) :: material      !! moduli in MPa
-        real(wp), intent(in) :: mu                    !! coefficient of friction, > 0
-        type(creepage_t), intent(in) :: creepage      !! about y = 0
-        type(march_reading_t), intent(in) :: reading  !! which statements as printed
-        type(march_sum_t), intent(out) :: total       !! forces on the rail, moment as printed
-        type(status_t), intent(out) :: status
-            !! those of `check_motion`, `check_material`, `check_strips`; `st_bad_argument`
-
-        type(kalker_coefficients_t) :: c
-        real(wp), dimension(strips%n) :: y, width
-        real(wp) :: y0, ratio, area, load, c1, c2, c3, t0, ux, uy, fx, fy, factor
-        real(wp) :: ye, ae, step, way, xe, before, cell, sx, sy, px, py, p, stress, lever
-        integer :: n, i, j
-
-        call check_motion(mu, creepage, status)
-        if (is_error(status)) return
-        call check_material(material, status)
-        if (is_error(status)) return
-        call check_strips(strips, status)
-        if (is_error(status)) return
-        n = strips%n
-        if (strips%n_patches /= 1 .or. mu <= 0.0_wp .or. reading%points < 0 &
-            .or. minval(strips%half_length(:n)) <= 0.0_wp &
-            .or. minval(strips%p0(:n)) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'one patch under pressure with friction only')
-            return
-        end if
-        y = 0.5_wp*(strips%y_left(:n) + strips%y_right(:n))
-        width = strips%y_right(:n) - strips%y_left(:n)
-        area = 2.0_wp*sum(strips%half_length(:n)*width)
-        load = strips_load(strips)
-        total%b = 0.5_wp*(strips%y_right(n) - strips%y_left(1))              ! (26)
-        total%a = area/(pi*total%b)                                          ! (27)
-        y0 = 0.5_wp*(strips%y_left(1) + strips%y_right(n))                   ! (28)
-        ratio = total%b/total%a                                              ! (29)
-        call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
-        if (is_error(status)) return
-        c1 = 9.0_wp/32.0_wp*c%c11                                            ! (30)
-        c2 = 9.0_wp/32.0_wp*c%c22
-        c3 = 3.0_wp/pi*sqrt(ratio)*c%c23
-        total%points = reading%points
-        if (total%points == 0) total%points = max(int(8.0_wp*total%a), 1)    ! (31)
-        do i = 1, n
-            ye = y(i)/total%b                                                ! (32)
-            if (.not. reading%from_reference) ye = (y(i) - y0)/total%b
-            t0 = mu*maxval(strips%p0(:n))
-            if (reading%bound_of_strip) t0 = mu*strips%p0(i)                 ! (34)
-            factor = combined_shear_modulus(material)/t0                     ! (35)
-            ux = factor*c1*creepage%cksi
-            uy = factor*c2*creepage%ceta
-            fx = factor*c3*total%b*creepage%cphi
-            fy = factor*c3*total%a*creepage%cphi
-            ae = strips%half_length(i)/total%a                               ! (36)
-            step = 2.0_wp*ae/total%points                                    ! (37)
-            cell = width(i)/total%b*step                                     ! (33), (38)
-            sx = ux - fx*ye                                                  ! (39)
-            px = 0.0_wp
-            py = 0.0_wp
-            before = ae
-            do j = 1, total%points
-                xe = ae - (j - 0.5_wp)*step
-                way = ae - xe
-                if (.not. reading%way_from_edge) way = before - xe
-                sy = uy + fy*(xe + 0.5_wp*way)                               ! (40)
-                before = xe
-                px = px - sx*way                                             ! (41)
-                py = py - sy*way
-                p = sqrt(px*px + py*py)/(ae*ae - xe*xe)                      ! (42)
-                if (p > 1.0_wp) then
-                    px = px/p                                                ! (43)
-                    py = py/p
-                end if
-                ! (46)-(48) take pi/2 for the sum of the bounds and mu N for the sum of T0 times it.
-                stress = cell*mu*load/(0.5_wp*pi)
-                if (.not. reading%scaled) stress = cell*total%a*total%b*t0
-                total%tx = total%tx + px*stress                              ! (44), (45)
-                total%ty = total%ty + py*stress
-                if (reading%bare_moment) then
-                    lever = px*ye - py*xe
-                else
-                    lever = py*xe*total%a - px*ye*total%b
-                end if
-                total%mz = total%mz + lever*stress
-            end do
-        end do
-    end subroutine printed_march
 end module faststrip_errata_literal

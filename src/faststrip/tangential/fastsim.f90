@@ -15,6 +15,17 @@
 !>
 !> Deviation 1: the bound is scaled (by less than 3e-4 from 50x50 elements on) so that its sum
 !> over the elements is mu Q exactly, whatever the grid.
+!>
+!> Two variants in use (`fastsim_variant_t`):
+!>
+!>  1. the **elliptic bound** of Hertz's pressure, `mu pmax sqrt(1 - (x/a)^2 - (y/b)^2)`, scaled
+!>     alike: the true one, where the flexibilities go with the parabolic one;
+!>  2. a **single flexibility** for all three (J. J. Kalker, 1990, section 3.6),
+!>
+!>         L = (L1 |cksi| + L2 |ceta| + L3 c |cphi|)/sqrt(cksi^2 + ceta^2 + (c cphi)^2),
+!>
+!>     c = sqrt(ab): slip is then parallel to the traction, and the linear forces are Kalker's for
+!>     one creepage at a time only.
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
@@ -26,19 +37,25 @@ module faststrip_tangential_fastsim
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_tangential_motion, only: check_motion
+    use faststrip_tangential_motion, only: check_motion, check_ellipse
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, state_adhesion, state_slip
     implicit none
     private
 
-    public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve
+    public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve, fastsim_variant_t
 
     ! The most elements along x and strips across.
     integer, parameter :: most_elements = 10000
     ! Axes, loads, moduli and coefficients beyond this, or below its inverse, are refused.
     real(wp), parameter :: largest = 1.0e20_wp
+
+    !> What is not Kalker's standard choice.
+    type :: fastsim_variant_t
+        logical :: elliptic_bound = .false.     !! or the parabolic one
+        logical :: single_flexibility = .false. !! or three
+    end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
     type :: areas_t
@@ -56,7 +73,8 @@ contains
     !> Slip is what scaling back leaves over of the elastic step, `L_i (dp_i/h)`, the measure the
     !> theory itself uses: with three flexibilities it is not parallel to the traction, but it
     !> never feeds energy.
-    pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field)
+    pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field, &
+                                  variant)
         type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at y = hertz%y
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -69,6 +87,7 @@ contains
             !! `st_bad_material`, `st_out_of_range` (creepages, mu, a/b), `st_workspace_too_small`
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs room for nx*ny elements
+        type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
 
         type(areas_t) :: areas
         type(kalker_coefficients_t) :: c
@@ -77,20 +96,13 @@ contains
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
-        if (.not. (ieee_is_finite(hertz%a) .and. ieee_is_finite(hertz%b) &
-                   .and. ieee_is_finite(hertz%y) .and. ieee_is_finite(hertz%load))) then
-            call set_status(status, st_not_finite, 'a Hertz ellipse that is not finite')
-            return
-        end if
-        if (hertz%a <= 0.0_wp .or. hertz%b <= 0.0_wp .or. hertz%load < 0.0_wp) then
-            call set_status(status, st_bad_argument, 'no Hertz ellipse')
-            return
-        end if
+        call check_ellipse(hertz, status)
+        if (is_error(status)) return
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         call add_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, c, &
-                         combined_shear_modulus(material), mu, creepage, nx, ny, result, areas, &
-                         field)
+                         combined_shear_modulus(material), mu, creepage, nx, ny, chosen(variant), &
+                         result, areas, field)
         result%stick_fraction = areas%stuck/areas%covered
     end subroutine fastsim_solve
 
@@ -140,7 +152,8 @@ contains
             call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage ' // &
                             'coefficients beyond all proportion')
         else
-            call add_ellipse(a, b, 0.0_wp, load, c, g, mu, creepage, nx, ny, result, areas, field)
+            call add_ellipse(a, b, 0.0_wp, load, c, g, mu, creepage, nx, ny, fastsim_variant_t(), &
+                             result, areas, field)
             result%stick_fraction = areas%stuck/areas%covered
         end if
     end subroutine fastsim_coefficients_solve
@@ -148,7 +161,7 @@ contains
     !> Forces by FASTSIM on the virtual ellipses of any contact patches: same area, proportions of
     !> the second moments, centroid and load (`patch_ellipse`), each under its own Hertz pressure.
     pure subroutine fastsim_strips_solve(strips, material, mu, creepage, nx, ny, result, status, &
-                                         field)
+                                         field, variant)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -161,6 +174,7 @@ contains
             !! for the strips
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs room for nx*ny elements a patch
+        type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
 
         type(patch_ellipse_t) :: ellipse
         type(kalker_coefficients_t) :: c
@@ -186,8 +200,8 @@ contains
                 return
             end if
             call add_ellipse(ellipse%a, ellipse%b, ellipse%y, ellipse%load, c, &
-                             combined_shear_modulus(material), mu, creepage, nx, ny, result, &
-                             areas, field)
+                             combined_shear_modulus(material), mu, creepage, nx, ny, &
+                             chosen(variant), result, areas, field)
         end do
         if (areas%covered > 0.0_wp) result%stick_fraction = areas%stuck/areas%covered
     end subroutine fastsim_strips_solve
@@ -211,8 +225,16 @@ contains
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)
     end subroutine check_input
 
+    pure type(fastsim_variant_t) function chosen(variant)
+        type(fastsim_variant_t), intent(in), optional :: variant
+
+        chosen = fastsim_variant_t()
+        if (present(variant)) chosen = variant
+    end function chosen
+
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(a, b, y0, load, c, g, mu, creepage, nx, ny, result, areas, field)
+    pure subroutine add_ellipse(a, b, y0, load, c, g, mu, creepage, nx, ny, variant, result, &
+                                areas, field)
         real(wp), intent(in) :: a, b                 !! semi-axes along x and y, mm
         real(wp), intent(in) :: y0                   !! middle of the ellipse, mm
         real(wp), intent(in) :: load                 !! N
@@ -221,6 +243,7 @@ contains
         real(wp), intent(in) :: mu                   !! coefficient of friction
         type(creepage_t), intent(in) :: creepage     !! about y = 0
         integer, intent(in) :: nx, ny                !! elements along, strips across
+        type(fastsim_variant_t), intent(in) :: variant !! bound and flexibilities
         type(tangential_result_t), intent(inout) :: result !! forces, moment, power are added to
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
@@ -234,9 +257,14 @@ contains
         l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
         pmax = 1.5_wp*load/(pi*a*b)
         width = 2.0_wp*b/ny
-        top = mu*load/(a*width*grid_sum(nx, ny))
         ! Motion at the middle of the ellipse.
         cksi = creepage%cksi - y0*creepage%cphi
+        if (variant%single_flexibility) then
+            l1 = weighted_flexibility(l1, l2, l3, cksi, creepage%ceta, sqrt(a*b)*creepage%cphi)
+            l2 = l1
+            l3 = l1
+        end if
+        top = mu*load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -254,7 +282,7 @@ contains
                 px = px - step*slope_x
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
-                bound = top*place
+                bound = top*merge(sqrt(place), place, variant%elliptic_bound)
                 size_squared = px*px + py*py
                 sx = 0.0_wp
                 sy = 0.0_wp
@@ -281,17 +309,47 @@ contains
         end do
     end subroutine add_ellipse
 
-    !> Sum of `1 - (x/a)^2 - (y/b)^2` over the elements, a row's length counted in units of a and
-    !> its width as one: the sums of the midpoint rule, along x in closed form.
-    pure real(wp) function grid_sum(nx, ny)
-        integer, intent(in) :: nx, ny
+    !> The mean of the flexibilities by the share each has in the motion; that of long slip without
+    !> motion, where it does not matter.
+    pure real(wp) function weighted_flexibility(l1, l2, l3, cksi, ceta, spin) result(l)
+        real(wp), intent(in) :: l1, l2, l3 !! mm/MPa
+        real(wp), intent(in) :: cksi, ceta !! creepages
+        real(wp), intent(in) :: spin       !! c cphi
 
+        real(wp) :: motion
+
+        l = l1
+        motion = norm2([cksi, ceta, spin])
+        if (motion > 0.0_wp) l = (l1*abs(cksi) + l2*abs(ceta) + l3*abs(spin))/motion
+    end function weighted_flexibility
+
+    !> Sum of `1 - (x/a)^2 - (y/b)^2`, or of its root, over the elements, a row's length counted in
+    !> units of a and its width as one: the sums of the midpoint rule.
+    pure real(wp) function grid_sum(nx, ny, elliptic)
+        integer, intent(in) :: nx, ny
+        logical, intent(in) :: elliptic
+
+        real(wp) :: row, length_squared
         integer :: i
 
+        row = 0.0_wp
+        if (elliptic) then
+            do i = 1, nx
+                row = row + sqrt(1.0_wp - (real(2*i - 1 - nx, wp)/nx)**2)
+            end do
+            row = 2.0_wp*row/nx
+        else
+            row = (4.0_wp + 2.0_wp/real(nx, wp)**2)/3.0_wp
+        end if
         grid_sum = 0.0_wp
         do i = 1, ny
-            grid_sum = grid_sum + sqrt(1.0_wp - (real(2*i - 1 - ny, wp)/ny)**2)**3
+            length_squared = 1.0_wp - (real(2*i - 1 - ny, wp)/ny)**2
+            if (elliptic) then
+                grid_sum = grid_sum + length_squared
+            else
+                grid_sum = grid_sum + sqrt(length_squared)**3
+            end if
         end do
-        grid_sum = grid_sum*(4.0_wp + 2.0_wp/real(nx, wp)**2)/3.0_wp
+        grid_sum = row*grid_sum
     end function grid_sum
 end module faststrip_tangential_fastsim

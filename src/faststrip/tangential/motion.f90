@@ -1,14 +1,15 @@
-!> What every tangential method asks of friction and creepages.
+!> What every tangential method asks of friction, creepages and ellipse.
 module faststrip_tangential_motion
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, number_text, &
                                 st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_creepage, only: creepage_t
+    use faststrip_normal_hertz, only: hertz_t
     implicit none
     private
 
-    public :: check_motion
+    public :: check_motion, check_ellipse, over_force
 
     !> Friction coefficients and creepages (spin in rad/mm) beyond this are refused.
     real(wp), parameter :: largest = 1.0e6_wp
@@ -43,4 +44,26 @@ contains
                             trim(number_text(creepage%cphi)) // ' rad/mm')
         end if
     end subroutine check_motion
+
+    !> Refuse what is no Hertz ellipse.
+    pure subroutine check_ellipse(hertz, status)
+        type(hertz_t), intent(in) :: hertz    !! any
+        type(status_t), intent(out) :: status !! `st_not_finite`, `st_bad_argument`
+
+        call clear_status(status)
+        if (.not. (ieee_is_finite(hertz%a) .and. ieee_is_finite(hertz%b) &
+                   .and. ieee_is_finite(hertz%y) .and. ieee_is_finite(hertz%load))) then
+            call set_status(status, st_not_finite, 'a Hertz ellipse that is not finite')
+        else if (hertz%a <= 0.0_wp .or. hertz%b <= 0.0_wp .or. hertz%load < 0.0_wp) then
+            call set_status(status, st_bad_argument, 'no Hertz ellipse')
+        end if
+    end subroutine check_ellipse
+
+    !> A linear force over mu N, cut where it is beyond all slip.
+    elemental real(wp) function over_force(linear, force) result(ratio)
+        real(wp), intent(in) :: linear !! of either sign, N
+        real(wp), intent(in) :: force  !! mu N, above 1e-60 N
+
+        ratio = min(abs(linear)/force, 1.0e30_wp)
+    end function over_force
 end module faststrip_tangential_motion

@@ -6,7 +6,9 @@ module faststrip_tangential_types
     implicit none
     private
 
-    public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element
+    public :: strip_forces_t, reserve_strip_forces
+    public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
+              put_element, field_power
     public :: state_adhesion, state_slip, most_points
 
     !> State of an element, the numbers CONTACT uses.
@@ -41,7 +43,36 @@ module faststrip_tangential_types
         integer, allocatable :: state(:) !! `state_adhesion` or `state_slip`
     end type tangential_field_t
 
+    !> Sums over each strip; the caller owns it and its size (`reserve_strip_forces`). The first
+    !> `n` entries count, in the order of the strips.
+    type :: strip_forces_t
+        integer :: n = 0                           !! number of strips
+        real(wp), allocatable :: fx(:)             !! longitudinal force, N
+        real(wp), allocatable :: fy(:)             !! lateral force, N
+        real(wp), allocatable :: friction_power(:) !! heat over rolling speed, N
+    end type strip_forces_t
+
 contains
+
+    !> Make room for the sums of strips; the only allocation, to be done before the first solution.
+    subroutine reserve_strip_forces(forces, capacity, status)
+        type(strip_forces_t), intent(inout) :: forces !! emptied and sized
+        integer, intent(in) :: capacity               !! largest number of strips, >= 1
+        type(status_t), intent(out) :: status         !! `st_bad_argument`
+
+        call clear_status(status)
+        forces%n = 0
+        if (capacity < 1) then
+            call set_status(status, st_bad_argument, 'room for fewer than one strip asked')
+            return
+        end if
+        if (allocated(forces%fx)) then
+            if (size(forces%fx) == capacity) return
+            deallocate (forces%fx, forces%fy, forces%friction_power)
+        end if
+        allocate (forces%fx(capacity), forces%fy(capacity), forces%friction_power(capacity), &
+                  source=0.0_wp)
+    end subroutine reserve_strip_forces
 
     !> Make room for a field; the only allocation, to be done before the first solution.
     subroutine reserve_field(field, capacity, status)
@@ -92,14 +123,37 @@ contains
         integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
 
         field%n = field%n + 1
-        field%x(field%n) = x
-        field%y(field%n) = y
-        field%area(field%n) = area
-        field%pn(field%n) = pn
-        field%px(field%n) = px
-        field%py(field%n) = py
-        field%sx(field%n) = sx
-        field%sy(field%n) = sy
-        field%state(field%n) = state
+        call put_element(field, field%n, x, y, area, pn, px, py, sx, sy, state)
     end subroutine add_element
+
+    !> Put an element into a place of a field.
+    pure subroutine put_element(field, i, x, y, area, pn, px, py, sx, sy, state)
+        type(tangential_field_t), intent(inout) :: field !! with the room
+        integer, intent(in) :: i       !! place, 1 to n
+        real(wp), intent(in) :: x, y   !! middle of the element, mm
+        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: pn     !! pressure, MPa
+        real(wp), intent(in) :: px, py !! traction on the rail, MPa
+        real(wp), intent(in) :: sx, sy !! slip over rolling speed
+        integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
+
+        field%x(i) = x
+        field%y(i) = y
+        field%area(i) = area
+        field%pn(i) = pn
+        field%px(i) = px
+        field%py(i) = py
+        field%sx(i) = sx
+        field%sy(i) = sy
+        field%state(i) = state
+    end subroutine put_element
+
+    !> Friction power density of an element, MPa: heat per area and distance rolled,
+    !> `-(px sx + py sy)`; times the rolling speed the heat flux.
+    pure real(wp) function field_power(field, i)
+        type(tangential_field_t), intent(in) :: field !! filled
+        integer, intent(in) :: i                      !! 1 to n
+
+        field_power = -(field%px(i)*field%sx(i) + field%py(i)*field%sy(i))
+    end function field_power
 end module faststrip_tangential_types

@@ -1,0 +1,325 @@
+!> TFASTSTRIP of the paper, eqs. (25)-(48), as printed and as corrected.
+!>
+!> Every strip of a patch is marched like a row of Kalker's FASTSIM, in coordinates of the patch's
+!> ellipse: half-width b (26), semi-axis a from the area (27). With xe = x/a, ye = y/b, ae = xd/a,
+!>
+!>     ux = G C1 cksi/T0,  uy = G C2 ceta/T0,  fx = G C3 b cphi/T0,  fy = G C3 a cphi/T0    (35)
+!>     C1 = 9 C11/32,  C2 = 9 C22/32,  C3 = (3/pi) sqrt(b/a) C23                            (30)
+!>     dpx = -(ux - fx ye) dx,  dpy = -(uy + fy xe) dx;   |p| <= ae^2 - xe^2          (39)-(43)
+!>     Tx = mu N/(pi/2) sum px dA                                                     (44)-(48)
+!>
+!> **As printed** (`paper_solve`): with T0 = mu p0_i of each strip (34), and only those corrections
+!> without which it does not run or its moment is none:
+!>
+!>  1. (41) adds `s (ae - xe)` at every point, so that the traction at the n-th point is the sum of
+!>     all ways from the edge so far, about n/3 times what it should be: `s (x_previous - xe)`.
+!>  2. (44) gives a moment without lengths, of the other sign: `Mz = sum(x py - y px)` in mm.
+!>  3. (31), nx = Int(8a), counts a in mm: the number of points is the caller's.
+!>  4. Several patches: each has its own ellipse (26)-(29) and its own mu N in (46)-(48).
+!>
+!> Its linear forces are 3 pi/8 = 1.18 times Kalker's on an ellipse, and sliding it gives mu N only
+!> there.
+!>
+!> **As corrected** (`corrected_solve`), in addition:
+!>
+!>  5. one T0 for the patch, with which (30), (42) and (46) belong together;
+!>  6. (46)-(48) divide by the sum of the bounds instead of pi/2, its value on an ellipse, so that
+!>     sliding gives mu N on any patch.
+!>
+!> It then is FASTSIM with strips for rows: equal to it on an ellipse.
+!>
+!> Slip is what scaling back leaves over of the elastic step, as in FASTSIM.
+module faststrip_tangential_paper
+    use faststrip_kinds, only: wp, pi
+    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument, st_out_of_range
+    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
+                                  combined_poisson_ratio
+    use faststrip_creepage, only: creepage_t
+    use faststrip_normal_patch_ellipse, only: patch_end, check_strips
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_tangential_motion, only: check_motion
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
+                                          add_element, most_points, state_adhesion, state_slip
+    implicit none
+    private
+
+    public :: paper_solve, corrected_solve
+    public :: march_reading_t, march_sum_t, printed_march
+
+    !> Which of the paper's statements (25)-(48) are taken as printed.
+    type :: march_reading_t
+        logical :: bound_of_strip = .true. !! (34) T0 = mu p0_i; else one T0, mu max(p0)
+        logical :: way_from_edge = .true.  !! (41) adds s (ae - xe); else s times the last step
+        logical :: bare_moment = .true.    !! (44) with coordinates of the ellipse; else in mm
+        logical :: scaled = .true.         !! (46)-(48); else the sum of the tractions
+        logical :: from_reference = .true. !! (32) y from the reference point; else from y0 (28)
+        integer :: points = 0              !! points along a strip; 0: nx = Int(8a) of (31)
+        logical :: true_sum = .false.      !! (46) with the sum of the bounds instead of pi/2
+    end type march_reading_t
+
+    !> What the march adds up.
+    type :: march_sum_t
+        real(wp) :: tx = 0.0_wp !! force along x, N
+        real(wp) :: ty = 0.0_wp !! force along y, N
+        real(wp) :: mz = 0.0_wp !! moment, N mm (bare: N)
+        real(wp) :: a = 0.0_wp  !! semi-axis of the virtual ellipse (27), mm
+        real(wp) :: b = 0.0_wp  !! semi-axis (26), mm
+        integer :: points = 0   !! points along each strip
+        real(wp) :: power = 0.0_wp   !! heat over rolling speed, N
+        real(wp) :: stuck = 0.0_wp   !! area in adhesion, mm^2
+        real(wp) :: covered = 0.0_wp !! area, mm^2
+    end type march_sum_t
+
+    ! A patch or a strip below this area (mm^2) or force (N) carries nothing.
+    real(wp), parameter :: smallest = 1.0e-60_wp
+
+    ! Axes more slender than this, either way, are those of this proportion.
+    real(wp), parameter :: largest_ratio = 1.0e6_wp
+
+contains
+
+    !> TFASTSTRIP as printed (corrections 1 to 4).
+    pure subroutine paper_solve(strips, material, mu, creepage, points_per_strip, result, status, &
+                                field)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        type(material_t), intent(in) :: material     !! moduli in MPa
+        real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
+        type(creepage_t), intent(in) :: creepage     !! about y = 0, for all patches
+        integer, intent(in) :: points_per_strip      !! 1 to `most_points`
+        type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
+        type(status_t), intent(out) :: status        !! those of `faststrip_solve`
+        type(tangential_field_t), intent(inout), optional :: field
+            !! filled when present; needs room for n*points_per_strip elements
+
+        call solve_patches(strips, material, mu, creepage, points_per_strip, &
+                           march_reading_t(way_from_edge=.false., bare_moment=.false., &
+                                           points=points_per_strip), result, status, field)
+    end subroutine paper_solve
+
+    !> TFASTSTRIP as corrected (1 to 6): FASTSIM in strips.
+    pure subroutine corrected_solve(strips, material, mu, creepage, points_per_strip, result, &
+                                    status, field)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        type(material_t), intent(in) :: material     !! moduli in MPa
+        real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
+        type(creepage_t), intent(in) :: creepage     !! about y = 0, for all patches
+        integer, intent(in) :: points_per_strip      !! 1 to `most_points`
+        type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
+        type(status_t), intent(out) :: status        !! those of `faststrip_solve`
+        type(tangential_field_t), intent(inout), optional :: field
+            !! filled when present; needs room for n*points_per_strip elements
+
+        call solve_patches(strips, material, mu, creepage, points_per_strip, &
+                           march_reading_t(bound_of_strip=.false., way_from_edge=.false., &
+                                           bare_moment=.false., points=points_per_strip, &
+                                           true_sum=.true.), result, status, field)
+    end subroutine corrected_solve
+
+    pure subroutine solve_patches(strips, material, mu, creepage, points, reading, result, &
+                                  status, field)
+        type(contact_strips_t), intent(in) :: strips
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        integer, intent(in) :: points
+        type(march_reading_t), intent(in) :: reading
+        type(tangential_result_t), intent(out) :: result
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        type(march_sum_t) :: total
+        real(wp) :: stuck, covered
+        integer :: first, last
+
+        call check_input(strips, material, mu, creepage, status)
+        if (is_error(status)) return
+        if (points < 1 .or. points > most_points) then
+            call set_status(status, st_out_of_range, 'points per strip outside 1 to 1000')
+            return
+        end if
+        if (present(field)) then
+            call empty_field(field, strips%n*points, status)
+            if (is_error(status)) return
+        end if
+        stuck = 0.0_wp
+        covered = 0.0_wp
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = patch_end(strips, first)
+            call march_patch(strips, first, last, material, mu, creepage, reading, total, status, &
+                             field)
+            if (is_error(status)) then
+                result = tangential_result_t()
+                return
+            end if
+            result%fx = result%fx + total%tx
+            result%fy = result%fy + total%ty
+            result%mz = result%mz + total%mz
+            result%friction_power = result%friction_power + total%power
+            stuck = stuck + total%stuck
+            covered = covered + total%covered
+        end do
+        if (covered > 0.0_wp) result%stick_fraction = stuck/covered
+    end subroutine solve_patches
+
+    !> Eqs. (25)-(48) statement by statement on one patch, with the chosen ones as printed.
+    pure subroutine printed_march(strips, material, mu, creepage, reading, total, status)
+        type(contact_strips_t), intent(in) :: strips  !! one patch
+        type(material_t), intent(in) :: material      !! moduli in MPa
+        real(wp), intent(in) :: mu                    !! coefficient of friction, > 0
+        type(creepage_t), intent(in) :: creepage      !! about y = 0
+        type(march_reading_t), intent(in) :: reading  !! which statements as printed
+        type(march_sum_t), intent(out) :: total       !! forces on the rail, moment as printed
+        type(status_t), intent(out) :: status
+            !! those of `check_motion`, `check_material`, `check_strips`; `st_bad_argument`
+
+        call check_input(strips, material, mu, creepage, status)
+        if (is_error(status)) return
+        if (strips%n_patches /= 1 .or. mu <= 0.0_wp .or. reading%points < 0 &
+            .or. minval(strips%half_length(:strips%n)) <= 0.0_wp &
+            .or. minval(strips%p0(:strips%n)) <= 0.0_wp) then
+            call set_status(status, st_bad_argument, 'one patch under pressure with friction only')
+            return
+        end if
+        call march_patch(strips, 1, strips%n, material, mu, creepage, reading, total, status)
+    end subroutine printed_march
+
+    pure subroutine check_input(strips, material, mu, creepage, status)
+        type(contact_strips_t), intent(in) :: strips
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(status_t), intent(out) :: status
+
+        call check_motion(mu, creepage, status)
+        if (is_error(status)) return
+        call check_material(material, status)
+        if (is_error(status)) return
+        call check_strips(strips, status)
+    end subroutine check_input
+
+    !> March through strips `first` to `last`, one patch; nothing where it carries nothing.
+    pure subroutine march_patch(strips, first, last, material, mu, creepage, reading, total, &
+                                status, field)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(march_reading_t), intent(in) :: reading
+        type(march_sum_t), intent(out) :: total
+        type(status_t), intent(inout) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        type(kalker_coefficients_t) :: c
+        real(wp) :: y0, ratio, area, load, c1, c2, c3, t0, ux, uy, fx, fy, factor, sum_of_bounds
+        real(wp) :: y, width, ye, ae, step, way, xe, before, cell, sx, sy, px, py, p, stress, lever
+        real(wp) :: largest_p0, ahead_x, ahead_y, slip_x, slip_y, x
+        integer :: i, j, state
+
+        area = 0.0_wp
+        load = 0.0_wp
+        do i = first, last
+            width = strips%y_right(i) - strips%y_left(i)
+            area = area + 2.0_wp*strips%half_length(i)*width
+            load = load + strip_load(strips%p0(i), strips%half_length(i), width)
+        end do
+        if (area <= smallest .or. mu*load <= smallest) return
+        total%b = 0.5_wp*(strips%y_right(last) - strips%y_left(first))       ! (26)
+        total%a = area/(pi*total%b)                                          ! (27)
+        y0 = 0.5_wp*(strips%y_left(first) + strips%y_right(last))            ! (28)
+        ratio = min(max(total%b/total%a, 1.0_wp/largest_ratio), largest_ratio) ! (29)
+        call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
+        if (is_error(status)) return
+        c1 = 9.0_wp/32.0_wp*c%c11                                            ! (30)
+        c2 = 9.0_wp/32.0_wp*c%c22
+        c3 = 3.0_wp/pi*sqrt(ratio)*c%c23
+        total%points = reading%points
+        if (total%points == 0) total%points = max(int(8.0_wp*total%a), 1)    ! (31)
+        largest_p0 = maxval(strips%p0(first:last))
+        sum_of_bounds = 0.5_wp*pi
+        if (reading%true_sum) sum_of_bounds = bounds_of_patch(strips, first, last, total)
+        do i = first, last
+            y = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
+            width = strips%y_right(i) - strips%y_left(i)
+            t0 = mu*largest_p0
+            if (reading%bound_of_strip) t0 = mu*strips%p0(i)                 ! (34)
+            if (t0*strips%half_length(i)*width <= smallest) cycle
+            ye = y/total%b                                                   ! (32)
+            if (.not. reading%from_reference) ye = (y - y0)/total%b
+            factor = combined_shear_modulus(material)/t0                     ! (35)
+            ux = factor*c1*creepage%cksi
+            uy = factor*c2*creepage%ceta
+            fx = factor*c3*total%b*creepage%cphi
+            fy = factor*c3*total%a*creepage%cphi
+            ae = strips%half_length(i)/total%a                               ! (36)
+            step = 2.0_wp*ae/total%points                                    ! (37)
+            cell = width/total%b*step                                        ! (33), (38)
+            ! (46)-(48) divide by the sum of the bounds and multiply by mu N.
+            stress = mu*load/sum_of_bounds
+            if (.not. reading%scaled) stress = total%a*total%b*t0
+            sx = ux - fx*ye                                                  ! (39)
+            px = 0.0_wp
+            py = 0.0_wp
+            before = ae
+            do j = 1, total%points
+                xe = ae - (j - 0.5_wp)*step
+                way = ae - xe
+                if (.not. reading%way_from_edge) way = before - xe
+                sy = uy + fy*(xe + 0.5_wp*way)                               ! (40)
+                px = px - sx*way                                             ! (41)
+                py = py - sy*way
+                p = sqrt(px*px + py*py)                                      ! (42)
+                state = state_adhesion
+                slip_x = 0.0_wp
+                slip_y = 0.0_wp
+                if (p > ae*ae - xe*xe) then
+                    state = state_slip
+                    ahead_x = px
+                    ahead_y = py
+                    px = px*((ae*ae - xe*xe)/p)                              ! (43)
+                    py = py*((ae*ae - xe*xe)/p)
+                    ! Slip over rolling speed: creepage per slope times the slope scaled back.
+                    slip_x = (px - ahead_x)/(way*factor*c1)
+                    slip_y = (py - ahead_y)/(way*factor*c2)
+                else
+                    total%stuck = total%stuck + cell*total%a*total%b
+                end if
+                before = xe
+                total%covered = total%covered + cell*total%a*total%b
+                total%tx = total%tx + px*cell*stress                         ! (44), (45)
+                total%ty = total%ty + py*cell*stress
+                total%power = total%power - (px*slip_x + py*slip_y)*cell*stress
+                lever = px*ye - py*xe
+                if (.not. reading%bare_moment) lever = py*xe*total%a - px*ye*total%b
+                total%mz = total%mz + lever*cell*stress
+                if (present(field)) then
+                    x = xe*total%a
+                    call add_element( &
+                        field, x, y, cell*total%a*total%b, &
+                        strips%p0(i)*sqrt(max(1.0_wp - (x/strips%half_length(i))**2, 0.0_wp)), &
+                        px*stress/(total%a*total%b), py*stress/(total%a*total%b), slip_x, slip_y, &
+                        state)
+                end if
+            end do
+        end do
+    end subroutine march_patch
+
+    !> Sum of `ae^2 - xe^2` over the elements of a patch: pi/2 on an ellipse with many.
+    pure real(wp) function bounds_of_patch(strips, first, last, total) result(bounds)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(march_sum_t), intent(in) :: total !! with axes and points
+
+        integer :: i
+
+        bounds = 0.0_wp
+        do i = first, last
+            bounds = bounds + (strips%half_length(i)/total%a)**3 &
+                     *(strips%y_right(i) - strips%y_left(i))/total%b
+        end do
+        bounds = bounds*(4.0_wp + 2.0_wp/real(total%points, wp)**2)/3.0_wp
+    end function bounds_of_patch
+end module faststrip_tangential_paper
