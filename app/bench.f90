@@ -12,6 +12,8 @@ module faststrip_app_bench
     use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
     use faststrip_app_bench_extremes, only: bench_extremes, extreme_parts
+    use faststrip_app_bench_tangential, only: bench_tangential
+    use faststrip_app_bench_forces, only: bench_forces
     use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
     implicit none
@@ -35,8 +37,10 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
-            option_t('--rounds', 'N', 'integral: how often everything is timed, 1 to' &
-                     // ' 1000 (default 21)'), &
+            option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
+                     // ' 1 to 1000 (default 21)'), &
+            option_t('--scenes', 'FILE', 'forces: contacts of many kinds (default' &
+                     // ' reference/scenes/scenes.csv)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
@@ -72,6 +76,13 @@ contains
         case ('reference')
             call allow([character(len=name_length) :: '--contacts', '--most-elements', '--seconds'])
             call bench_reference(file, folder, most_elements, seconds)
+        case ('tangential')
+            call allow([character(len=name_length) :: '--contacts', '--rounds'])
+            call bench_tangential(file, folder, rounds)
+        case ('forces')
+            call allow([character(len=name_length) :: '--contacts', '--scenes'])
+            call bench_forces(file, folder, option_text(command, '--scenes', &
+                                                        'reference/scenes/scenes.csv'))
         case ('certificate')
             call allow([character(len=name_length) ::])
             call run_certificate_study(file)
@@ -124,7 +135,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(27) = [character(len=84) :: &
+        character(len=*), parameter :: lines(32) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -138,6 +149,11 @@ contains
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
             'the approach.', &
+            'tangential: microseconds and nanoseconds per element of all tangential methods on', &
+            'the strips of 5 to 61 by as many points, forces only and with the field; ratio:', &
+            'to FASTSIM with the same number of elements. Processor time, medians.', &
+            'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
+            'the paper''s with either sign of the creepages, and against TANG on 240 others.', &
             'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
             'convergence: their errors with 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
@@ -151,7 +167,7 @@ contains
             'creepages, gaps beyond all use; noise of one unit in the last place; rounding', &
             'up, down and to zero. CSV: chapter,case,method,x_name,x,y_name,y,quantity,', &
             'value,judge,status.', &
-            'The contacts are the paper''s 20; trade adds 161 Hertz ellipses.']
+            'The contacts are the paper''s 20; trade and forces add 161 Hertz ellipses.']
         integer :: i
 
         text = ''

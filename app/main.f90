@@ -10,6 +10,7 @@ program faststrip_main
     use faststrip_app_fuzz, only: run_fuzz
     use faststrip_app_report, only: run_report
     use faststrip_app_bench, only: run_bench
+    use faststrip_app_reference_scenes, only: run_scenes
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -21,6 +22,7 @@ program faststrip_main
     case ('table'); call run_table()
     case ('bench'); call run_bench()
     case ('fuzz'); call run_fuzz()
+    case ('scenes'); call run_scenes()
     case ('report'); call run_report()
     case ('--help', '-h', 'help')
         call need_nothing_more()
@@ -54,6 +56,7 @@ contains
         call say('  bench WHAT             for developers: times and errors of the methods')
         call say('  report                 everything measured, judged and drawn, in one folder')
         call say('  fuzz                   for developers: random gaps, checked')
+        call say('  scenes                 for developers: reference forces of many contacts')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Draw creep forces of all tangential methods beside CONTACT's, and their errors against time."""
+
+import sys
+
+import numpy as np
+
+from faststrip_plots import command, style
+from faststrip_plots.results import revision
+from faststrip_plots.tables import InputError, read_table
+
+METHODS = {
+    "faststrip": style.Look("FASTSTRIP", "#0b3c78", "-", 2.2),
+    "faststrip-paper": style.Look("FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.5),
+    "faststrip-corrected": style.Look("corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8),
+    "fastsim": style.Look("FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
+    "fastsim-elliptic": style.Look("FASTSIM elliptic", "#d98bb5", (0, (4, 1.5)), 1.4),
+    "fastsim-weighted": style.Look("FASTSIM weighted", "#8a6fc0", (0, (2, 1)), 1.4),
+    "she": style.Look("Shen-Hedrick-Elkins", "#f08519", (0, (5, 1.8)), 1.5),
+    "polach": style.Look("Polach", "#4b8f3c", (0, (1, 1)), 1.5),
+    "linear": style.Look("linear", "#8a8a8a", (0, (8, 2)), 1.1),
+}
+MARKERS = dict(zip(METHODS, "osD^v<>Px"))
+ERRORS = ("Fx_err", "Fy_err", "force_err", "Mz_err")
+RATIOS = (0.2, 1.0, 5.0)  # a/b of the panels
+STRIPS = 15  # of the times
+TOP = 1.12  # forces over mu N beyond which a panel ends
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--forces", default="out/forces/forces.csv", metavar="CSV",
+                        help="what `faststrip bench forces` wrote")
+    parser.add_argument("--times", default="out/forces/bench_tangential.csv", metavar="CSV",
+                        help="what `faststrip bench tangential` wrote")
+    parser.add_argument("--contacts", default="reference/contact", metavar="FOLDER",
+                        help="CONTACT's results")
+    parser.add_argument("--curves", default="out/forces/creep_forces.png", metavar="PNG",
+                        help="picture of the creep force curves to write")
+    parser.add_argument("--shifts", default="out/forces/shift_forces.png", metavar="PNG",
+                        help="picture of the forces over the lateral shift to write")
+    parser.add_argument("--trade", default="out/forces/error_time.png", metavar="PNG",
+                        help="picture of error against time to write")
+    options = parser.parse_args(arguments)
+    table = read_table(options.forces, ("set", "group", "case", "method", *ERRORS))
+    errors = Errors(table)
+    stamp = [revision(table)]
+    for path, figure, note in (
+        (options.curves, curves_figure(errors, options.contacts),
+         "spin: creepages in multiples of those that saturate the linear theory"),
+        (options.shifts, shifts_figure(errors, options.contacts), "creepages of sign set B"),
+        (options.trade, trade_figure(errors, options.times), "processor time of one core"),
+    ):
+        style.save(figure, path, stamp, note)
+        print(path)
+
+
+class Errors:
+    """Errors by set, group, case and method."""
+
+    def __init__(self, table):
+        self.path = table.path
+        self.keys = list(zip(table.words("set"), table.words("group"), table.words("method")))
+        self.case = table.numbers("case").astype(int)
+        self.values = {name: table.numbers(name) for name in ERRORS}
+        unknown = sorted({method for _, _, method in self.keys} - set(METHODS))
+        if unknown:
+            raise InputError(f"unknown method: {unknown[0]} ({self.path})")
+
+    def select(self, name, method, group=None):
+        """Rows of a set and a method, as case numbers and errors."""
+        rows = [i for i, key in enumerate(self.keys)
+                if key[0] == name and key[2] == method and group in (None, key[1])]
+        if not rows:
+            raise InputError(f"no rows of {name} by {method} ({self.path})")
+        return self.case[rows], {key: column[rows] for key, column in self.values.items()}
+
+
+def curves_figure(errors, folder):
+    """Forces against creepage on ellipses: slip along x above, spin below."""
+    names = ("case", "a_over_b", "u", "mu", "N", "Fx_extrap", "Fy_extrap", "Mz_extrap", "cksi",
+             "cphi")
+    table = read_table(f"{folder}/hertz_creep.csv", names)
+    kind = np.array(table.words("case"))
+    value = {name: table.numbers(name) for name in names[1:]}
+    bound = value["mu"] * value["N"]
+    figure = style.new_figure(11.0, 9.4)
+    panels = figure.subplots(3, 3, sharex="row", sharey="row")
+    rows = (("long", "Fx", "$-F_x/(\\mu N)$", 1.0), ("spin", "Fy", "$-F_y/(\\mu N)$", 1.0),
+            ("spin", "Mz", "$-M_z/(\\mu N c)$", 6.0))
+    for line, (group, quantity, label, arm) in zip(panels, rows):
+        for axes, ratio in zip(line, RATIOS):
+            chosen = np.flatnonzero((kind == group) & np.isclose(value["a_over_b"], ratio))
+            if chosen.size == 0:
+                raise InputError(f"no {group} cases with a/b = {ratio:g} ({table.path})")
+            chosen = chosen[np.argsort(value["u"][chosen])]
+            u = value["u"][chosen]
+            exact = value[f"{quantity}_extrap"][chosen] / (bound[chosen] * arm)
+            for method, look in METHODS.items():
+                case, error = errors.select("hertz", method, group)
+                place = {number - 1: i for i, number in enumerate(case)}
+                off = np.array([error[f"{quantity}_err"][place[i]] for i in chosen]) / 100.0
+                axes.plot(u, -(exact + off), color=look.colour, linestyle=look.line,
+                          linewidth=look.width, label=look.label, zorder=3)
+            axes.plot(u, -exact, zorder=6, **style.CONTACT)
+            style.title(axes, f"{'slip along x' if group == 'long' else 'spin'},"
+                              f" $a/b$ = {ratio:g}")
+            axes.set_xlim(0.0, 3.1)
+        line[0].set_ylim(0.0, TOP if quantity != "Mz" else 0.62)
+        line[0].set_ylabel(label)
+    for axes in panels[-1]:
+        axes.set_xlabel("creepage over that of saturation by the linear theory")
+    legend(figure, panels[0][0])
+    return figure
+
+
+def shifts_figure(errors, folder):
+    """Errors over the lateral shift on the paper's contacts."""
+    table = read_table(f"{folder}/s1002_uic60_B.csv", ("yw_mm",))
+    shift = table.numbers("yw_mm")
+    order = np.argsort(shift)
+    figure = style.new_figure(9.6, 8.4)
+    panels = figure.subplots(3, 1, sharex=True)
+    for axes, name, label in zip(panels, ("Fx_err", "Fy_err", "Mz_err"),
+                                 ("$F_x$, % of $\\mu N$", "$F_y$, % of $\\mu N$",
+                                  "$M_z$, % of $\\mu N c$")):
+        for method, look in METHODS.items():
+            case, error = errors.select("s1002_uic60_B", method)
+            if len(case) != len(shift):
+                raise InputError(f"{len(case)} cases by {method}, not {len(shift)} ({errors.path})")
+            axes.plot(shift[order], error[name][order], color=look.colour, linestyle=look.line,
+                      linewidth=look.width, label=look.label, marker="." if look.width > 2 else None)
+        axes.set_ylim(-14.0, 14.0)
+        axes.set_ylabel(label)
+        style.title(axes, f"Error of {label.split(',')[0]} against CONTACT")
+    panels[-1].set_xlabel("lateral shift of the wheel, mm")
+    legend(figure, panels[0])
+    return figure
+
+
+def trade_figure(errors, path):
+    """Mean error of the force vector against time, one panel a set."""
+    table = read_table(path, ("method", "strips", "us", "elements"))
+    methods = np.array(table.words("method"))
+    strips = table.numbers("strips")
+    time = table.numbers("us")
+    sets = (("s1002_uic60_B", "20 contacts of S1002 on UIC60"), ("hertz", "161 ellipses"),
+            ("scenes", "240 contacts of many kinds"))
+    figure = style.new_figure(11.6, 4.6)
+    for axes, (name, heading) in zip(figure.subplots(1, 3, sharey=True), sets):
+        for method, look in METHODS.items():
+            chosen = (methods == method) & (strips == STRIPS)
+            if not chosen.any():
+                raise InputError(f"no time of {method} with {STRIPS} strips ({path})")
+            _, error = errors.select(name, method)
+            mean = np.mean(error["force_err"])
+            axes.plot(np.median(time[chosen]), mean, linestyle="none", color=look.colour,
+                      marker=MARKERS[method], markersize=9 if method == "faststrip" else 7,
+                      label=f"{look.label}")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("forces of one contact, µs")
+        style.title(axes, heading)
+    figure.axes[0].set_ylabel("mean error of the force, % of $\\mu N$")
+    legend(figure, figure.axes[0])
+    return figure
+
+
+def legend(figure, axes):
+    """One legend above all panels, in as many rows as it takes."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=5, handlelength=3.0,
+                  columnspacing=1.6)
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))

@@ -1,0 +1,111 @@
+"""`faststrip bench tangential` and `bench forces`: the columns, and what the methods have reached."""
+
+import statistics
+
+from cli_program import GAPS, ROOT, ProgramTest
+
+CONTACTS = ROOT / "reference" / "contact"
+SCENES = ROOT / "reference" / "scenes" / "scenes.csv"
+METHODS = ["faststrip", "faststrip-paper", "faststrip-corrected", "fastsim", "fastsim-elliptic",
+           "fastsim-weighted", "linear", "she", "polach"]
+LAWS = METHODS[6:]
+
+
+class Bench(ProgramTest):
+    def test_tangential(self):
+        lines = (CONTACTS / "s1002_uic60_B.csv").read_text(encoding="utf-8").splitlines()
+        rows = [line for line in lines if not line.startswith("#")]
+        kept = rows[:1] + [row for row in rows if row.split(",")[0] in ("-5", "2")]
+        self.write("contacts/s1002_uic60_B.csv", "\n".join(kept) + "\n")
+        for shift in ("-5", "2"):
+            name = f"shift_{shift}.csv"
+            self.write(f"contacts/gaps/{name}", (GAPS / name).read_text(encoding="utf-8"))
+        done = self.run_program("bench", "tangential", "--contacts", "contacts", "--rounds", "1",
+                                "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        rows = self.read("out.csv")
+        self.assertEqual(list(rows[0]), (
+            "method,strips,points,case,elements,us,ns_per_element,ratio,us_with_field,flags,"
+            "compiler,cpu").split(","))
+        self.assertEqual([row["method"] for row in rows], METHODS * 8)
+        for row in rows:
+            us, elements = float(row["us"]), int(row["elements"])
+            self.assertGreater(us, 0.0)
+            self.assert_close(float(row["ns_per_element"]), 1e3 * us / elements, 1e-12)
+            self.assertEqual(row["us_with_field"] == "", row["method"] in LAWS)
+            self.assertEqual(elements == 1, row["method"] in LAWS)
+            if row["method"] == "fastsim":
+                self.assertEqual(float(row["ratio"]), 1.0)
+
+    def test_forces(self):
+        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
+                                str(SCENES), "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        rows = self.read("out.csv")
+        errors = {}
+        for row in rows:
+            for group in {row["group"], "all"}:
+                sums = errors.setdefault((row["set"], group, row["method"]), {})
+                for name in ("Fx", "Fy", "force", "Mz", "power", "stick"):
+                    value = row[f"{name}_err"]
+                    if value:
+                        sums.setdefault(name, []).append(abs(float(value)))
+        self.assertEqual({key[2] for key in errors}, set(METHODS))
+        self.assertEqual(len(errors["hertz", "all", "faststrip"]["force"]), 161)
+        self.assertEqual(len(errors["scenes", "all", "faststrip"]["force"]), 240)
+        # The goals, mean and largest: Fx, Fy, Mz.
+        for group, goals in (
+            (("s1002_uic60_B", "all"), ((0.6, 3.0), (0.35, 1.5), (1.0, 2.0))),
+            (("scenes", "odd"), ((1.0, 5.0), (1.0, 5.1), (1.5, 10.0))),
+            (("scenes", "even"), ((1.0, 5.0), (1.0, 5.0), (1.5, 10.0))),
+        ):
+            for name, (mean, largest) in zip(("Fx", "Fy", "Mz"), goals):
+                own = errors[(*group, "faststrip")][name]
+                self.assertLess(statistics.fmean(own), mean, (group, name))
+                self.assertLess(max(own), largest, (group, name))
+        self.assertLess(statistics.fmean(errors["hertz", "all", "faststrip"]["force"]), 0.65)
+        own = errors["s1002_uic60_B", "all", "faststrip"]
+        self.assertLess(statistics.fmean(own["power"]), 2.0)
+        self.assertLess(statistics.fmean(own["stick"]), 2.5)
+        # Nobody else comes near, except where there is no spin.
+        for (name, group, method), sums in errors.items():
+            if method == "faststrip" or group == "long":
+                continue
+            best = errors[name, group, "faststrip"]
+            for quantity in ("force", "Mz"):
+                self.assertLess(statistics.fmean(best[quantity]),
+                                0.6 * statistics.fmean(sums[quantity]), (name, group, method))
+
+    def test_the_peers_are_beaten(self):
+        # CONTACT's own fast methods on the same gaps, mean and largest of all three.
+        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
+                                str(SCENES), "-o", "out.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        own = {name: [abs(float(row[f"{name}_err"])) for row in self.read("out.csv")
+                      if (row["set"], row["method"]) == ("s1002_uic60_B", "faststrip")]
+               for name in ("Fx", "Fy", "Mz")}
+        peers = {}
+        reference = {row["yw_mm"]: row for row in self.read(CONTACTS / "s1002_uic60_B.csv")}
+        for row in self.read(CONTACTS / "s1002_uic60_fast_modes_B.csv"):
+            sums = peers.setdefault((row["method"], row["dx_mm"]), {"Fx": [], "Fy": [], "Mz": []})
+            size = (float(reference[row["yw_mm"]]["area_extrap_mm2"]) / 3.141592653589793) ** 0.5
+            sums["Fx"].append(abs(float(row["err_Fx_pct_of_muN"])))
+            sums["Fy"].append(abs(float(row["err_Fy_pct_of_muN"])))
+            sums["Mz"].append(100.0 * abs(float(row["err_Mz_Nmm"]))
+                              / (0.3 * float(row["Fn_N"]) * size))
+        compared = 0
+        for (method, _), sums in peers.items():
+            compared += 1
+            self.assertEqual(len(sums["Fx"]), 20)
+            for name in ("Fx", "Fy", "Mz"):
+                self.assertLess(statistics.fmean(own[name]), statistics.fmean(sums[name]), method)
+                self.assertLess(max(own[name]), max(sums[name]), (method, name))
+        self.assertEqual(compared, 17)
+
+    def test_refused(self):
+        for words, says in ((["tangential", "--seconds", "1"], "--seconds"),
+                            (["forces", "--rounds", "1"], "--rounds"),
+                            (["normal", "--scenes", "x"], "--scenes")):
+            self.refused(2, "bench", *words, says=[says])
+        self.refused_and_untouched("bench", "forces", "--scenes", "nowhere", "--contacts",
+                                   str(CONTACTS), says=["nowhere"])
