@@ -4,6 +4,7 @@
 import sys
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from faststrip_plots import command, style
 from faststrip_plots.results import revision
@@ -12,7 +13,7 @@ from faststrip_plots.tables import InputError, read_table
 METHODS = {
     "faststrip": style.Look("FASTSTRIP", "#0b3c78", "-", 2.2),
     "faststrip-paper": style.Look("FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.5),
-    "faststrip-corrected": style.Look("corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8),
+    "faststrip-corrected": style.Look("FASTSTRIP corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8),
     "fastsim": style.Look("FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
     "fastsim-elliptic": style.Look("FASTSIM elliptic", "#d98bb5", (0, (4, 1.5)), 1.4),
     "fastsim-weighted": style.Look("FASTSIM weighted", "#8a6fc0", (0, (2, 1)), 1.4),
@@ -47,9 +48,9 @@ def main(arguments=None):
     stamp = [revision(table)]
     for path, figure, note in (
         (options.curves, curves_figure(errors, options.contacts),
-         "spin: creepages in multiples of those that saturate the linear theory"),
+         "Hertz contacts, 124 elements across by CONTACT"),
         (options.shifts, shifts_figure(errors, options.contacts), "creepages of sign set B"),
-        (options.trade, trade_figure(errors, options.times), "processor time of one core"),
+        (options.trade, trade_figure(errors, options.times), "processor time with 15 by 15 elements; FASTSIM's errors with 50 by 50"),
     ):
         style.save(figure, path, stamp, note)
         print(path)
@@ -85,7 +86,7 @@ def curves_figure(errors, folder):
     value = {name: table.numbers(name) for name in names[1:]}
     bound = value["mu"] * value["N"]
     figure = style.new_figure(11.0, 9.4)
-    panels = figure.subplots(3, 3, sharex="row", sharey="row")
+    panels = figure.subplots(3, 3, sharex=True)
     rows = (("long", "Fx", "$-F_x/(\\mu N)$", 1.0), ("spin", "Fy", "$-F_y/(\\mu N)$", 1.0),
             ("spin", "Mz", "$-M_z/(\\mu N c)$", 6.0))
     for line, (group, quantity, label, arm) in zip(panels, rows):
@@ -106,10 +107,9 @@ def curves_figure(errors, folder):
             style.title(axes, f"{'slip along x' if group == 'long' else 'spin'},"
                               f" $a/b$ = {ratio:g}")
             axes.set_xlim(0.0, 3.1)
-        line[0].set_ylim(0.0, TOP if quantity != "Mz" else 0.62)
+            axes.set_ylim(0.0, TOP if quantity != "Mz" else 1.25 * max(-exact[u <= 3.0]))
         line[0].set_ylabel(label)
-    for axes in panels[-1]:
-        axes.set_xlabel("creepage over that of saturation by the linear theory")
+    panels[-1][1].set_xlabel("creepage over that of saturation by the linear theory")
     legend(figure, panels[0][0])
     return figure
 
@@ -156,10 +156,15 @@ def trade_figure(errors, path):
             mean = np.mean(error["force_err"])
             axes.plot(np.median(time[chosen]), mean, linestyle="none", color=look.colour,
                       marker=MARKERS[method], markersize=9 if method == "faststrip" else 7,
-                      label=f"{look.label}")
+                      label=look.label)
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("forces of one contact, µs")
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_minor_formatter(NullFormatter())
+        axes.set_xticks((0.5, 1.0, 2.0, 5.0, 10.0))
+        axes.set_xlim(0.5, 10.0)
         style.title(axes, heading)
     figure.axes[0].set_ylabel("mean error of the force, % of $\\mu N$")
     legend(figure, figure.axes[0])

@@ -33,25 +33,24 @@ def main(arguments=None):
         raise InputError(f"no field by CONTACT for the shift {options.shift:g} mm")
     exact = read_table(path, COLUMNS)
     output = options.output or f"out/tractions_shift_{options.shift:g}.png"
-    figure = style.new_figure(10.6, 8.0)
+    figure = style.new_figure(11.2, 6.6)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     fields = [Field(own), Field(exact)]
     largest = max(field.size.max() for field in fields)
     for column, (field, name) in enumerate(zip(fields, ("FASTSTRIP", "CONTACT"))):
         mesh = draw_traction(panels[0][column], field, largest)
         draw_state(panels[1][column], field)
-        style.title(panels[0][column], f"{name}, shift {style.number(options.shift)} mm:"
-                                       " size and direction of the traction")
-        style.title(panels[1][column], f"{name}: stick (dark), slip (light);"
-                                       f" {100.0 * field.stick:.0f} % of elements stick")
+        style.title(panels[0][column], f"{name}: traction")
+        style.title(panels[1][column], f"{name}: stick dark, slip light")
     for axes in panels[1]:
         axes.set_xlabel("$y$, mm")
     for axes in panels[:, 0]:
         axes.set_ylabel("$x$ (rolling), mm")
     for axes in panels.flat:
         axes.set_aspect("equal")
-    figure.colorbar(mesh, ax=panels[0], label="traction, MPa", shrink=0.9)
-    style.save(figure, output, [revision(own)], "forces on the rail")
+    figure.colorbar(mesh, ax=panels, label="traction on the rail, MPa", shrink=0.6)
+    style.save(figure, output, [revision(own)],
+               f"lateral shift {style.number(options.shift)} mm")
     print(output)
 
 
@@ -68,7 +67,6 @@ class Field:
         for name in ("x", "y", "state", "pn", "px", "py"):
             setattr(self, name, getattr(self, name)[keep])
         self.size = np.hypot(self.px, self.py)
-        self.stick = np.mean(self.state == STICK)
 
     def cells(self):
         """Corners of the elements: half way between their middles, in each row of its own."""
