@@ -39,8 +39,6 @@ contains
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
             option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
                      // ' 1 to 1000 (default 21)'), &
-            option_t('--scenes', 'FILE', 'forces: contacts of many kinds (default' &
-                     // ' reference/scenes/scenes.csv)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
@@ -53,7 +51,7 @@ contains
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
                      // ' (default reference/influence)'), &
-            option_t('--scenes', 'FOLDER', 'extremes: the scenes (default example/scenes)')]
+            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds, extremes: cases')]
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
@@ -107,9 +105,11 @@ contains
                                 option_text(command, '--references', 'reference/influence'), &
                                 option_text(command, '--scenes', 'example/scenes'))
         case ('trade')
-            call allow([character(len=name_length) :: '--contacts', '--methods', '--quick'])
+            call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
+                        '--quick'])
             call bench_trade(file, option_text(command, '--methods', &
                                                'reference/trade_methods.csv'), folder, &
+                             option_text(command, '--scenes', 'reference/scenes/scenes.csv'), &
                              given(command, '--quick'))
         case default
             call usage_error('there is no bench called ' // what, command%name)

@@ -9,14 +9,14 @@ module faststrip_app_bench_trade
     use faststrip_status, only: status_t, is_error, status_word
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
-                             cell_integer, open_csv, put_comment, put_header, put_cell, end_row, &
+                             cell_integer, cell_number, open_csv, put_comment, put_header, put_cell, end_row, &
                              close_csv
     use faststrip_app_clock, only: median
     use faststrip_app_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_app_methods, only: methods_t, check_methods
     use faststrip_app_solver, only: solver_t, outcome_t, demand_t, make_solver, solve
     use faststrip_app_trade_cases, only: trade_case_t, read_wheelset_cases, read_hertz_cases, &
-                                         n_figures, figure_names
+                                         read_scene_cases, n_figures, figure_names
     implicit none
     private
 
@@ -38,14 +38,15 @@ module faststrip_app_bench_trade
 contains
 
     !> Solve every contact by every method and write the CSV.
-    subroutine bench_trade(file, methods_file, folder, quick)
+    subroutine bench_trade(file, methods_file, folder, scenes_file, quick)
         character(len=*), intent(in) :: file         !! to write, - for stdout
         character(len=*), intent(in) :: methods_file !! with the methods
         character(len=*), intent(in) :: folder       !! with the contacts
+        character(len=*), intent(in) :: scenes_file  !! the contacts of many kinds
         logical, intent(in) :: quick                 !! fewer methods and contacts
 
         type(entry_t), allocatable :: entries(:)
-        type(trade_case_t), allocatable :: wheelset(:), hertz(:)
+        type(trade_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
         type(csv_writer_t) :: writer
         type(status_t) :: status
         integer :: i
@@ -54,6 +55,8 @@ contains
         call read_wheelset_cases(folder, wheelset, status)
         call fail_on_error(status)
         call read_hertz_cases(folder // '/hertz_creep.csv', hertz, status)
+        call fail_on_error(status)
+        call read_scene_cases(scenes_file, scenes, status)
         call fail_on_error(status)
         call open_csv(writer, file, status)
         call fail_on_error(status)
@@ -68,8 +71,10 @@ contains
             call progress('methods', i, size(entries))
             if (quick .and. entries(i)%when /= 'always') cycle
             call run_entry(writer, entries(i), wheelset(:: merge(5, 1, quick)))
-            if (entries(i)%stage /= 'normal') &
-                call run_entry(writer, entries(i), hertz(:: merge(20, 1, quick)))
+            ! Normal methods are exact, or nearly, on all ellipses of the same proportions.
+            call run_entry(writer, entries(i), hertz(:: merge(20, 1, quick .or. &
+                                                              entries(i)%stage == 'normal')))
+            call run_entry(writer, entries(i), scenes(:: merge(48, 1, quick)))
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
@@ -182,6 +187,7 @@ contains
             call take_number('points_per_strip', entries(row)%methods%points_per_strip)
             call take_number('fastsim_nx', entries(row)%methods%fastsim_nx)
             call take_number('fastsim_ny', entries(row)%methods%fastsim_ny)
+            call take_side(entries(row)%methods)
             call check_methods(entries(row)%methods, what, value)
             if (len(what) > 0) call refuse(what, value)
         end do
@@ -211,6 +217,19 @@ contains
             call cell_integer(table, row, column, number, status)
             call fail_on_error(status)
         end subroutine take_number
+
+        !> Elements are squares.
+        subroutine take_side(methods)
+            type(methods_t), intent(inout) :: methods
+
+            integer :: column
+
+            if (text('element_mm') == '') return
+            call require_column(table, 'element_mm', column, status)
+            call cell_number(table, row, column, methods%element_dx, status)
+            call fail_on_error(status)
+            methods%element_dy = methods%element_dx
+        end subroutine take_side
 
         subroutine refuse(name, wrong)
             character(len=*), intent(in) :: name, wrong

@@ -11,10 +11,11 @@ module faststrip_app_trade_cases
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_profile_gap_file, only: read_gap_file
     use faststrip_contact_indicators, only: indicators_t, find_indicators
+    use faststrip_app_reference_gaps, only: reference_scene_t, make_reference_scene, scene_material
     implicit none
     private
 
-    public :: trade_case_t, read_wheelset_cases, read_hertz_cases
+    public :: trade_case_t, read_wheelset_cases, read_hertz_cases, read_scene_cases
 
     !> Figures a contact is judged by.
     integer, parameter, public :: n_figures = 6
@@ -116,6 +117,38 @@ contains
             if (is_error(status)) return
         end do
     end subroutine read_hertz_cases
+
+    !> The contacts of many kinds, their figures by Kalker's method; see `reference/README.md`.
+    subroutine read_scene_cases(file, cases, status)
+        character(len=*), intent(in) :: file                     !! `scenes.csv`
+        type(trade_case_t), allocatable, intent(out) :: cases(:) !! one a row
+        type(status_t), intent(out) :: status                    !! of the reader
+
+        character(len=*), parameter :: names(10) = [character(len=15) :: &
+            'number', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
+            'area_mm2', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm']
+        type(csv_table_t) :: table
+        type(reference_scene_t) :: scene
+        real(wp), allocatable :: values(:, :)
+        integer :: i
+
+        call read_columns(file, names, table, values, status)
+        allocate (cases(table%n_rows))
+        if (is_error(status)) return
+        do i = 1, size(cases)
+            call make_reference_scene(nint(values(i, 1)), scene)
+            cases(i)%set = 'scenes'
+            cases(i)%name = integer_text(scene%number)
+            cases(i)%material = scene_material(scene)
+            cases(i)%mu = scene%mu
+            cases(i)%load = scene%load
+            cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))
+            cases(i)%truth = values(i, 5:10)
+            cases(i)%gap = scene%gap
+            call tell(cases(i), status)
+            if (is_error(status)) return
+        end do
+    end subroutine read_scene_cases
 
     !> The curvatures under which a load makes a given ellipse, and the penetration
     !> (`faststrip_normal_hertz`, read backwards).

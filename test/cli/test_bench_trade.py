@@ -4,7 +4,7 @@ from cli_program import ROOT, ProgramTest, numbers
 
 CONTACTS = ROOT / "reference" / "contact"
 HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fastsim_nx,"
-          "fastsim_ny\n")
+          "fastsim_ny,element_mm\n")
 
 
 class Trade(ProgramTest):
@@ -16,9 +16,9 @@ class Trade(ProgramTest):
         return self.read("trade.csv")
 
     def test_errors_are_those_of_the_stage(self):
-        rows = self.trade("normal,fine,always,strip,faststrip,15,,,\n"
-                          "tangential,march,always,hertz,fastsim,,,40,40\n"
-                          "both,later,full,strip,faststrip,,,,\n")
+        rows = self.trade("normal,fine,always,strip,faststrip,15,,,,\n"
+                          "tangential,march,always,hertz,fastsim,,,40,40,\n"
+                          "both,later,full,strip,faststrip,,,,,\n")
         self.assertEqual({row["method"] for row in rows}, {"fine", "march"})
         normal = [row for row in rows if row["stage"] == "normal"]
         self.assertEqual(len(normal), 4)
@@ -31,13 +31,13 @@ class Trade(ProgramTest):
         self.assertGreater(min(numbers(rows, "us")), 0.0)
 
     def test_exact_on_ellipses(self):
-        rows = self.trade("both,Hertz,always,hertz,fastsim,,,,\n")
+        rows = self.trade("both,Hertz,always,hertz,fastsim,,,,,\n")
         self.assertEqual({row["status"] for row in rows}, {"ok"})
 
     def test_bad_lists(self):
-        for line, says in (("sideways,x,always,strip,fastsim,,,,\n", "stage is out of range"),
-                           ("both,x,always,strap,fastsim,,,,\n", "normal is out of range: strap"),
-                           ("both,x,always,strip,fastsim,2000,,,\n", "strips_per_patch")):
+        for line, says in (("sideways,x,always,strip,fastsim,,,,,\n", "stage is out of range"),
+                           ("both,x,always,strap,fastsim,,,,,\n", "normal is out of range: strap"),
+                           ("both,x,always,strip,fastsim,2000,,,,\n", "strips_per_patch")):
             self.write("methods.csv", HEADER + line)
             self.refused(1, "bench", "trade", "--methods", "methods.csv", "--contacts", CONTACTS,
                          says=(says, "methods.csv:2"))

@@ -1,7 +1,7 @@
 !> Which methods a contact is solved by, and how finely: numbers for programs, names for people.
 module faststrip_contact_methods
     use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
-    use faststrip_normal_strip, only: fewest_strips, strips_auto
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points
     implicit none
     private
@@ -69,10 +69,10 @@ contains
             call set_status(status, st_bad_argument, 'no such normal method')
         else if (methods%tangential < 0 .or. methods%tangential > ubound(tangential_names, 1)) then
             call set_status(status, st_bad_argument, 'no such tangential method')
-        else if ((methods%strips_per_patch < fewest_strips .and. &
+        else if ((methods%strips_per_patch < 1 .and. &
                   methods%strips_per_patch /= strips_auto) .or. &
                  methods%strips_per_patch > most_strips) then
-            call set_status(status, st_bad_argument, 'strips per patch outside 3 to 1000')
+            call set_status(status, st_bad_argument, 'strips per patch outside 1 to 1000')
         else if (methods%points_per_strip < 1 .or. methods%points_per_strip > most_points) then
             call set_status(status, st_bad_argument, 'points per strip outside 1 to 1000')
         else if (min(methods%fastsim_nx, methods%fastsim_ny) < 1 .or. &
