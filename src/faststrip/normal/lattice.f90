@@ -33,7 +33,7 @@ module faststrip_normal_lattice
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
-                                st_no_contact, st_out_of_range, st_edge_of_data, &
+                                st_no_contact, st_out_of_range, st_edge_of_data, st_overlap_left, &
                                 st_linear_algebra, st_workspace_too_small
     use faststrip_influence_row, only: center_influence_column, &
                                        center_influence_column_gradient, &
@@ -72,6 +72,7 @@ module faststrip_normal_lattice
     real(wp), parameter :: shortest_ratio = 0.1_wp   ! of a strip to its longer neighbour
     real(wp), parameter :: end_tolerance = 0.02_wp   ! of a cell
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
+    real(wp), parameter :: named_overlap = 0.01_wp ! the same, told to the caller
     real(wp), parameter :: start_level = 0.55_wp     ! of the penetration: virtual penetration
     real(wp), parameter :: start_factor = 0.6_wp     ! of the plane-strain pressure
     real(wp), parameter :: flattest = 1.0e-9_wp      ! smallest A = 1/(2R) used, 1/mm
@@ -149,7 +150,9 @@ contains
         type(status_t), intent(out) :: status
             !! `st_not_finite`, `st_bad_load`, `st_bad_material`, `st_bad_argument` (n_strips),
             !! `st_workspace_too_small`, `st_out_of_range` (a contact beyond all proportion),
-            !! `st_linear_algebra`, `st_no_finite_patch`; `st_edge_of_data`: the contact runs to the end of the points
+            !! `st_linear_algebra`, `st_no_finite_patch`; `st_edge_of_data`: the contact runs to
+            !! the end of the points; `st_overlap_left`: surfaces overlap outside the patches by
+            !! more than 1 % of the penetration
 
         real(wp) :: depth
 
@@ -285,7 +288,7 @@ contains
         real(wp), intent(inout) :: depth ! penetration above the lowest height: first guess, result
         type(status_t), intent(out) :: status
 
-        real(wp) :: move, overlap, worth, best_worth, best_depth, residual, tolerance
+        real(wp) :: move, overlap, worth, best_worth, best_depth, best_overlap, residual, tolerance
         integer :: laying, best_laying, room, wanted
         logical :: done
 
@@ -306,6 +309,7 @@ contains
         workspace%most_work = most_plain_steps*step_work(max(wanted, room/2), 2)
         best_worth = huge(1.0_wp)
         best_depth = depth
+        best_overlap = 0.0_wp
         best_laying = 0
         tolerance = loose_tolerance
         do laying = 1, max_layings
@@ -320,6 +324,7 @@ contains
             if (worth < 0.9_wp*best_worth) then
                 best_worth = worth
                 best_depth = depth
+                best_overlap = overlap
                 best_laying = laying
                 call record(workspace, strips)
             end if
@@ -334,6 +339,9 @@ contains
         if (strips%n == 0) then
             call set_status(status, st_linear_algebra, &
                             'the influence numbers of the lattice are singular')
+        else if (best_overlap > named_overlap) then
+            call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
+                            // trim(number_text(100.0_wp*best_overlap)) // ' % of the penetration')
         else if (strips%y_left(1) <= curve%y(1) &
                  .or. strips%y_right(strips%n) >= curve%y(curve%n)) then
             call set_status(status, st_edge_of_data, &
