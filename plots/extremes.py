@@ -232,9 +232,9 @@ def draw_tangential(path, rows, stamp):
     """The size of the force of every method, and how far the rules are kept."""
     own = select(rows, chapter="tangential")
     methods = list(dict.fromkeys(own.words["method"]))
-    columns = min(len(methods), 4)
+    columns = min(len(methods), 3)
     lines = -(-len(methods) // columns)
-    figure = style.new_figure(max(9.0, 4.0 * columns), 3.5 * lines + 3.4)
+    figure = style.new_figure(max(9.0, 4.4 * columns), 3.2 * lines + 3.4)
     parts = figure.subfigures(2, 1, height_ratios=[lines, 0.9])
     axes = parts[0].subplots(lines, columns, squeeze=False)
     for place, method in zip(axes.flat, methods):
@@ -247,17 +247,19 @@ def draw_tangential(path, rows, stamp):
     bars = parts[1].subplots()
     quantities = {"excess": "force above $\\mu N$", "step": "change by $10^{-6}$ more creepage",
                   "oddness": "left by opposite creepages", "negative_power": "friction power below zero"}
+    top = 10.0
     for k, (quantity, label) in enumerate(quantities.items()):
         heights = []
         for method in methods:
             name = "force" if quantity == "excess" else quantity
             value = select(own, method=method, quantity=name).value
-            largest = np.nanmax(value) if np.isfinite(value).any() else np.nan
-            heights.append(max(largest - 1.0, 0.0) if quantity == "excess" else largest)
+            most = largest(value)
+            heights.append(max(most - 1.0, 0.0) if quantity == "excess" else most)
+        top = max(top, 10.0 * largest(np.array(heights)))
         bars.plot(np.arange(len(methods)) + 0.12 * (k - 1.5), np.maximum(heights, LEAST),
                   linestyle="none", marker=MARKS[k], markersize=7, color=COLOURS[k], label=label)
     bars.set_yscale("log")
-    bars.set_ylim(LEAST / 3.0, 10.0)
+    bars.set_ylim(LEAST / 3.0, top)
     bars.set_xticks(np.arange(len(methods)), methods)
     bars.set_xlim(-0.5, len(methods) - 0.5)
     bars.set_ylabel("largest, of $\\mu N$")
@@ -326,6 +328,7 @@ def draw_digits(axes, rows, scalar):
 
 
 def largest(values):
+    """The largest number, NaN if there is none."""
     known = values[np.isfinite(values)]
     return known.max() if known.size else np.nan
 
