@@ -63,9 +63,13 @@ contains
         character(len=*), intent(in) :: scenes !! CSV of the contacts of many kinds
 
         type(csv_writer_t) :: writer
+        type(csv_table_t) :: table
         type(tally_t) :: tally
         type(status_t) :: status
 
+        ! Read before anything is written.
+        call read_csv(scenes, table, status)
+        call fail_on_error(status)
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)
@@ -78,7 +82,7 @@ contains
         call tell('Hertz contacts', tally)
         call compare_shifts(folder, 's1002_uic60_B', writer, tally)
         call compare_shifts(folder, 's1002_uic60_A', writer, tally)
-        call compare_scenes(scenes, writer, tally)
+        call compare_scenes(table, writer, tally)
         call tell('scenes', tally)
         call close_csv(writer, status)
         call fail_on_error(status)
@@ -193,15 +197,14 @@ contains
     end subroutine compare_shifts
 
     !> Contacts of many kinds.
-    subroutine compare_scenes(file, writer, tally)
-        character(len=*), intent(in) :: file
+    subroutine compare_scenes(table, writer, tally)
+        type(csv_table_t), intent(in) :: table
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(out) :: tally
 
         character(len=*), parameter :: names(9) = [character(len=16) :: 'number', 'cksi', 'ceta', &
             'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
             'stick_fraction']
-        type(csv_table_t) :: table
         type(normal_stage_t) :: normal
         type(normal_result_t) :: figures
         type(reference_t) :: reference
@@ -211,8 +214,6 @@ contains
         integer :: i
 
         tally = tally_t()
-        call read_csv(file, table, status)
-        call fail_on_error(status)
         allocate (v(table%n_rows, size(names)), source=0.0_wp)
         do i = 1, size(names)
             call column_numbers(table, trim(names(i)), column, status)

@@ -60,7 +60,9 @@ class GapFile(ProgramTest):
         motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
         self.write("bumpy.csv", gap_text(bumpy))
         for gap in ("gap.csv", "bumpy.csv", str(GAPS / "shift_0.csv")):
-            for methods in (("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim")):
+            for methods in (("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim"),
+                            ("strip", "fastsim-weighted"), ("hertz", "fastsim-elliptic"),
+                            ("strip", "faststrip-corrected"), ("hertz", "faststrip-paper")):
                 if gap == "bumpy.csv" and methods[0] == "hertz":
                     continue
                 with self.subTest(gap=gap, methods=methods):
@@ -69,6 +71,25 @@ class GapFile(ProgramTest):
                                        gap_file=gap, motion=motion)
                     self.check_strips(row, self.read("s.csv"))
                     self.check_fields(row, self.read("f.csv"))
+
+    def test_every_tangential_method_by_name(self):
+        motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
+        best = self.contact(motion=motion)
+        for name in ("faststrip-paper", "faststrip-corrected", "fastsim", "fastsim-elliptic",
+                     "fastsim-weighted", "linear", "she", "polach"):
+            for normal in ("strip", "hertz", "equal_area"):
+                row = self.contact("--normal", normal, "--tangential", name, motion=motion)
+                self.assertEqual((row["normal"], row["tangential"]), (normal, name))
+                # All know the direction and the order of the force.
+                for force in ("Fx_N", "Fy_N"):
+                    self.assertTrue(0.5 < float(row[force]) / float(best[force]) < 1.6, (name, row))
+                self.assertEqual(row["stick_fraction"] == "", name in ("she", "polach"))
+        for name in ("linear", "she", "polach"):
+            self.refused(1, "contact", "case.nml", "--tangential", name, "--fields", "f.csv",
+                         says=[name, "forces only"])
+        same = self.contact("--points-per-strip", "30", extra="&numerics\n tangential = "
+                            "'faststrip-corrected'\n/\n", motion=motion)
+        self.assertEqual(same["tangential"], "faststrip-corrected")
 
     def check_strips(self, row, strips):
         load = float(row["N_N"])
@@ -84,6 +105,11 @@ class GapFile(ProgramTest):
         area = sum(2.0 * float(strip["half_length_mm"])
                    * (float(strip["y_right_mm"]) - float(strip["y_left_mm"])) for strip in strips)
         self.assert_close(area, float(row["area_mm2"]), 0.03)
+        if row["tangential"] == "faststrip":
+            for name in ("Fx_N", "Fy_N", "friction_power_N"):
+                self.assert_close(math.fsum(numbers(strips, name)), float(row[name]), 1e-9)
+        else:
+            self.assertEqual({strip["friction_power_N"] for strip in strips}, {""})
         if not hertz:
             self.assert_close(max(numbers(strips, "p0_MPa")), float(row["pmax_MPa"]), 0.01)
 
@@ -98,6 +124,9 @@ class GapFile(ProgramTest):
         self.assert_close(math.fsum(area), float(row["area_mm2"]), 0.03)
         self.assert_close(math.fsum(p * a for p, a in zip(pn, area)), float(row["N_N"]), 0.02)
         self.assertLessEqual(set(numbers(field, "state")), {1.0, 2.0})
+        self.assert_close(math.fsum(p * a for p, a in zip(numbers(field, "power_MPa"), area)),
+                          float(row["friction_power_N"]), 1e-2)
+        self.assertGreaterEqual(min(numbers(field, "power_MPa")), 0.0)
         self.check_bounds(row, field)
 
     def check_bounds(self, row, field):
@@ -108,7 +137,7 @@ class GapFile(ProgramTest):
             n = float(element["pn_MPa"])
             # FASTSIM bounds by a paraboloid of the same load; the march by a form of its own
             # whose peak over mu pn stays below 1.25.
-            bound = 0.3 * 1.25 * n if row["tangential"] == "faststrip" else 0.3 * 4 / 3 * largest
+            bound = 0.3 * 1.25 * n if row["tangential"] == "faststrip" else 0.3 * 1.7 * largest
             self.assertLessEqual(p, bound + 1e-9 * largest)
             total = strips.setdefault(element["y_mm"], 0.0)
             strips[element["y_mm"]] = total + p * float(element["area_mm2"])
