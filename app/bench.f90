@@ -38,7 +38,7 @@ contains
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
             option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
-                     // ' 1 to 1000 (default 21)'), &
+                     // new_line('a') // '1 to 1000 (default 21)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &

@@ -14,8 +14,8 @@ module faststrip_app_method_options
     type(option_t), parameter :: method_options(11) = [ &
         option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm'), &
         option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
-                 // ' faststrip-corrected, fastsim,' // new_line('a') &
-                 // 'fastsim-elliptic, fastsim-weighted, linear, she, polach'), &
+                 // ' faststrip-corrected,' // new_line('a') // 'fastsim, fastsim-elliptic,' &
+                 // ' fastsim-weighted, linear, she, polach'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
