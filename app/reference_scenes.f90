@@ -45,8 +45,8 @@ contains
         integer :: number, last
 
         command%name = 'scenes'
-        command%about = 'Reference forces of contacts of many kinds, by NORM and TANG on two grids' &
-                        // new_line('a') // 'and extrapolated. CSV, one row a contact.' &
+        command%about = 'Reference forces of contacts of many kinds, by NORM and TANG on two' &
+                        // new_line('a') // 'grids and extrapolated. CSV, one row a contact.' &
                         // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
@@ -147,7 +147,8 @@ contains
         call set_norm_gap(norm, scene%gap, status)
         if (is_error(status)) return
         call norm_solve(norm, normal_compliance(scene_material(scene)), scene%load, &
-                        norm_options_t(dx=dx, dy=dy), figures%normal, status, normal%workspace%strips)
+                        norm_options_t(dx=dx, dy=dy), figures%normal, status, &
+                        normal%workspace%strips)
         if (is_error(status)) return
         call tang_solve(tang, norm%grid, scene_material(scene), scene%mu, creepage, &
                         tang_options_t(), figures%forces, status)

@@ -38,7 +38,8 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_motion, only: check_motion, check_ellipse
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, check_strips
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                              check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, state_adhesion, state_slip
     implicit none

@@ -47,8 +47,8 @@
 !> minimum of the errors against CONTACT on 161 Hertz cases and 40 S1002/UIC60 cases. Fitted to one
 !> half of these, the method has on the other half the errors it has on the first (force vector on
 !> the Hertz cases: 0.60 and 0.65 % of mu N, 0.62 and 0.61 with the halves exchanged). The 240
-!> contacts of `reference/scenes`, of eight other kinds of gap, came later, and no
-!> constant was fitted to them; the errors there are 0.5, 0.9 (Fx, Fy, % of mu N), 1.1 (Mz, % of mu N c) in the mean.
+!> contacts of `reference/scenes`, of eight other kinds of gap, came later, and no constant was
+!> fitted to them; the mean errors there are 0.5 and 0.9 % of mu N (Fx, Fy), 1.1 % of mu N c (Mz).
 module faststrip_tangential_faststrip
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, is_error, st_out_of_range, &
@@ -59,9 +59,11 @@ module faststrip_tangential_faststrip
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, over_force
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, check_strips
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                              check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
-                                          empty_field, put_element, field_power, most_points, state_adhesion, state_slip
+                                          empty_field, put_element, field_power, most_points, &
+                                          state_adhesion, state_slip
     implicit none
     private
 
