@@ -9,10 +9,11 @@ module faststrip_app_bench
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_reference, only: bench_reference, bench_reference_most_elements
     use faststrip_app_bench_accuracy, only: bench_accuracy
+    use faststrip_app_bench_tangential, only: bench_tangential
     use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
     use faststrip_app_bench_extremes, only: bench_extremes, extreme_parts
-    use faststrip_app_bench_tangential, only: bench_tangential
+    use faststrip_app_bench_rolling, only: bench_rolling
     use faststrip_app_bench_forces, only: bench_forces
     use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
@@ -87,6 +88,9 @@ contains
         case ('accuracy')
             call allow([character(len=name_length) :: '--contacts'])
             call bench_accuracy(file, folder)
+        case ('rolling')
+            call allow([character(len=name_length) :: '--contacts'])
+            call bench_rolling(file, folder)
         case ('robust')
             call allow([character(len=name_length) :: '--contacts'])
             call bench_robust(file, folder)
@@ -135,7 +139,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(32) = [character(len=84) :: &
+        character(len=*), parameter :: lines(35) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -155,7 +159,10 @@ contains
             'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
             'the paper''s with either sign of the creepages, and against TANG on 240 others.', &
             'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
-            'convergence: their errors with 5 to 81 strips, against 301 strips, and against', &
+            'rolling: errors and times of Kalker''s method in rolling against CONTACT, by', &
+            'its scheme and by the second-order one, on 0.4 and 0.2 mm: the paper''s contacts', &
+            'and 161 ellipses of 113 mm2.', &
+            'convergence: errors of 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
             'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
             '15 and 31 strips and auto against 401.', &

@@ -24,6 +24,7 @@ module faststrip_app_bench_cases
         real(wp) :: area = 0.0_wp             !! by CONTACT, extrapolated in the grid, mm2
         real(wp) :: y_min = 0.0_wp            !! left end by CONTACT, mm
         real(wp) :: y_max = 0.0_wp            !! right end by CONTACT, mm
+        real(wp) :: forces(3) = 0.0_wp        !! Fx, Fy, N, and Mz, N mm, by CONTACT, extrapolated
     end type bench_case_t
 
 contains
@@ -34,9 +35,10 @@ contains
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
         type(status_t), intent(out) :: status                      !! of the readers
 
-        character(len=*), parameter :: names(10) = [character(len=16) :: &
+        character(len=*), parameter :: names(13) = [character(len=16) :: &
             'yw_mm', 'Fn_N', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
-            'area_extrap_mm2', 'ymin_mm', 'ymax_mm']
+            'area_extrap_mm2', 'ymin_mm', 'ymax_mm', 'Fx_extrap_N', 'Fy_extrap_N', &
+            'Mz_extrap_Nmm']
         type(csv_table_t) :: table
         real(wp), allocatable :: column(:)
         real(wp), allocatable :: values(:, :)
@@ -68,6 +70,7 @@ contains
             cases(i)%area = values(i, 8)
             cases(i)%y_min = values(i, 9)
             cases(i)%y_max = values(i, 10)
+            cases(i)%forces = values(i, 11:13)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
             if (is_error(status)) return
         end do

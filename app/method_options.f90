@@ -15,13 +15,13 @@ module faststrip_app_method_options
         option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm'), &
         option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
                  // ' faststrip-corrected,' // new_line('a') // 'fastsim, fastsim-elliptic,' &
-                 // ' fastsim-weighted, linear, she, polach'), &
+                 // ' fastsim-weighted, linear, she, polach, tang'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
         option_t('--fastsim-ny', 'N', 'rows, fastsim... (default 50)'), &
-        option_t('--element-dx', 'MM', 'side of the elements along x, norm (default 0.2)'), &
-        option_t('--element-dy', 'MM', 'side of the elements along y, norm (default 0.2)'), &
+        option_t('--element-dx', 'MM', 'side of the elements along x, norm, tang (default 0.2)'), &
+        option_t('--element-dy', 'MM', 'side of the elements along y, norm, tang (default 0.2)'), &
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um')]

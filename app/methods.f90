@@ -21,10 +21,11 @@ module faststrip_app_methods
         'strip', 'hertz', 'equal_area', 'equal_moments', 'norm']
     !> Names of the tangential methods: marching in the strips (the best, the paper's, the paper's
     !> corrected); FASTSIM on ellipses, with the parabolic bound and three flexibilities, the
-    !> elliptic bound, or one flexibility; laws that know forces only.
-    character(len=word_length), parameter :: tangential_methods(9) = &
+    !> elliptic bound, or one flexibility; laws that know forces only;
+    !> Kalker's variational method.
+    character(len=word_length), parameter :: tangential_methods(10) = &
         [character(len=word_length) :: 'faststrip', 'faststrip-paper', 'faststrip-corrected', &
-         'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach']
+         'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach', 'tang']
     !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']
@@ -41,8 +42,8 @@ module faststrip_app_methods
         integer :: fastsim_nx = 50       !! points along a row, fastsim...
         integer :: fastsim_ny = 50       !! rows, fastsim...
         real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
-        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, mm
-        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, mm
+        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
+        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
         real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
     end type methods_t

@@ -7,7 +7,7 @@ module faststrip_app_normal_stage
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_strip, only: normal_result_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
-                                         normal_strip
+                                         normal_strip, tangential_faststrip
     use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
                                        set_contact_gap, solve_contact_normal
     use faststrip_app_methods, only: methods_t
@@ -36,12 +36,14 @@ contains
         type(methods_t), intent(in) :: methods     !! checked
         type(normal_stage_t), intent(out) :: stage !! ready for `make_room`
 
-        integer :: normal
+        integer :: normal, tangential
 
         normal = normal_method(methods%normal)
         if (methods%normal == 'norm') normal = normal_strip ! for the strips that stand for its rows
+        tangential = tangential_method(methods%tangential)
+        if (methods%tangential == 'tang') tangential = tangential_faststrip ! does not count
         stage%methods = contact_methods_t( &
-            normal, tangential_method(methods%tangential), &
+            normal, tangential, &
             methods%strips_per_patch, methods%points_per_strip, methods%fastsim_nx, &
             methods%fastsim_ny)
     end subroutine make_normal_stage

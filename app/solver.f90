@@ -19,6 +19,7 @@ module faststrip_app_solver
                                           solve_normal, certify
     use faststrip_app_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
                                         solve_by_norm, take_rows
+    use faststrip_app_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang
     use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
     private
@@ -31,6 +32,7 @@ module faststrip_app_solver
         logical :: with_field = .false.     !! are the elements wanted?
         type(normal_stage_t) :: normal      !! with the strips of the last contact
         type(norm_stage_t) :: norm          !! if that is the normal method
+        type(tang_stage_t) :: tang          !! if that is the tangential method
         type(tangential_field_t) :: field   !! of the last contact, if wanted
         logical :: with_strip_forces = .false. !! are the sums of each strip wanted?
         type(strip_forces_t) :: strip_forces   !! of the last contact, if wanted
@@ -73,6 +75,7 @@ contains
         type(solver_t), intent(inout) :: solver !! serves again
 
         call release_norm_stage(solver%norm)
+        call release_tang_stage(solver%tang)
     end subroutine release_solver
 
     !> Solve one contact.
@@ -122,7 +125,11 @@ contains
             if (is_error(status)) return
             call system_clock(between)
         end if
-        if (solver%with_field) then
+        if (solver%methods%tangential == 'tang') then
+            call solve_by_tang(solver%tang, solver%methods, solver%normal, solver%norm, &
+                               material, mu, creepage, solver%with_field, outcome%tangential, &
+                               solver%field, tangential_status)
+        else if (solver%with_field) then
             call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
                                   tangential_status, solver%field)
         else

@@ -21,12 +21,13 @@ module faststrip_tangential_variational
                                           add_element, state_adhesion, state_slip
     use faststrip_tangential_variational_newton, only: newton_t, size_newton, solve_newton
     use faststrip_tangential_variational_problem, only: problem_t, make_problem, &
+                                                        release_problem, &
                                                         scheme_second_order, scheme_first_order, &
                                                         edges_sampled, edges_of_norm
     implicit none
     private
 
-    public :: tang_options_t, tang_workspace_t, tang_solve, tang_most_elements
+    public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
     public :: motion_rolling, motion_shift
 
@@ -143,6 +144,13 @@ contains
         end if
         call add_up(workspace%newton, workspace%problem, result, field)
     end subroutine tang_solve
+
+    !> Give back what the compiler does not: plans of workspaces in an array.
+    subroutine release_tang(workspace)
+        type(tang_workspace_t), intent(inout) :: workspace !! serves again
+
+        call release_problem(workspace%problem)
+    end subroutine release_tang
 
     subroutine check_options(options, status)
         type(tang_options_t), intent(in) :: options

@@ -15,6 +15,8 @@ module faststrip_tangential_variational_pressures
 
     ! Sizes beyond which nothing is promised, mm, MPa.
     real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
+    ! A whole number of elements stays one.
+    real(wp), parameter :: rounding = 1.0e-9_wp
 
 contains
 
@@ -93,8 +95,8 @@ contains
             call set_status(status, st_out_of_range, 'elements beyond all proportion')
             return
         end if
-        columns = max(2.0_wp*half_length/dx, 1.0_wp)
-        rows = max((y_right - y_left)/dy, 1.0_wp)
+        columns = max((1.0_wp - rounding)*(2.0_wp*half_length/dx), 1.0_wp)
+        rows = max((1.0_wp - rounding)*((y_right - y_left)/dy), 1.0_wp)
         ! What lies beside the last whole element may hold the middle of another one.
         if ((columns + 1.0_wp)*(rows + 1.0_wp) > most_elements) then
             call set_status(status, st_out_of_range, 'the grid has more elements than allowed')

@@ -34,12 +34,13 @@ module faststrip_tangential_variational_problem
     use faststrip_creepage, only: creepage_t
     use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence
     use faststrip_numerics_convolution, only: convolution_t, reserve_convolution, set_kernel, &
+                                              release_convolution, &
                                               transform_source, collect, even, odd
     use faststrip_normal_variational_grid, only: contact_grid_t, element_x, element_y
     implicit none
     private
 
-    public :: problem_t, make_problem, apply_influence, node_slip
+    public :: problem_t, make_problem, release_problem, apply_influence, node_slip
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
 
     !> How slip is made of displacements.
@@ -165,6 +166,14 @@ contains
         problem%edge(:, :n) = 0.0_wp
         if (problem%is_second_order) call treat_edges(problem, material, edges)
     end subroutine make_problem
+
+    !> Give plans and kernels back.
+    subroutine release_problem(problem)
+        type(problem_t), intent(inout) :: problem !! serves again
+
+        call release_convolution(problem%convolution)
+        problem%made_size = 0
+    end subroutine release_problem
 
     subroutine make_room(problem)
         type(problem_t), intent(inout) :: problem
