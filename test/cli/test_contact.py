@@ -62,7 +62,8 @@ class GapFile(ProgramTest):
         for gap in ("gap.csv", "bumpy.csv", str(GAPS / "shift_0.csv")):
             for methods in (("strip", "faststrip"), ("strip", "fastsim"), ("hertz", "fastsim"),
                             ("strip", "fastsim-weighted"), ("hertz", "fastsim-elliptic"),
-                            ("strip", "faststrip-corrected"), ("hertz", "faststrip-paper")):
+                            ("strip", "faststrip-corrected"), ("hertz", "faststrip-paper"),
+                            ("strip", "tang"), ("hertz", "tang"), ("norm", "tang")):
                 if gap == "bumpy.csv" and methods[0] == "hertz":
                     continue
                 with self.subTest(gap=gap, methods=methods):
@@ -137,7 +138,8 @@ class GapFile(ProgramTest):
             n = float(element["pn_MPa"])
             # FASTSIM bounds by a paraboloid of the same load; the march by a form of its own
             # whose peak over mu pn stays below 1.25.
-            bound = 0.3 * 1.25 * n if row["tangential"] == "faststrip" else 0.3 * 1.7 * largest
+            bound = {"faststrip": 0.3 * 1.25 * n, "tang": 0.3 * n}.get(row["tangential"],
+                                                                       0.3 * 1.7 * largest)
             self.assertLessEqual(p, bound + 1e-9 * largest)
             total = strips.setdefault(element["y_mm"], 0.0)
             strips[element["y_mm"]] = total + p * float(element["area_mm2"])
@@ -177,6 +179,17 @@ class GapFile(ProgramTest):
                                    ["N_N"]), 1e5)
         self.assertTrue(15 <= counts["gap.csv"] <= 41, counts)
         self.assertTrue(15 <= counts["kink.csv"] <= 41, counts)
+
+    def test_tang_is_kalkers_method(self):
+        """Shift -5 mm of the paper: CONTACT, extrapolated in its grid, by any pressures."""
+        gap, motion = str(GAPS / "shift_-5.csv"), "cksi = -0.001645, cphi_rad_per_mm = 1.9e-5"
+        for normal, side, within in (("norm", "0.4", 40.0), ("strip", "0.4", 150.0)):
+            row = self.contact("--normal", normal, "--tangential", "tang", "--element-dx", side,
+                               "--element-dy", side, gap_file=gap, load="100004", motion=motion)
+            self.assert_close(float(row["Fx_N"]), 18756.5, absolute=within)
+            self.assert_close(float(row["Fy_N"]), -653.8, absolute=within)
+            self.assert_close(float(row["Mz_Nmm"]), 6541.4, absolute=10 * within)
+        self.refused(2, "contact", "case.nml", "--tangential", "kalker", says=["kalker"])
 
     def test_ellipses_of_the_strips(self):
         self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.002 * y * y)))
