@@ -14,7 +14,7 @@ module faststrip_tangential_variational_rows
     public :: rows_t, size_rows, factor_rows, solve_rows
 
     !> Most elements of a block.
-    integer, parameter :: block_elements = 96
+    integer, parameter :: block_elements = 48
 
     !> Blocks, their factors and the place of their unknowns.
     type :: rows_t
