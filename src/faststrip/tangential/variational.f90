@@ -53,7 +53,7 @@ module faststrip_tangential_variational
         logical :: sticks_everywhere = .false.  !! friction without a bound, mu does not count
         real(wp) :: tolerance = 1.0e-7_wp       !! of the residual, 1e-12 to 0.1
         integer :: max_steps = 40               !! of Newton's method for each of three attempts
-        logical :: warm_start = .false.         !! from the last solution, if it had as many elements
+        logical :: warm_start = .false. !! from the last solution, if it had as many elements
         integer :: most_elements = tang_most_elements !! in contact
     end type tang_options_t
 
@@ -192,7 +192,8 @@ contains
             call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
         else if (abs(coupling_constant(material)) > no_coupling) then
             call set_status(status, st_bad_material, 'TANG is for like materials; here ' // &
-                            'pressures cause slip, K = ' // number_text(coupling_constant(material)))
+                            'pressures cause slip, K = ' // &
+                            number_text(coupling_constant(material)))
         end if
     end subroutine check_bodies
 

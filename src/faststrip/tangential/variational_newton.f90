@@ -58,7 +58,8 @@ contains
         if (allocated(newton%p)) then
             if (size(newton%p, 2) /= n) &
                 deallocate (newton%p, newton%slip, newton%sticks, newton%bound, newton%r, &
-                            newton%trial, newton%node, newton%along, newton%turn, newton%resistance, &
+                            newton%trial, newton%node, newton%along, newton%turn, &
+                            newton%resistance, &
                             newton%change, newton%size_t, newton%best, newton%is_carried, &
                             newton%unknown, newton%basis, newton%work, newton%step, newton%right)
         end if

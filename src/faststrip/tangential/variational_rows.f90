@@ -2,8 +2,8 @@
 !>
 !> Within a row px acts on sx and py on sy alone; they are coupled where elements slide, for the
 !> traction of such an element turns along its bound and has one unknown. A row is cut into blocks
-!> of at most `block_elements`; a block sees those ahead of it, not those behind, for rolling slip
-!> depends on what is ahead above all.
+!> of at most `block_elements`, two matrices if all its elements stick; a block sees those ahead of
+!> it, not those behind, for rolling slip depends on what is ahead above all.
 module faststrip_tangential_variational_rows
     use faststrip_kinds, only: wp
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
@@ -19,7 +19,7 @@ module faststrip_tangential_variational_rows
     !> Blocks, their factors and the place of their unknowns.
     type :: rows_t
         integer :: n_blocks = 0
-        integer, allocatable :: first(:)    !! first element of a block; of block n_blocks + 1: n + 1
+        integer, allocatable :: first(:)    !! first element of a block; of one beyond: n + 1
         integer, allocatable :: start(:)    !! where the factors of a block start
         integer, allocatable :: pivots(:)   !! of all blocks, by unknowns
         real(wp), allocatable :: factors(:) !! of all blocks
@@ -84,6 +84,13 @@ contains
             from = rows%first(block)
             to = rows%first(block + 1) - 1
             m = unknown(to + 1) - unknown(from)
+            if (m == 2*(to - from + 1)) then
+                call factor_stuck(problem, is_carried, from, to, m/2, &
+                                  rows%factors(rows%start(block):rows%start(block) + m*m/2 - 1), &
+                                  rows%pivots(unknown(from):unknown(from) + m - 1), info)
+                if (info /= 0) return
+                cycle
+            end if
             associate (a => rows%factors(rows%start(block):rows%start(block) + m*m - 1))
                 call fill(problem, unknown, turn, resistance, is_carried, from, to, m, a)
                 call dgetrf(m, m, a, m, rows%pivots(unknown(from):unknown(from) + m - 1), info)
@@ -91,6 +98,26 @@ contains
             if (info /= 0) return
         end do
     end subroutine factor_rows
+
+    !> Factor a block that sticks: one matrix along x, one along y.
+    pure subroutine factor_stuck(problem, is_carried, from, to, n, a, pivots, info)
+        type(problem_t), intent(in) :: problem
+        logical, intent(in) :: is_carried(:)
+        integer, intent(in) :: from, to, n
+        real(wp), intent(inout) :: a(n, n, 2)
+        integer, intent(inout) :: pivots(n, 2)
+        integer, intent(out) :: info
+
+        integer :: i, k
+
+        do i = from, to
+            do k = from, to
+                a(k - from + 1, i - from + 1, :) = between(problem, is_carried, i, k)
+            end do
+        end do
+        call dgetrf(n, n, a(:, :, 1), n, pivots(:, 1), info)
+        if (info == 0) call dgetrf(n, n, a(:, :, 2), n, pivots(:, 2), info)
+    end subroutine factor_stuck
 
     !> The matrix of elements `from` to `to`, column by column.
     pure subroutine fill(problem, unknown, turn, resistance, is_carried, from, to, m, a)
@@ -185,12 +212,35 @@ contains
                 end do
             end do
             m = unknown(to + 1) - unknown(from)
+            if (m == 2*(to - from + 1)) then
+                call solve_stuck(m/2, &
+                                 rows%factors(rows%start(block):rows%start(block) + m*m/2 - 1), &
+                                 rows%pivots(unknown(from):unknown(from) + m - 1), &
+                                 v(unknown(from):unknown(from) + m - 1))
+                cycle
+            end if
             associate (a => rows%factors(rows%start(block):rows%start(block) + m*m - 1), &
                        pivots => rows%pivots(unknown(from):unknown(from) + m - 1))
                 call solve_block(m, a, pivots, v(unknown(from):unknown(from) + m - 1))
             end associate
         end do
     end subroutine solve_rows
+
+    pure subroutine solve_stuck(n, a, pivots, v)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: a(n, n, 2)
+        integer, intent(in) :: pivots(n, 2)
+        real(wp), intent(inout) :: v(2, n)
+
+        real(wp) :: part(n, 1)
+        integer :: axis, info
+
+        do axis = 1, 2
+            part(:, 1) = v(axis, :)
+            call dgetrs('N', n, 1, a(:, :, axis), n, pivots(:, axis), part, n, info)
+            v(axis, :) = part(:, 1)
+        end do
+    end subroutine solve_stuck
 
     pure subroutine solve_block(m, a, pivots, v)
         integer, intent(in) :: m
