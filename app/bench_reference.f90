@@ -181,14 +181,15 @@ contains
         real(wp), dimension(most_runs) :: us, iterations, convolutions
         real(wp) :: from, load
         integer(int64) :: begin, now
-        integer :: run
+        integer :: round, run
 
         bench%strips%n = 0
         if (start == strips) call solve_strips(bench, i)
         options = norm_options_t(dx=dx, dy=dx, tolerance=tolerance, two_levels=start == coarse)
         call system_clock(begin)
         ! Runs before the first make the plans, and the steps that the others alternate between.
-        do run = -1, most_runs
+        do round = -1, most_runs
+            run = round
             load = bench%cases(i)%load
             if (start == warm_load .and. modulo(run, 2) == 0) load = load_factor*load
             options%warm_start = start == warm_load .and. run > -1

@@ -303,13 +303,13 @@ contains
         type(case_t), intent(inout) :: case
 
         type(methods_t) :: methods
-        character(len=word_length) :: normal, tangential, norm_start
+        character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target
+            error_target, tolerance
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, norm_start
+            error_target, norm_start, tolerance, target
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -326,6 +326,8 @@ contains
         element_dy_mm = case%methods%element_dy
         error_target = case%methods%error_target
         norm_start = case%methods%norm_start
+        tolerance = case%methods%tolerance
+        target = case%methods%target
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%methods%smoothing_um
@@ -346,6 +348,8 @@ contains
         methods%element_dy = element_dy_mm
         methods%error_target = error_target
         methods%norm_start = norm_start
+        methods%tolerance = tolerance
+        methods%target = target
         call check_methods(methods, what, value)
         case%methods = methods
         if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)

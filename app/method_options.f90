@@ -11,11 +11,12 @@ module faststrip_app_method_options
     public :: method_options, take_method_options
 
     !> For the table of a subcommand.
-    type(option_t), parameter :: method_options(11) = [ &
-        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm'), &
+    type(option_t), parameter :: method_options(13) = [ &
+        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm;' &
+                 // new_line('a') // 'auto: both methods, the cheapest expected to do'), &
         option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
                  // ' faststrip-corrected,' // new_line('a') // 'fastsim, fastsim-elliptic,' &
-                 // ' fastsim-weighted, linear, she, polach, tang'), &
+                 // ' fastsim-weighted, linear, she, polach, tang, none'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
@@ -24,7 +25,9 @@ module faststrip_app_method_options
         option_t('--element-dy', 'MM', 'side of the elements along y, norm, tang (default 0.2)'), &
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
-        option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um')]
+        option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
+        option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
+        option_t('--target', 'NAME', 'auto: of forces (default), over mu N, pmax or penetration')]
 
 contains
 
@@ -49,6 +52,8 @@ contains
         methods%fastsim_nx = option_integer(command, '--fastsim-nx', methods%fastsim_nx)
         methods%fastsim_ny = option_integer(command, '--fastsim-ny', methods%fastsim_ny)
         methods%smoothing_um = option_number(command, '--smooth', methods%smoothing_um)
+        methods%tolerance = option_number(command, '--tolerance', methods%tolerance)
+        methods%target = option_text(command, '--target', trim(methods%target))
         methods%element_dx = option_number(command, '--element-dx', methods%element_dx)
         methods%element_dy = option_number(command, '--element-dy', methods%element_dy)
         methods%error_target = option_number(command, '--error-target', methods%error_target)

@@ -10,25 +10,29 @@ module faststrip_app_methods
     private
 
     public :: methods_t, check_methods, most_strips, word_length, normal_methods, tangential_methods
-    public :: norm_starts
+    public :: norm_starts, targets
 
     !> Length of a method's name, characters.
     integer, parameter :: word_length = 24
     !> Names of the normal methods: strips; the Hertz ellipse of the contact point; the strips'
     !> patches as ellipses, with the proportions of Hertz or of the second moments; Kalker's
-    !> variational method.
-    character(len=word_length), parameter :: normal_methods(5) = [character(len=word_length) :: &
-        'strip', 'hertz', 'equal_area', 'equal_moments', 'norm']
+    !> variational method; auto: normal and tangential method by the error that is expected.
+    character(len=word_length), parameter :: normal_methods(6) = [character(len=word_length) :: &
+        'strip', 'hertz', 'equal_area', 'equal_moments', 'norm', 'auto']
     !> Names of the tangential methods: marching in the strips (the best, the paper's, the paper's
     !> corrected); FASTSIM on ellipses, with the parabolic bound and three flexibilities, the
     !> elliptic bound, or one flexibility; laws that know forces only;
-    !> Kalker's variational method.
-    character(len=word_length), parameter :: tangential_methods(10) = &
+    !> Kalker's variational method; none.
+    character(len=word_length), parameter :: tangential_methods(11) = &
         [character(len=word_length) :: 'faststrip', 'faststrip-paper', 'faststrip-corrected', &
-         'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach', 'tang']
+         'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach', 'tang', &
+         'none']
     !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']
+    !> Whose error the tolerance of auto is about.
+    character(len=word_length), parameter :: targets(3) = [character(len=word_length) :: &
+        'forces', 'pmax', 'penetration']
     !> Most strips per patch the program accepts.
     integer, parameter :: most_strips = 1000
     integer, parameter :: most_points = 10000
@@ -46,6 +50,8 @@ module faststrip_app_methods
         real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
         real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
+        real(wp) :: tolerance = 0.02_wp  !! largest error wanted of auto
+        character(len=word_length) :: target = 'forces' !! one of `targets`
     end type methods_t
 
 contains
@@ -67,6 +73,9 @@ contains
         else if (all(norm_starts /= methods%norm_start)) then
             what = 'norm_start'
             value = trim(methods%norm_start)
+        else if (all(targets /= methods%target)) then
+            what = 'target'
+            value = trim(methods%target)
         else
             if (methods%strips_per_patch /= strips_auto) call check( &
                 'strips_per_patch', methods%strips_per_patch, 1, most_strips)
@@ -78,6 +87,7 @@ contains
             call check_real('element_dy_mm', methods%element_dy, tiny(1.0_wp))
             call check_real('error_target', methods%error_target, 0.0_wp)
             call check_real('smoothing_um', methods%smoothing_um, 0.0_wp)
+            call check_real('tolerance', methods%tolerance, tiny(1.0_wp))
         end if
 
     contains

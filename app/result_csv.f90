@@ -13,11 +13,12 @@ module faststrip_app_result_csv
     public :: result_columns, put_result, put_strips, put_field, put_smoothing
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(21) = [character(len=19) :: &
+    character(len=*), parameter :: result_columns(22) = [character(len=19) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
-        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'gap_change_um']
+        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'gap_change_um', &
+        'choice']
 
 contains
 
@@ -43,33 +44,28 @@ contains
         call put_cell(writer, outcome%normal%y_max)
         call put_cell(writer, outcome%normal%x_max)
         call put_cell(writer, outcome%normal%n_patches)
-        call put_cell(writer, outcome%tangential%fx)
-        call put_cell(writer, outcome%tangential%fy)
-        call put_cell(writer, outcome%tangential%mz)
-        call put_cell(writer, outcome%tangential%friction_power)
-        if (outcome%knows_stick) then
-            call put_cell(writer, outcome%tangential%stick_fraction)
-        else
-            call put_cell(writer, '')
-        end if
+        associate (tangential => outcome%tangential)
+            call put_known(outcome%has_forces, tangential%fx)
+            call put_known(outcome%has_forces, tangential%fy)
+            call put_known(outcome%has_forces, tangential%mz)
+            call put_known(outcome%has_forces, tangential%friction_power)
+            call put_known(outcome%knows_stick, tangential%stick_fraction)
+        end associate
         call put_cell(writer, outcome%normal_us)
         call put_cell(writer, outcome%tangential_us)
         associate (certificate => outcome%certificate)
-            call put_certificate(outcome%is_certified, certificate%residual_inside)
-            call put_certificate(outcome%is_certified, certificate%overlap_outside)
-            call put_certificate(outcome%is_estimated, certificate%est_err_penetration)
-            call put_certificate(outcome%is_estimated, certificate%est_err_pmax)
-            call put_certificate(outcome%is_estimated, certificate%est_err_area)
+            call put_known(outcome%is_certified, certificate%residual_inside)
+            call put_known(outcome%is_certified, certificate%overlap_outside)
+            call put_known(outcome%is_estimated, certificate%est_err_penetration)
+            call put_known(outcome%is_estimated, certificate%est_err_pmax)
+            call put_known(outcome%is_estimated, certificate%est_err_area)
         end associate
-        if (outcome%gap_change_um > 0.0_wp) then
-            call put_cell(writer, outcome%gap_change_um)
-        else
-            call put_cell(writer, '')
-        end if
+        call put_known(outcome%gap_change_um > 0.0_wp, outcome%gap_change_um)
+        call put_cell(writer, outcome%choice)
 
     contains
 
-        subroutine put_certificate(is_known, value)
+        subroutine put_known(is_known, value)
             logical, intent(in) :: is_known
             real(wp), intent(in) :: value
 
@@ -78,7 +74,7 @@ contains
             else
                 call put_cell(writer, '')
             end if
-        end subroutine put_certificate
+        end subroutine put_known
     end subroutine put_result
 
     !> The comment line that says that gaps are smoothed, if they are.

@@ -19,6 +19,7 @@ module faststrip_app_solver
                                           solve_normal, certify
     use faststrip_app_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
                                         solve_by_norm, take_rows
+    use faststrip_app_auto_stage, only: choose
     use faststrip_app_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang
     use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
@@ -29,6 +30,7 @@ module faststrip_app_solver
     !> Methods with the room they need, used for one contact after the other.
     type :: solver_t
         type(methods_t) :: methods          !! what was asked for
+        type(methods_t) :: chosen           !! what the last contact was solved by
         logical :: with_field = .false.     !! are the elements wanted?
         type(normal_stage_t) :: normal      !! with the strips of the last contact
         type(norm_stage_t) :: norm          !! if that is the normal method
@@ -43,6 +45,8 @@ module faststrip_app_solver
     type :: outcome_t
         type(normal_result_t) :: normal         !! penetration, area, ...
         type(tangential_result_t) :: tangential !! forces, friction power, ...
+        character(len=:), allocatable :: choice !! methods chosen and why, of auto; else empty
+        logical :: has_forces = .true.          !! do forces and friction power count?
         logical :: knows_stick = .true.         !! does the stick fraction count?
         logical :: is_certified = .false.       !! do the certificate's residuals count?
         logical :: is_estimated = .false.       !! and its errors?
@@ -65,8 +69,9 @@ contains
         solver%methods = methods
         solver%with_field = with_field
         call clear_status(status)
-        call make_normal_stage(methods, solver%normal)
-        if (with_field) call reserve_contact_field(solver%field, solver%normal%methods, status)
+        if (methods%normal /= 'auto') call make_normal_stage(methods, solver%normal)
+        if (with_field .and. methods%normal /= 'auto') &
+            call reserve_contact_field(solver%field, solver%normal%methods, status)
         if (present(with_strip_forces)) solver%with_strip_forces = with_strip_forces
     end subroutine make_solver
 
@@ -93,6 +98,7 @@ contains
         real(wp) :: change
         integer(int64) :: before, between, after
 
+        outcome%choice = ''
         call check_material(material, status)
         if (is_error(status)) return
         if (solver%methods%smoothing_um > 0.0_wp) then
@@ -102,13 +108,15 @@ contains
         else
             solver%gap = gap
         end if
+        call take_methods(solver, material, mu, demand, creepage, outcome, status)
+        if (is_error(status)) return
         call make_room(solver%normal, solver%gap, status)
         if (is_error(status)) return
-        if (solver%methods%normal == 'norm') call make_norm_room(solver%norm, solver%gap, status)
+        if (solver%chosen%normal == 'norm') call make_norm_room(solver%norm, solver%gap, status)
         if (is_error(status)) return
         call system_clock(before)
-        if (solver%methods%normal == 'norm') then
-            call solve_by_norm(solver%norm, solver%methods, solver%gap, material, demand, &
+        if (solver%chosen%normal == 'norm') then
+            call solve_by_norm(solver%norm, solver%chosen, solver%gap, material, demand, &
                                outcome%normal, outcome%certificate, status)
             outcome%is_certified = .true.
             outcome%is_estimated = solver%norm%workspace%is_estimated
@@ -117,16 +125,16 @@ contains
         end if
         if (is_error(status)) return
         call system_clock(between)
-        outcome%normal_us = microseconds(before, between)
-        if (solver%methods%normal == 'norm') then
+        outcome%normal_us = outcome%normal_us + microseconds(before, between)
+        if (solver%chosen%normal == 'norm') then
             call take_rows(solver%norm, solver%normal, status)
             if (is_error(status)) return
             if (solver%with_field) call grow_field(solver, status)
             if (is_error(status)) return
             call system_clock(between)
         end if
-        if (solver%methods%tangential == 'tang') then
-            call solve_by_tang(solver%tang, solver%methods, solver%normal, solver%norm, &
+        if (solver%chosen%tangential == 'tang') then
+            call solve_by_tang(solver%tang, solver%chosen, solver%normal, solver%norm, &
                                material, mu, creepage, solver%with_field, outcome%tangential, &
                                solver%field, tangential_status)
         else if (solver%with_field) then
@@ -146,14 +154,41 @@ contains
                 call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
                                       tangential_status, per_strip=solver%strip_forces)
         end if
-        outcome%knows_stick = gives_stick(solver%normal%methods%tangential)
+        outcome%has_forces = solver%chosen%tangential /= 'none'
+        outcome%knows_stick = gives_stick(solver%normal%methods%tangential) .and. outcome%has_forces
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
-        if (is_error(status) .or. solver%methods%normal == 'norm') return
+        if (is_error(status) .or. solver%chosen%normal == 'norm') return
         call certify(solver%normal, material, outcome%normal, outcome%certificate, &
                      outcome%is_certified)
         outcome%is_estimated = outcome%is_certified
     end subroutine solve
+
+    !> The methods asked for, or those chosen for this contact; choosing counts as normal time.
+    subroutine take_methods(solver, material, mu, demand, creepage, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(demand_t), intent(in) :: demand
+        type(creepage_t), intent(in) :: creepage
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(out) :: status
+
+        integer(int64) :: before, after
+
+        call clear_status(status)
+        solver%chosen = solver%methods
+        if (solver%methods%normal /= 'auto') return
+        call system_clock(before)
+        call choose(solver%methods, solver%gap, material, mu, demand, creepage, &
+                    solver%with_field, solver%chosen, outcome%choice, status)
+        call system_clock(after)
+        if (is_error(status)) return
+        outcome%normal_us = microseconds(before, after)
+        call make_normal_stage(solver%chosen, solver%normal)
+        if (solver%with_field) &
+            call reserve_contact_field(solver%field, solver%normal%methods, status)
+    end subroutine take_methods
 
     !> Room for the elements of as many strips as there are rows.
     subroutine grow_field(solver, status)
@@ -163,7 +198,7 @@ contains
         type(status_t) :: room
 
         call reserve_field(solver%field, max(solver%normal%workspace%strips%n &
-                                             *solver%methods%points_per_strip, &
+                                             *solver%chosen%points_per_strip, &
                                              size(solver%field%x)), room)
         if (is_error(room)) status = room
     end subroutine grow_field

@@ -12,7 +12,8 @@ methods marks in its column `choice` are the ones to choose from. Their errors a
     error = base(saturation, spin) + excess(misfit),
 
 each the largest but for one in twenty of the calibration contacts in the bin; the base from the
-contacts with next to no misfit, the excess from the rest. A bin with few contacts takes the
+contacts with next to no misfit (from all of them for strips, which know no ellipse), the excess
+from the rest. A bin with few contacts takes the
 worst of its neighbours. Every second contact of each set calibrates; on the others the choice is
 tried: how often the target is met, and how much faster it is than always taking the finest.
 """
@@ -139,7 +140,7 @@ def filled(values, worst_of):
             for k, v in values.items()}
 
 
-def expected(cases, target, method):
+def expected(cases, target, method, any_gap):
     """Base by saturation and spin, excess by misfit."""
     n_force = (len(SATURATION_EDGES) + 1) * (len(SPIN_EDGES) + 1)
     n_misfit = len(MISFIT_EDGES) + 1
@@ -148,7 +149,8 @@ def expected(cases, target, method):
         raw = {}
         for k in base:
             errors = [c["errors"][target, method] for c in cases
-                      if c["misfit"] == 0 and c["force"] == k and (target, method) in c["errors"]]
+                      if (any_gap or c["misfit"] == 0) and c["force"] == k
+                      and (target, method) in c["errors"]]
             raw[k] = upper(errors) if len(errors) >= FEWEST else None
         step = len(SPIN_EDGES) + 1
         base = filled(raw, lambda k: (k - 1, k + 1, k - step, k + step))
@@ -179,7 +181,7 @@ def build(contacts):
             own = [c for c in first if (target, row["method"]) in c["errors"]]
             if own:
                 entries.append((typical_time(own, stage, row["method"]), row,
-                                *expected(own, target, row["method"])))
+                                *expected(own, target, row["method"], row["normal"] == "strip")))
         tables[target] = sorted(entries, key=lambda entry: entry[0])
     return tables
 

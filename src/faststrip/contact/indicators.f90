@@ -26,7 +26,8 @@ module faststrip_contact_indicators
             !! ellipse, over the penetration; `no_ellipse` if there is no ellipse
         real(wp) :: saturation = 0.0_wp !! linear force over mu N; `no_friction` without friction
         real(wp) :: spin_share = 0.0_wp !! squared share of the linear force that comes from spin
-        real(wp) :: aspect = 1.0_wp     !! a/b of the patch as it is estimated
+        real(wp) :: a = 0.0_wp          !! half-length of the patch as it is estimated, mm
+        real(wp) :: b = 0.0_wp          !! and half-width, mm
     end type indicators_t
 
     real(wp), parameter :: no_ellipse = 1.0e3_wp  !! misfit without an ellipse, and the most told
@@ -119,8 +120,9 @@ contains
         type(kalker_coefficients_t) :: c
         real(wp) :: scale, ab, along, across, turning
 
-        indicators%aspect = size%a/size%b
-        call kalker_coefficients(indicators%aspect, combined_poisson_ratio(material), c, status)
+        indicators%a = size%a
+        indicators%b = size%b
+        call kalker_coefficients(size%a/size%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         indicators%saturation = no_friction
         ab = size%a*size%b

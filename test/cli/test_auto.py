@@ -1,0 +1,56 @@
+"""`--normal auto`: the choice is told, keeps its promise on scenes, computes what is asked."""
+
+import math
+
+from cli_program import ROOT, ProgramTest
+
+SCENES = ROOT / "example" / "scenes"
+
+
+class Auto(ProgramTest):
+    def contact(self, scene, *words):
+        return self.good("contact", SCENES / f"{scene}.nml", *words)[0]
+
+    def test_forces_within_the_tolerance(self):
+        for scene in ("freight_25t", "tread_straight", "near_conformal", "worn_wheel"):
+            fine = self.contact(scene, "--normal", "norm", "--tangential", "tang",
+                                "--element-dx", "0.3", "--element-dy", "0.3")
+            chosen = self.contact(scene, "--normal", "auto", "--tolerance", "0.05")
+            error = math.hypot(*(float(chosen[name]) - float(fine[name])
+                                 for name in ("Fx_N", "Fy_N")))
+            self.assertLess(error, 0.05 * 0.3 * float(fine["N_N"]), scene)
+            self.assertIn("expected within", chosen["choice"])
+            self.assertEqual(fine["choice"], "")
+
+    def test_a_smaller_tolerance_takes_more(self):
+        coarse = self.contact("tread_straight", "--normal", "auto", "--tolerance", "0.1")
+        fine = self.contact("tread_straight", "--normal", "auto", "--tolerance", "0.001")
+        self.assertIn("norm + tang: nothing cheaper is expected to be within 0.100 %",
+                      fine["choice"])
+        self.assertRegex(coarse["choice"], r"^(hertz|strip)")
+
+    def test_only_what_the_target_needs(self):
+        for target in ("pmax", "penetration"):
+            row = self.contact("freight_25t", "--normal", "auto", "--target", target,
+                               "--tolerance", "0.03")
+            self.assertEqual((row["Fx_N"], row["friction_power_N"], row["stick_fraction"]),
+                             ("", "", ""))
+            self.assertGreater(float(row[f"{target}_{'MPa' if target == 'pmax' else 'mm'}"]), 0.0)
+        row = self.contact("freight_25t", "--tangential", "none")
+        self.assertEqual(row["Fx_N"], "")
+
+    def test_fields_need_elements(self):
+        self.contact("tram_small_wheel", "--normal", "auto", "--tolerance", "0.3", "--fields",
+                     "field.csv")
+        self.assertGreater(len(self.read("field.csv")), 20)
+
+    def test_case_file_and_refusals(self):
+        case = (SCENES / "freight_25t.nml").read_text(encoding="utf-8")
+        numerics = "&numerics\n normal = 'auto'\n tolerance = 0.04\n target = 'pmax'\n/\n"
+        self.write("case.nml", case + numerics)
+        row = self.good("contact", "case.nml")[0]
+        self.assertIn("expected within", row["choice"])
+        self.write("case.nml", case + numerics.replace("pmax", "wear"))
+        self.refused(1, "contact", "case.nml", says=("target", "wear"))
+        self.refused(2, "contact", SCENES / "freight_25t.nml", "--tolerance", "-1",
+                     says=("tolerance", "-1"))
