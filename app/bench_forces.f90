@@ -3,9 +3,10 @@
 !> Four sets: Hertz contacts (`hertz_creep.csv`), the paper's 20 contacts with either sign of the
 !> creepages (`s1002_uic60_B.csv`, `_A.csv`), and contacts of many kinds solved by NORM and TANG
 !> (`reference/scenes`, in two groups by odd and even number); all but the first by strips.
-!> Errors of forces in % of mu N, of the moment in % of mu N c, c = sqrt(area/pi), against the extrapolated reference; of the
-!> friction power in % of what the reference's forces give, `-(Fx cksi + Fy ceta + Mz cphi)`; of
-!> the stick fraction in points of the reference's share of elements.
+!> Errors of forces in % of mu N, of the moment in % of mu N c, c = sqrt(area/pi), against the
+!> extrapolated reference; of the friction power in % of what the reference's forces give,
+!> `-(Fx cksi + Fy ceta + Mz cphi)`; of the stick fraction in points of the reference's share of
+!> elements.
 module faststrip_app_bench_forces
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, is_error
