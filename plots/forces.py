@@ -13,7 +13,9 @@ from faststrip_plots.tables import InputError, read_table
 METHODS = {
     "faststrip": style.Look("FASTSTRIP", "#0b3c78", "-", 2.2),
     "faststrip-paper": style.Look("FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.5),
-    "faststrip-corrected": style.Look("FASTSTRIP corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8),
+    "faststrip-corrected": style.Look(
+        "FASTSTRIP corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8
+    ),
     "fastsim": style.Look("FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
     "fastsim-elliptic": style.Look("FASTSIM elliptic", "#d98bb5", (0, (4, 1.5)), 1.4),
     "fastsim-weighted": style.Look("FASTSIM weighted", "#8a6fc0", (0, (2, 1)), 1.4),
@@ -50,7 +52,8 @@ def main(arguments=None):
         (options.curves, curves_figure(errors, options.contacts),
          "Hertz contacts, 124 elements across by CONTACT"),
         (options.shifts, shifts_figure(errors, options.contacts), "creepages of sign set B"),
-        (options.trade, trade_figure(errors, options.times), "processor time with 15 by 15 elements; FASTSIM's errors with 50 by 50"),
+        (options.trade, trade_figure(errors, options.times),
+         "processor time with 15 by 15 elements; FASTSIM's errors with 50 by 50"),
     ):
         style.save(figure, path, stamp, note)
         print(path)
@@ -129,7 +132,8 @@ def shifts_figure(errors, folder):
             if len(case) != len(shift):
                 raise InputError(f"{len(case)} cases by {method}, not {len(shift)} ({errors.path})")
             axes.plot(shift[order], error[name][order], color=look.colour, linestyle=look.line,
-                      linewidth=look.width, label=look.label, marker="." if look.width > 2 else None)
+                      linewidth=look.width, label=look.label,
+                      marker="." if look.width > 2 else None)
         axes.set_ylim(-14.0, 14.0)
         axes.set_ylabel(label)
         style.title(axes, f"Error of {label.split(',')[0]} against CONTACT")

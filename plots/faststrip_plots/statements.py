@@ -24,7 +24,8 @@ COLUMNS = ("id", "place", "statement", "subject", "quantity", "value", "unit", "
 
 STRIPS = 15  # strips per patch whose times are quoted
 TABLE_RANGE = tuple(10.0**L for L in RANGE)  # of b = yd/xd
-PRINTED = ("strip", "paper")  # the paper's own method, asked for even where it was not run
+# The paper's own method, asked for even where it was not run.
+PRINTED = ("strip", "faststrip-paper")
 SAME_FIT = 5e-4  # in E, 0.1 % of the integral: a row nearer to a fit than this came of it
 ABSENT = "the sweep does not have this method"
 TUNED = ("strip", "faststrip")

@@ -37,8 +37,10 @@ METHOD = {
     ("strip", "faststrip"): Look("strips + FASTSTRIP", "#0b3c78", "-", 2.0),
     ("hertz", "fastsim"): Look("Hertz + FASTSIM", "#f08519", (0, (5, 1.8)), 1.8),
     ("strip", "fastsim"): Look("strips + FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
-    ("strip", "paper"): Look("strips + FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.8),
-    ("strip", "corrected"): Look(
+    ("strip", "faststrip-paper"): Look(
+        "strips + FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.8
+    ),
+    ("strip", "faststrip-corrected"): Look(
         "strips + FASTSTRIP corrected", "#86dcc6", (0, (3, 1, 1, 1, 1, 1)), 2.2
     ),
 }

@@ -1,4 +1,4 @@
-"""`faststrip bench tangential` and `bench forces`: the columns, and what the methods have reached."""
+"""`faststrip bench tangential` and `bench forces`: the columns, and what has been reached."""
 
 import statistics
 

@@ -246,12 +246,12 @@ class Verdicts(unittest.TestCase):
         )
         for signs in "AB":
             expected[f"C.{signs}.faststrip"] = HOLDS
-            expected[f"C.{signs}.paper"] = UNKNOWN
+            expected[f"C.{signs}.faststrip-paper"] = UNKNOWN
             for name in ("Tx", "Ty", "Mz"):
                 expected[f"C.{signs}.faststrip.{name}"] = HOLDS
         for kind in ("usual", "equal"):
             expected[f"S3.{kind}.faststrip"] = HOLDS
-            expected[f"S3.{kind}.paper"] = UNKNOWN
+            expected[f"S3.{kind}.faststrip-paper"] = UNKNOWN
         got = {key: row["verdict"] for key, row in rows.items()}
         self.assertEqual(sorted(set(got.items()) ^ set(expected.items())), [])
         for row in rows.values():
@@ -301,12 +301,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(row["verdict"], LIMITED)
 
     def test_the_papers_own_method_where_the_sweep_has_it(self):
-        change = dict(tangential="paper", Fx_N=1200.0, tangential_us=300.0)
+        change = dict(tangential="faststrip-paper", Fx_N=1200.0, tangential_us=300.0)
         rows = judge(sweep_A=sweep("A", change))
-        self.assertEqual(rows["C.A.paper.Tx"]["verdict"], HOLDS)
-        self.assertIn("as printed", rows["C.A.paper.Tx"]["subject"])
-        self.assertEqual(rows["S3.usual.paper"]["verdict"], FAILS)
-        self.assertEqual(rows["C.B.paper"]["verdict"], UNKNOWN)
+        self.assertEqual(rows["C.A.faststrip-paper.Tx"]["verdict"], HOLDS)
+        self.assertIn("as printed", rows["C.A.faststrip-paper.Tx"]["subject"])
+        self.assertEqual(rows["S3.usual.faststrip-paper"]["verdict"], FAILS)
+        self.assertEqual(rows["C.B.faststrip-paper"]["verdict"], UNKNOWN)
 
     def test_times_of_the_variational_method_where_given(self):
         with_reference = csv_text(("start", "us"), [dict(start="cold", us=2e5),
