@@ -145,7 +145,8 @@ contains
                                   tangential_status)
         end if
         call system_clock(after)
-        if (solver%with_strip_forces .and. .not. is_error(tangential_status)) then
+        if (solver%with_strip_forces .and. solver%methods%tangential == 'faststrip' &
+            .and. .not. is_error(tangential_status)) then
             ! Once more, so that the time is that of the forces.
             call reserve_strip_forces(solver%strip_forces, &
                                       size(solver%normal%workspace%strips%p0), &
