@@ -259,7 +259,11 @@ module faststrip_contact_choice_table
                       for _, r, _, _ in tables["forces"]})
     out.append("        " + ", &\n        ".join(names) + "\n")
     out.append("""    implicit none
-    public
+    private
+
+    public :: misfit_edges, saturation_edges, spin_edges
+    public :: forces_methods, forces_base, forces_excess, pmax_methods, pmax_excess
+    public :: penetration_methods, penetration_excess
 
     !> Upper edges of the bins but the last: misfit, saturation, share of spin.
 """)
@@ -284,7 +288,6 @@ module faststrip_contact_choice_table
                          f"{', '.join(parts[2:])})")
         body = ", &\n        ".join(lines)
         out.append(f"\n    !> To choose from for {target}, by ascending time.\n"
-                   f"    integer, parameter :: n_{target} = {n}\n"
                    f"    type(contact_methods_t), parameter :: {target}_methods({n}) = [ &\n"
                    f"        {body}]\n")
         if target == "forces":

@@ -11,7 +11,10 @@ module faststrip_contact_choice
     use faststrip_status, only: status_t, set_status, clear_status, number_text, st_bad_argument, &
                                 st_target_missed
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_choice_table
+    use faststrip_contact_choice_table, only: misfit_edges, saturation_edges, spin_edges, &
+                                              forces_methods, forces_base, forces_excess, &
+                                              pmax_methods, pmax_excess, penetration_methods, &
+                                              penetration_excess
     use faststrip_contact_indicators, only: indicators_t
     implicit none
     private

@@ -11,7 +11,11 @@ module faststrip_contact_choice_table
         tangential_none, &
         tangential_polach
     implicit none
-    public
+    private
+
+    public :: misfit_edges, saturation_edges, spin_edges
+    public :: forces_methods, forces_base, forces_excess, pmax_methods, pmax_excess
+    public :: penetration_methods, penetration_excess
 
     !> Upper edges of the bins but the last: misfit, saturation, share of spin.
     real(wp), parameter :: misfit_edges(4) = [0.01_wp, 0.05_wp, 0.2_wp, 0.6_wp]
@@ -19,7 +23,6 @@ module faststrip_contact_choice_table
     real(wp), parameter :: spin_edges(1) = [0.25_wp]
 
     !> To choose from for forces, by ascending time.
-    integer, parameter :: n_forces = 14
     type(contact_methods_t), parameter :: forces_methods(14) = [ &
         contact_methods_t(normal_hertz, tangential_linear, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
@@ -91,7 +94,6 @@ module faststrip_contact_choice_table
         1.288e-02_wp, 1.288e-02_wp, 1.288e-02_wp, 1.288e-02_wp], [5, 14])
 
     !> To choose from for pmax, by ascending time.
-    integer, parameter :: n_pmax = 9
     type(contact_methods_t), parameter :: pmax_methods(9) = [ &
         contact_methods_t(normal_hertz, tangential_none, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
@@ -123,7 +125,6 @@ module faststrip_contact_choice_table
         2.428e-03_wp, 2.780e-03_wp, 6.917e-02_wp], [5, 9])
 
     !> To choose from for penetration, by ascending time.
-    integer, parameter :: n_penetration = 9
     type(contact_methods_t), parameter :: penetration_methods(9) = [ &
         contact_methods_t(normal_hertz, tangential_none, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
