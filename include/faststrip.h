@@ -63,7 +63,14 @@ enum faststrip_normal {
 enum faststrip_tangential {
     FASTSTRIP_TANGENTIAL_NONE = 0,      /* no creep forces */
     FASTSTRIP_TANGENTIAL_FASTSTRIP = 1, /* marching in the strips */
-    FASTSTRIP_TANGENTIAL_FASTSIM = 2    /* Kalker's FASTSIM on the patches' ellipses */
+    FASTSTRIP_TANGENTIAL_FASTSIM = 2,   /* Kalker's FASTSIM on the patches' ellipses */
+    FASTSTRIP_TANGENTIAL_FASTSTRIP_PAPER = 3,     /* TFASTSTRIP as printed */
+    FASTSTRIP_TANGENTIAL_FASTSTRIP_CORRECTED = 4, /* TFASTSTRIP as corrected */
+    FASTSTRIP_TANGENTIAL_FASTSIM_ELLIPTIC = 5,    /* FASTSIM with the elliptic bound */
+    FASTSTRIP_TANGENTIAL_FASTSIM_WEIGHTED = 6,    /* FASTSIM with a single flexibility */
+    FASTSTRIP_TANGENTIAL_LINEAR = 7, /* Kalker's linear theory; no elements, nor have */
+    FASTSTRIP_TANGENTIAL_SHE = 8,    /* Shen, Hedrick and Elkins, and */
+    FASTSTRIP_TANGENTIAL_POLACH = 9  /* Polach */
 };
 
 /* One contact. Fill it in with faststrip_default_case first. */

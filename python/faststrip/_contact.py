@@ -15,7 +15,10 @@ from ._library import TEXT, Case, FaststripError, Figures, check, library, word_
 Array = npt.NDArray[np.float64]
 
 NORMAL = {"strip": 1, "hertz": 2, "equal_area": 3, "equal_moments": 4}
-TANGENTIAL = {"none": 0, "faststrip": 1, "fastsim": 2}
+TANGENTIAL = {
+    "none": 0, "faststrip": 1, "fastsim": 2, "faststrip-paper": 3, "faststrip-corrected": 4,
+    "fastsim-elliptic": 5, "fastsim-weighted": 6, "linear": 7, "she": 8, "polach": 9,
+}
 BAD_ARGUMENT = 100
 
 
@@ -110,8 +113,10 @@ class Contact:
     """One wheel on one rail: methods, the room they need, the gap, the last solution.
 
     normal: ``strip`` (any patch), ``hertz``, ``equal_area`` or ``equal_moments``;
-    tangential: ``faststrip``, ``fastsim`` or ``none``. strips_per_patch is 3 to 1000, or ``auto``.
-    Use one Contact per thread; calls release Python's lock while they compute.
+    tangential: ``faststrip``, ``fastsim``, ``none``; to compare with, ``faststrip-paper``,
+    ``faststrip-corrected``, ``fastsim-elliptic``, ``fastsim-weighted`` and, for forces alone,
+    ``linear``, ``she``, ``polach``. strips_per_patch is 3 to 1000, or ``auto``. Use one Contact per
+    thread; calls release Python's lock while they compute.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",

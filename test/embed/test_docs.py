@@ -17,6 +17,11 @@ class Docstrings(unittest.TestCase):
                           if METADATA.match(path.read_text(encoding="utf-8"))], [])
         self.assertRegex("!> FASTSIM: Kalker's", METADATA)
 
+    def test_no_argument_is_explained_like_metadata(self):
+        for path in sorted((ROOT / "src").rglob("*.f90")):
+            with self.subTest(path.name):
+                self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?m)!! ?\w[\w-]*: ")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,5 +1,6 @@
 """What ./run install puts below a prefix: names, versions, what the library needs."""
 
+import ast
 import re
 import shutil
 import stat
@@ -123,6 +124,25 @@ class Installed(HostTest):
         umbrella = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
         for name in core:
             self.assertRegex(umbrella, rf"\bst_{name}\b")
+
+    def test_methods_are_the_same_in_every_face(self):
+        source = (ROOT / "src" / "faststrip" / "contact" / "methods.f90").read_text(encoding="utf-8")
+        header = self.installed.header.read_text(encoding="utf-8")
+        package = (ROOT / "python" / "faststrip" / "_contact.py").read_text(encoding="utf-8")
+        f77 = (ROOT / "src" / "faststrip" / "interop" / "f77.f90").read_text(encoding="utf-8")
+        for kind, option in (("normal", 1), ("tangential", 2)):
+            core = {name: int(number) for name, number in
+                    re.findall(rf"integer, parameter :: {kind}_(\w+) = (\d+)", source)}
+            self.assertGreater(len(core), 2)
+            found = re.findall(rf"FASTSTRIP_{kind.upper()}_(\w+) = (\d+)", header)
+            self.assertEqual({name.lower(): int(number) for name, number in found}, core)
+            listed = re.search(rf"^{kind.upper()} = (\{{.*?\}})", package, re.M | re.S)[1]
+            python = ast.literal_eval(listed)
+            self.assertEqual({name.replace("-", "_"): number for name, number in python.items()},
+                             core)
+            words = re.search(rf"IOPT\({option}\) {kind} method: (.*?)IOPT", f77, re.S)[1]
+            found = re.findall(r"(\d) ([\w-]+)", words)
+            self.assertEqual({name: int(number) for number, name in found}, python)
 
     def test_the_man_page_names_every_subcommand(self):
         page = self.installed.prefix / "share" / "man" / "man1" / "faststrip.1"

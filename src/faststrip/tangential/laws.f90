@@ -180,7 +180,7 @@ contains
     !> The cubic of Vermeulen and Johnson.
     pure subroutine shorten(force, fx, fy)
         real(wp), intent(in) :: force      !! mu N, N
-        real(wp), intent(inout) :: fx, fy  !! in: linear, out: saturated, N
+        real(wp), intent(inout) :: fx, fy  !! linear, then saturated, N
 
         real(wp) :: linear, tau, factor
 
