@@ -1,4 +1,5 @@
-/* The same contacts by one thread, by threads of POSIX and by a host's OpenMP team: the same bits. */
+/* The same contacts by one thread, by POSIX threads and by a host's OpenMP team: the same bits.
+ * `threads NUMBER [posix]`: so many contacts, with posix without OpenMP. */
 #include "contacts.h"
 
 #include <omp.h>
@@ -51,12 +52,14 @@ int main(int argc, char **argv)
     for (i = 0; i < THREADS; i++) pthread_create(&thread[i], NULL, work, (void *)(intptr_t)i);
     for (i = 0; i < THREADS; i++) pthread_join(thread[i], NULL);
     compare(serial, "pthreads");
-#pragma omp parallel num_threads(THREADS)
+    if (argc > 2) contacts = 0;
+#pragma omp parallel num_threads(THREADS) if (contacts > 0)
     {
         faststrip_workspace *own = make_workspace();
         int own_status, k;
 #pragma omp for schedule(dynamic, 7)
-        for (k = contacts - 1; k >= 0; k--) found[k] = solve_example(own, (uint64_t)k, &own_status);
+        for (k = contacts - 1; k >= 0; k--)
+            found[k] = solve_example(own, (uint64_t)k, &own_status);
         faststrip_free(&own);
     }
     compare(serial, "openmp");

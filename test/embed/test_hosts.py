@@ -81,8 +81,19 @@ class Hosts(HostTest):
 
 
 class Threads(HostTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.compile_host("threads.c", "threads", "-O2 -fopenmp")
+
+    @unittest.skipUnless(shutil.which("valgrind"), "needs valgrind")
+    def test_no_race_under_valgrind(self):
+        for tool in ("drd", "helgrind"):
+            text = self.shell(f"valgrind --tool={tool} --error-exitcode=9 ./threads 40 posix 2>&1")
+            self.assertRegex(text, r"ERROR SUMMARY: 0 errors")
+            self.assertRegex(text, r"(?m)^pthreads 0$")
+
     def test_eight_threads_give_the_serial_bits(self):
-        self.compile_host("threads.c", "threads", "-O2 -fopenmp")
         found = self.findings("./threads 10000")
         self.assertGreater(found["solved"][0], 9500)
         self.assertEqual(found["pthreads"], [0])
