@@ -78,7 +78,7 @@ typedef struct faststrip_case {
     size_t size;          /* of this struct; set by faststrip_default_case */
     int normal;           /* enum faststrip_normal */
     int tangential;       /* enum faststrip_tangential */
-    int strips_per_patch; /* 3 to 1000 across the largest patch, or 0: left to the solver */
+    int strips_per_patch; /* 1 to 1000 across the largest patch, or 0: left to the solver */
     int points_per_strip; /* 1 to 1000, FASTSTRIP */
     int fastsim_nx;       /* points along a row, FASTSIM */
     int fastsim_ny;       /* rows, FASTSIM */

@@ -115,7 +115,7 @@ class Contact:
     normal: ``strip`` (any patch), ``hertz``, ``equal_area`` or ``equal_moments``;
     tangential: ``faststrip``, ``fastsim``, ``none``; to compare with, ``faststrip-paper``,
     ``faststrip-corrected``, ``fastsim-elliptic``, ``fastsim-weighted`` and, for forces alone,
-    ``linear``, ``she``, ``polach``. strips_per_patch is 3 to 1000, or ``auto``. Use one Contact per
+    ``linear``, ``she``, ``polach``. strips_per_patch is 1 to 1000, or ``auto``. Use one Contact per
     thread; calls release Python's lock while they compute.
     """
 

@@ -173,7 +173,7 @@ class Contacts(HostTest):
         self.refused("bad_argument", contact.solve)
         self.refused("bad_argument", contact.solve, load=1.0, penetration=1.0)
         self.refused("bad_argument", self.faststrip.Contact, normal="norm", says="strip")
-        self.refused("bad_argument", self.faststrip.Contact, strips_per_patch=1)
+        self.refused("bad_argument", self.faststrip.Contact, strips_per_patch=-1)
         self.refused("bad_argument", contact.set_gap, self.y, self.y[1:], 0.0)
         self.refused("bad_argument", contact.set_gap, [self.y], self.y, 0.0)
         self.refused("not_increasing", contact.set_gap, -self.y, self.y, 0.0)
