@@ -15,6 +15,7 @@ module faststrip_app_bench
     use faststrip_app_bench_extremes, only: bench_extremes, extreme_parts
     use faststrip_app_bench_rolling, only: bench_rolling
     use faststrip_app_bench_forces, only: bench_forces
+    use faststrip_app_bench_scenes, only: bench_scenes
     use faststrip_app_bench_trade, only: bench_trade
     use faststrip_app_certify, only: run_certificate_study
     implicit none
@@ -52,7 +53,7 @@ contains
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
                      // ' (default reference/influence)'), &
-            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds, extremes: cases')]
+            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds; extremes, scenes: cases')]
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
@@ -108,6 +109,9 @@ contains
                                 given(command, '--quick'), folder, &
                                 option_text(command, '--references', 'reference/influence'), &
                                 option_text(command, '--scenes', 'example/scenes'))
+        case ('scenes')
+            call allow([character(len=name_length) :: '--scenes'])
+            call bench_scenes(file, option_text(command, '--scenes', 'example/scenes'))
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
@@ -139,7 +143,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(35) = [character(len=84) :: &
+        character(len=*), parameter :: lines(36) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -168,6 +172,7 @@ contains
             '15 and 31 strips and auto against 401.', &
             'certificate: how often estimated errors bound the true ones (minutes; with -o', &
             'the shares on stdout).', &
+            'scenes: the scenes of example/scenes by Hertz, strips, auto and Kalker''s methods.', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
             'contact and method. Columns of FILE: see reference/trade_methods.csv.', &
             'extremes: the errors of everything at its extremes: strips, ellipses, loads,', &

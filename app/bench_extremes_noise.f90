@@ -30,19 +30,17 @@ module faststrip_app_bench_extremes_noise
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_bench_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_app_case_file, only: case_t, read_case
+    use faststrip_app_case_file, only: case_t
+    use faststrip_app_example_scenes, only: scene_names, read_example_scene
     use faststrip_app_console, only: fail_on_error, progress
     use faststrip_app_methods, only: methods_t
-    use faststrip_app_scene, only: scene_t, make_scene
+    use faststrip_app_scene, only: scene_t
     use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
     implicit none
     private
 
     public :: contact_t, find_contacts, noise_extremes, rounding_extremes
 
-    character(len=*), parameter :: scene_names(10) = [character(len=20) :: 'tread_straight', &
-        'curve_flange_root', 'two_point_contact', 'worn_wheel', 'kink_r300_r80', 'freight_25t', &
-        'tram_small_wheel', 'polymer_roller', 'near_conformal', 'locomotive_traction']
     real(wp), parameter :: bench_mu = 0.3_wp
     ! The noise: the first stands for one unit in the last place.
     real(wp), parameter :: levels(5) = [epsilon(1.0_wp), 1.0e-13_wp, 1.0e-11_wp, 1.0e-9_wp, &
@@ -130,9 +128,7 @@ contains
             contacts(i)%creepage = cases(i)%creepage
         end do
         do i = 1, size(scene_names)
-            call read_case(scenes // '/' // trim(scene_names(i)) // '.nml', case)
-            call make_scene(case, case%shift, scene, status)
-            call fail_on_error(status, trim(scene_names(i)))
+            call read_example_scene(scenes, i, case, scene)
             associate (contact => contacts(size(cases) + i))
                 contact%name = scene_names(i)
                 contact%gap = scene%gap

@@ -35,6 +35,9 @@ module faststrip_app_bench_extremes_tangential
     ! A method that takes longer than this for one contact is tried at few points, us.
     real(wp), parameter :: slow = 2.0e4_wp
 
+    ! All but none.
+    integer, parameter :: n_tried = size(tangential_methods) - 1
+
 contains
 
     !> Measure and write.
@@ -44,9 +47,9 @@ contains
 
         integer :: method, i
 
-        do method = 1, size(tangential_methods)
+        do method = 1, n_tried
             do i = 1, size(poisson), merge(2, 1, quick)
-                call progress('tangential methods', method, size(tangential_methods))
+                call progress('tangential methods', method, n_tried)
                 call one_method(trim(tangential_methods(method)), poisson(i), quick, writer)
             end do
         end do

@@ -23,7 +23,8 @@ module faststrip_app_bench_forces
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_contact_methods, only: gives_stick, tangential_method, normal_hertz
-    use faststrip_app_methods, only: methods_t, all_methods => tangential_methods, word_length
+    use faststrip_app_methods, only: methods_t, &
+                                     all_methods => tangential_methods, n_force_laws, word_length
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal
     use faststrip_app_reference_gaps, only: reference_scene_t, make_reference_scene, scene_material
@@ -34,8 +35,8 @@ module faststrip_app_bench_forces
     public :: bench_forces
 
     ! Those the library knows: TANG, the last of the program's, is what others are judged by.
-    character(len=word_length), parameter :: tangential_methods(size(all_methods) - 1) = &
-        all_methods(:size(all_methods) - 1)
+    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
+        all_methods(:n_force_laws)
 
     !> Errors of one contact: Fx, Fy, force vector, Mz, power, stick fraction; in %.
     integer, parameter :: n_errors = 6

@@ -13,7 +13,8 @@ module faststrip_app_bench_tangential
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_methods, only: gives_elements, tangential_method
     use faststrip_contact_solve, only: reserve_contact_field
-    use faststrip_app_methods, only: methods_t, all_methods => tangential_methods, word_length
+    use faststrip_app_methods, only: methods_t, &
+                                     all_methods => tangential_methods, n_force_laws, word_length
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal
     use faststrip_app_tangential_stage, only: solve_tangential
@@ -23,8 +24,8 @@ module faststrip_app_bench_tangential
     public :: bench_tangential
 
     ! Those the library knows: TANG, the last of the program's, is what others are judged by.
-    character(len=word_length), parameter :: tangential_methods(size(all_methods) - 1) = &
-        all_methods(:size(all_methods) - 1)
+    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
+        all_methods(:n_force_laws)
 
     ! Strips across the largest patch and points along each.
     integer, parameter :: sizes(4) = [5, 15, 31, 61]

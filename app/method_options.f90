@@ -16,7 +16,7 @@ module faststrip_app_method_options
                  // new_line('a') // 'auto: both methods, the cheapest expected to do'), &
         option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
                  // ' faststrip-corrected,' // new_line('a') // 'fastsim, fastsim-elliptic,' &
-                 // ' fastsim-weighted, linear, she, polach, tang, none'), &
+                 // ' fastsim-weighted,' // new_line('a') // 'linear, she, polach, tang, none'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &

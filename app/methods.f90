@@ -10,7 +10,7 @@ module faststrip_app_methods
     private
 
     public :: methods_t, check_methods, most_strips, word_length, normal_methods, tangential_methods
-    public :: norm_starts, targets
+    public :: norm_starts, targets, n_force_laws
 
     !> Length of a method's name, characters.
     integer, parameter :: word_length = 24
@@ -23,10 +23,12 @@ module faststrip_app_methods
     !> corrected); FASTSIM on ellipses, with the parabolic bound and three flexibilities, the
     !> elliptic bound, or one flexibility; laws that know forces only;
     !> Kalker's variational method; none.
+    !> The first `n_force_laws` work on strips or ellipses.
     character(len=word_length), parameter :: tangential_methods(11) = &
         [character(len=word_length) :: 'faststrip', 'faststrip-paper', 'faststrip-corrected', &
          'fastsim', 'fastsim-elliptic', 'fastsim-weighted', 'linear', 'she', 'polach', 'tang', &
          'none']
+    integer, parameter :: n_force_laws = 9
     !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']

@@ -32,6 +32,7 @@ module faststrip_app_trade_cases
         real(wp) :: load = 0.0_wp             !! normal force, N
         type(creepage_t) :: creepage          !! about y = 0
         real(wp) :: truth(n_figures) = 0.0_wp !! as `figure_names`: mm, MPa, mm2, N, N, N mm
+        logical :: area_counts = .true.       !! is the area known better than to an element?
         type(indicators_t) :: indicators      !! what is told before solving
     end type trade_case_t
 
@@ -144,6 +145,7 @@ contains
             cases(i)%load = scene%load
             cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))
             cases(i)%truth = values(i, 5:10)
+            cases(i)%area_counts = .false.
             cases(i)%gap = scene%gap
             call tell(cases(i), status)
             if (is_error(status)) return

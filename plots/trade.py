@@ -85,8 +85,8 @@ def summarize(table):
         point |= {"us": float(np.median(us[solved])), "mean": float(worst.mean()),
                   "max": float(worst.max())}
         for f, name in enumerate(FIGURES):
-            point[f"mean_{name}"] = float(errors[f, solved].mean()) if f in known else ""
-            point[f"max_{name}"] = float(errors[f, solved].max()) if f in known else ""
+            point[f"mean_{name}"] = float(np.nanmean(errors[f, solved])) if f in known else ""
+            point[f"max_{name}"] = float(np.nanmax(errors[f, solved])) if f in known else ""
         points.append(point)
     if not points:
         raise InputError(f"no method has a result: {table.path}")

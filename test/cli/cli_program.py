@@ -14,7 +14,7 @@ BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 RESULT_COLUMNS = (
     "status,penetration_mm,area_mm2,pmax_MPa,ymin_mm,ymax_mm,xmax_mm,n_patches,Fx_N,Fy_N,"
     "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us,residual_inside,"
-    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,gap_change_um"
+    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,gap_change_um,choice"
 ).split(",")
 
 # What does not change from run to run and is no status.

@@ -82,7 +82,7 @@ class Usage(ProgramTest):
             (["contact", "case.nml", "-o"], "-o"),
             (["contact", "case.nml", "--normal", "guess"], "guess"),
             (["contact", "case.nml", "--tangential", "guess"], "guess"),
-            (["contact", "case.nml", "--strips-per-patch", "2"], "2"),
+            (["contact", "case.nml", "--strips-per-patch", "1001"], "1001"),
             (["contact", "case.nml", "--strips-per-patch", "many"], "many"),
             (["contact", "case.nml", "--strips-per-patch", "-3"], "-3"),
             (["contact", "case.nml", "--points-per-strip", "1001"], "1001"),

@@ -24,22 +24,22 @@ module faststrip_contact_choice_table
 
     !> To choose from for forces, by ascending time.
     type(contact_methods_t), parameter :: forces_methods(14) = [ &
-        contact_methods_t(normal_hertz, tangential_linear, &
-            strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
         contact_methods_t(normal_hertz, tangential_polach, &
+            strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
+        contact_methods_t(normal_hertz, tangential_linear, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
         contact_methods_t(normal_hertz, tangential_faststrip, &
             strips_per_patch=7, points_per_strip=8, fastsim_nx=50, fastsim_ny=50), &
         contact_methods_t(normal_hertz, tangential_fastsim, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=10, fastsim_ny=10), &
-        contact_methods_t(normal_hertz, tangential_fastsim, &
-            strips_per_patch=15, points_per_strip=15, fastsim_nx=20, fastsim_ny=20), &
         contact_methods_t(normal_hertz, tangential_faststrip, &
             strips_per_patch=15, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
-        contact_methods_t(normal_strip, tangential_linear, &
-            strips_per_patch=5, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
+        contact_methods_t(normal_hertz, tangential_fastsim, &
+            strips_per_patch=15, points_per_strip=15, fastsim_nx=20, fastsim_ny=20), &
         contact_methods_t(normal_strip, tangential_faststrip, &
             strips_per_patch=5, points_per_strip=8, fastsim_nx=50, fastsim_ny=50), &
+        contact_methods_t(normal_strip, tangential_linear, &
+            strips_per_patch=5, points_per_strip=15, fastsim_nx=50, fastsim_ny=50), &
         contact_methods_t(normal_strip, tangential_faststrip, &
             strips_per_patch=7, points_per_strip=8, fastsim_nx=50, fastsim_ny=50), &
         contact_methods_t(normal_strip, tangential_faststrip, &
@@ -54,44 +54,44 @@ module faststrip_contact_choice_table
             strips_per_patch=31, points_per_strip=30, fastsim_nx=50, fastsim_ny=50)]
     !> Error over mu N by bin of saturation and spin, and method.
     real(wp), parameter :: forces_base(10, 14) = reshape([ &
-        9.936e-03_wp, 1.048e-01_wp, 1.048e-01_wp, 2.808e-01_wp, 2.808e-01_wp, 2.397e-01_wp, &
-        1.019e+00_wp, 1.959e+00_wp, 1.406e+01_wp, 1.495e+01_wp, 3.634e-02_wp, 3.634e-02_wp, &
-        3.008e-02_wp, 1.707e-01_wp, 9.842e-02_wp, 1.707e-01_wp, 6.133e-02_wp, 4.195e-01_wp, &
-        2.603e-02_wp, 2.958e-01_wp, 6.742e-03_wp, 1.245e-02_wp, 1.245e-02_wp, 2.451e-02_wp, &
-        1.861e-02_wp, 2.451e-02_wp, 5.355e-03_wp, 4.805e-02_wp, 4.490e-04_wp, 4.535e-02_wp, &
+        3.634e-02_wp, 3.634e-02_wp, 3.008e-02_wp, 1.707e-01_wp, 9.842e-02_wp, 1.707e-01_wp, &
+        6.133e-02_wp, 4.195e-01_wp, 2.603e-02_wp, 2.958e-01_wp, 9.936e-03_wp, 1.048e-01_wp, &
+        1.048e-01_wp, 2.808e-01_wp, 2.808e-01_wp, 2.397e-01_wp, 1.019e+00_wp, 1.959e+00_wp, &
+        1.406e+01_wp, 1.495e+01_wp, 6.799e-03_wp, 1.262e-02_wp, 1.262e-02_wp, 2.632e-02_wp, &
+        1.895e-02_wp, 2.632e-02_wp, 5.188e-03_wp, 4.808e-02_wp, 4.490e-04_wp, 4.534e-02_wp, &
         3.577e-03_wp, 5.654e-03_wp, 5.654e-03_wp, 7.432e-02_wp, 3.262e-02_wp, 7.432e-02_wp, &
-        4.454e-02_wp, 1.190e-01_wp, 3.911e-04_wp, 1.500e-01_wp, 8.085e-04_wp, 7.377e-03_wp, &
-        7.377e-03_wp, 7.228e-02_wp, 3.490e-02_wp, 7.228e-02_wp, 4.677e-02_wp, 9.598e-02_wp, &
-        2.978e-04_wp, 1.152e-01_wp, 3.187e-03_wp, 1.042e-02_wp, 1.042e-02_wp, 2.769e-02_wp, &
-        1.676e-02_wp, 2.769e-02_wp, 9.578e-03_wp, 2.991e-02_wp, 4.490e-04_wp, 9.952e-03_wp, &
-        1.194e-02_wp, 2.062e-01_wp, 1.029e-01_wp, 2.062e-01_wp, 4.575e-01_wp, 3.652e-01_wp, &
-        1.029e+00_wp, 2.067e+00_wp, 1.750e+01_wp, 1.485e+01_wp, 1.076e-02_wp, 1.577e-02_wp, &
-        1.577e-02_wp, 1.437e-02_wp, 1.737e-02_wp, 2.763e-02_wp, 5.255e-02_wp, 7.865e-02_wp, &
-        5.084e-02_wp, 1.085e-01_wp, 1.031e-02_wp, 1.552e-02_wp, 1.479e-02_wp, 1.552e-02_wp, &
-        1.714e-02_wp, 2.855e-02_wp, 4.879e-02_wp, 3.929e-02_wp, 3.297e-02_wp, 6.848e-02_wp, &
-        7.439e-03_wp, 1.729e-02_wp, 1.729e-02_wp, 1.565e-02_wp, 1.579e-02_wp, 2.749e-02_wp, &
-        5.100e-02_wp, 3.451e-02_wp, 2.662e-02_wp, 4.012e-02_wp, 5.739e-03_wp, 1.719e-02_wp, &
-        1.719e-02_wp, 1.571e-02_wp, 1.485e-02_wp, 2.787e-02_wp, 5.222e-02_wp, 3.207e-02_wp, &
-        1.993e-02_wp, 3.422e-02_wp, 3.347e-03_wp, 1.534e-02_wp, 1.534e-02_wp, 1.516e-02_wp, &
-        1.491e-02_wp, 2.983e-02_wp, 5.221e-02_wp, 2.893e-02_wp, 1.106e-02_wp, 1.950e-02_wp, &
-        2.590e-03_wp, 1.492e-02_wp, 1.492e-02_wp, 1.491e-02_wp, 1.458e-02_wp, 3.025e-02_wp, &
-        5.209e-02_wp, 2.812e-02_wp, 9.095e-03_wp, 1.588e-02_wp, 3.132e-03_wp, 1.500e-02_wp, &
-        1.500e-02_wp, 1.451e-02_wp, 1.422e-02_wp, 3.096e-02_wp, 5.159e-02_wp, 2.611e-02_wp, &
-        8.405e-02_wp, 1.713e-02_wp], [10, 14])
+        4.454e-02_wp, 1.190e-01_wp, 3.911e-04_wp, 1.500e-01_wp, 3.207e-03_wp, 1.061e-02_wp, &
+        1.061e-02_wp, 2.714e-02_wp, 1.705e-02_wp, 2.714e-02_wp, 9.115e-03_wp, 2.976e-02_wp, &
+        4.490e-04_wp, 9.900e-03_wp, 8.085e-04_wp, 7.377e-03_wp, 7.377e-03_wp, 7.228e-02_wp, &
+        3.490e-02_wp, 7.228e-02_wp, 4.677e-02_wp, 9.598e-02_wp, 2.978e-04_wp, 1.152e-01_wp, &
+        1.083e-02_wp, 1.606e-02_wp, 1.606e-02_wp, 1.460e-02_wp, 1.750e-02_wp, 2.782e-02_wp, &
+        5.159e-02_wp, 7.880e-02_wp, 5.104e-02_wp, 1.085e-01_wp, 1.194e-02_wp, 2.062e-01_wp, &
+        1.029e-01_wp, 2.062e-01_wp, 4.575e-01_wp, 3.652e-01_wp, 1.029e+00_wp, 2.067e+00_wp, &
+        1.750e+01_wp, 1.485e+01_wp, 1.037e-02_wp, 1.545e-02_wp, 1.502e-02_wp, 1.545e-02_wp, &
+        1.723e-02_wp, 2.826e-02_wp, 4.743e-02_wp, 3.934e-02_wp, 3.342e-02_wp, 6.847e-02_wp, &
+        7.483e-03_wp, 1.701e-02_wp, 1.701e-02_wp, 1.558e-02_wp, 1.589e-02_wp, 2.723e-02_wp, &
+        5.013e-02_wp, 3.476e-02_wp, 2.696e-02_wp, 4.009e-02_wp, 5.741e-03_wp, 1.733e-02_wp, &
+        1.733e-02_wp, 1.564e-02_wp, 1.489e-02_wp, 2.735e-02_wp, 5.050e-02_wp, 3.166e-02_wp, &
+        2.011e-02_wp, 3.425e-02_wp, 3.365e-03_wp, 1.549e-02_wp, 1.549e-02_wp, 1.518e-02_wp, &
+        1.493e-02_wp, 2.928e-02_wp, 5.118e-02_wp, 2.891e-02_wp, 1.131e-02_wp, 1.932e-02_wp, &
+        2.525e-03_wp, 1.509e-02_wp, 1.509e-02_wp, 1.492e-02_wp, 1.492e-02_wp, 2.971e-02_wp, &
+        5.081e-02_wp, 2.801e-02_wp, 8.948e-03_wp, 1.602e-02_wp, 3.061e-03_wp, 1.516e-02_wp, &
+        1.516e-02_wp, 1.454e-02_wp, 1.458e-02_wp, 3.043e-02_wp, 5.040e-02_wp, 2.597e-02_wp, &
+        8.791e-02_wp, 1.693e-02_wp], [10, 14])
     !> Error by bin of misfit, and method.
     real(wp), parameter :: forces_excess(5, 14) = reshape([ &
-        0.000e+00_wp, 8.500e-02_wp, 1.558e-01_wp, 6.860e-01_wp, 1.138e+00_wp, 0.000e+00_wp, &
-        0.000e+00_wp, 2.674e-01_wp, 5.958e-01_wp, 5.958e-01_wp, 0.000e+00_wp, 7.615e-03_wp, &
-        4.126e-01_wp, 6.485e-01_wp, 6.485e-01_wp, 0.000e+00_wp, 2.737e-03_wp, 3.658e-01_wp, &
-        6.394e-01_wp, 6.394e-01_wp, 0.000e+00_wp, 7.520e-03_wp, 3.671e-01_wp, 6.361e-01_wp, &
-        6.361e-01_wp, 0.000e+00_wp, 1.042e-02_wp, 4.110e-01_wp, 6.481e-01_wp, 6.481e-01_wp, &
-        0.000e+00_wp, 0.000e+00_wp, 0.000e+00_wp, 0.000e+00_wp, 1.990e-01_wp, 0.000e+00_wp, &
-        0.000e+00_wp, 0.000e+00_wp, 1.054e-02_wp, 1.054e-02_wp, 0.000e+00_wp, 0.000e+00_wp, &
-        0.000e+00_wp, 8.990e-03_wp, 8.990e-03_wp, 5.700e-04_wp, 5.700e-04_wp, 5.700e-04_wp, &
-        5.700e-04_wp, 5.700e-04_wp, 5.400e-04_wp, 5.400e-04_wp, 5.400e-04_wp, 5.400e-04_wp, &
-        5.400e-04_wp, 0.000e+00_wp, 6.440e-03_wp, 6.440e-03_wp, 6.440e-03_wp, 6.440e-03_wp, &
-        0.000e+00_wp, 9.540e-03_wp, 9.540e-03_wp, 9.540e-03_wp, 9.540e-03_wp, 0.000e+00_wp, &
-        1.288e-02_wp, 1.288e-02_wp, 1.288e-02_wp, 1.288e-02_wp], [5, 14])
+        0.000e+00_wp, 0.000e+00_wp, 2.674e-01_wp, 5.958e-01_wp, 5.958e-01_wp, 0.000e+00_wp, &
+        8.500e-02_wp, 1.558e-01_wp, 6.860e-01_wp, 1.138e+00_wp, 0.000e+00_wp, 8.062e-03_wp, &
+        4.108e-01_wp, 6.487e-01_wp, 6.487e-01_wp, 0.000e+00_wp, 2.737e-03_wp, 3.658e-01_wp, &
+        6.394e-01_wp, 6.394e-01_wp, 0.000e+00_wp, 1.034e-02_wp, 4.116e-01_wp, 6.483e-01_wp, &
+        6.483e-01_wp, 0.000e+00_wp, 7.520e-03_wp, 3.671e-01_wp, 6.361e-01_wp, 6.361e-01_wp, &
+        0.000e+00_wp, 0.000e+00_wp, 0.000e+00_wp, 1.041e-02_wp, 1.041e-02_wp, 0.000e+00_wp, &
+        0.000e+00_wp, 0.000e+00_wp, 0.000e+00_wp, 1.990e-01_wp, 0.000e+00_wp, 0.000e+00_wp, &
+        0.000e+00_wp, 8.990e-03_wp, 8.990e-03_wp, 3.300e-04_wp, 3.300e-04_wp, 3.300e-04_wp, &
+        3.300e-04_wp, 3.300e-04_wp, 6.700e-04_wp, 6.700e-04_wp, 6.700e-04_wp, 6.700e-04_wp, &
+        6.700e-04_wp, 0.000e+00_wp, 6.040e-03_wp, 6.040e-03_wp, 6.040e-03_wp, 6.040e-03_wp, &
+        0.000e+00_wp, 9.240e-03_wp, 9.240e-03_wp, 9.240e-03_wp, 9.240e-03_wp, 0.000e+00_wp, &
+        1.262e-02_wp, 1.262e-02_wp, 1.262e-02_wp, 1.262e-02_wp], [5, 14])
 
     !> To choose from for pmax, by ascending time.
     type(contact_methods_t), parameter :: pmax_methods(9) = [ &

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Draw and tabulate how far each method is from Kalker's on the scenes of example/scenes."""
+
+import csv
+import io
+import math
+import os
+import sys
+
+import numpy as np
+
+from faststrip_plots import command
+from faststrip_plots.document import write_text
+from faststrip_plots.results import RESULTS, revision
+from faststrip_plots.style import legend_above, new_figure, save, title
+from faststrip_plots.tables import InputError, read_table
+
+REFERENCE = "Kalker"
+# the words that say which rows of a legend belong together come from the file
+COLOURS = ("#c9a227", "#f08519", "#0b3c78", "#2f7d32", "#a8326e")
+MARKERS = ("x", "s", "o", "D", "^")
+PANELS = (("pmax", "largest pressure"), ("forces", "forces, in mu N"))
+LEAST = 1e-3  # %, what is drawn for less
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--scenes", default="out/scenes.csv", metavar="CSV",
+                        help="what `faststrip bench scenes` wrote")
+    parser.add_argument("--folder", default="out/scenes", metavar="FOLDER",
+                        help="picture and tables go there")
+    options = parser.parse_args(arguments)
+    table = read_table(options.scenes, ("scene", "method", "status", "N_N", "mu", "pmax_MPa",
+                                        "Fx_N", "Fy_N", "normal_us", "tangential_us", "choice"))
+    rows = errors(table)
+    os.makedirs(options.folder, exist_ok=True)
+    draw(rows, os.path.join(options.folder, "scenes.png"), revision(table))
+    write_rows(options.folder, "scenes_table.csv", tuple(rows[0]), [tuple(r.values()) for r in rows])
+    choices = [(s, c) for s, m, c in zip(*(table.words(n) for n in ("scene", "method", "choice")))
+               if m.startswith("auto")]
+    write_rows(options.folder, "scenes_choice.csv", ("scene", "choice"), choices)
+    header = ("file", "title", "caption", "chapter")
+    write_rows(options.folder, "figures.csv", header, [
+        ("scenes.png", "Scenes", "Distance of each method from Kalker's on ten scenes; what is"
+         " left out has no result.", "scenes")])
+    write_rows(options.folder, "tables.csv", header, [
+        ("scenes_table.csv", "Scenes by method", "Errors in % of Kalker's largest pressure and of"
+         " mu N; times in microseconds.", "scenes"),
+        ("scenes_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
+
+
+def errors(table):
+    """One row a scene and method, the reference's first."""
+    names = ("pmax_MPa", "Fx_N", "Fy_N", "N_N", "mu", "normal_us", "tangential_us")
+    number = {name: table.numbers(name, missing=True) for name in names}
+    scene, method, status = (table.words(name) for name in ("scene", "method", "status"))
+    reference = {s: k for k, (s, m) in enumerate(zip(scene, method)) if m == REFERENCE}
+    rows = []
+    for k, (s, m) in enumerate(zip(scene, method)):
+        if s not in reference:
+            raise InputError(f"no row {REFERENCE} for {s}: {table.path}")
+        r = reference[s]
+        row = {"scene": s, "method": m, "status": status[k], "us": "", "pmax": "", "forces": ""}
+        if status[k] in RESULTS:
+            row["us"] = float(np.nansum([number["normal_us"][k], number["tangential_us"][k]]))
+        if m != REFERENCE and status[k] in RESULTS and status[r] in RESULTS:
+            row["pmax"] = 100 * abs(number["pmax_MPa"][k] / number["pmax_MPa"][r] - 1)
+            force = math.hypot(number["Fx_N"][k] - number["Fx_N"][r],
+                               number["Fy_N"][k] - number["Fy_N"][r])
+            if not math.isnan(force):
+                row["forces"] = 100 * force / (number["mu"][r] * number["N_N"][r])
+        rows.append(row)
+    return rows
+
+
+def draw(rows, path, stamp):
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    methods = [m for m in dict.fromkeys(row["method"] for row in rows) if m != REFERENCE]
+    figure = new_figure(11.5, 5.2)
+    panels = figure.subplots(1, 2, sharey=True)
+    for axes, (figure_name, words) in zip(panels, PANELS):
+        for k, method in enumerate(methods):
+            own = [(row[figure_name], scenes.index(row["scene"])) for row in rows
+                   if row["method"] == method and row[figure_name] != ""]
+            axes.plot([max(value, LEAST) for value, _ in own],
+                      [place + 0.14 * (k - 0.5 * (len(methods) - 1)) for _, place in own],
+                      linestyle="none", marker=MARKERS[k % 5], color=COLOURS[k % 5],
+                      markersize=6.5, label=method)
+        axes.set_xscale("log")
+        axes.set_xlabel("error in %")
+        axes.set_yticks(range(len(scenes)), [name.replace("_", " ") for name in scenes])
+        axes.set_ylim(len(scenes) - 0.5, -0.5)
+        axes.axvline(2.0, color="#888888", linewidth=0.9, linestyle=(0, (4, 3)))
+        title(axes, words)
+    legend_above(figure, *panels)
+    save(figure, path, [stamp], "dashed: 2 %, what auto was asked for the forces")
+
+
+def write_rows(folder, name, header, rows):
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    write_text(os.path.join(folder, name), stream.getvalue())
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))
