@@ -53,7 +53,8 @@ contains
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
                      // ' (default reference/influence)'), &
-            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds; extremes, scenes: cases')]
+            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
+                     // ' extremes, scenes: cases')]
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')

@@ -9,8 +9,8 @@ module faststrip_app_bench_trade
     use faststrip_status, only: status_t, is_error, status_word
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
-                             cell_integer, cell_number, open_csv, put_comment, put_header, put_cell, end_row, &
-                             close_csv
+                             cell_integer, cell_number, open_csv, put_comment, put_header, &
+                             put_cell, end_row, close_csv
     use faststrip_app_clock, only: median
     use faststrip_app_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_app_methods, only: methods_t, check_methods
@@ -72,8 +72,8 @@ contains
             call progress('methods', i, size(entries))
             if (quick .and. entries(i)%when /= 'always') cycle
             call run_entry(writer, entries(i), wheelset(:: merge(5, 1, quick)))
-            ! Kalker's methods and very many strips take too long for all; normal methods are exact, or nearly, on all
-            ! ellipses of the same proportions.
+            ! Kalker's methods and very many strips take too long for all; normal methods are
+            ! exact, or nearly, on all ellipses of the same proportions.
             call run_entry(writer, entries(i), hertz(:: thinning(entries(i), 20)))
             call run_entry(writer, entries(i), scenes(:: thinning(entries(i), 48)))
         end do

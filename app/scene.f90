@@ -101,8 +101,9 @@ contains
         integer :: i
 
         call put_origin(writer)
-        if (smoothing_um > 0.0_wp) call put_comment(writer, 'smoothed for a noise of ' &
-                                                    // trim(number_text(smoothing_um)) // ' um, rms')
+        if (smoothing_um > 0.0_wp) &
+            call put_comment(writer, 'smoothed for a noise of ' // &
+                             trim(number_text(smoothing_um)) // ' um, rms')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, size(gap%y)
             call put_cell(writer, gap%y(i))

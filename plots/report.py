@@ -14,6 +14,9 @@ from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 from faststrip_plots.verdicts import CHAPTERS, judge, read_manifest
 
+# Pictures and tables of commands that announce none themselves.
+LIST = "reference/report_figures.csv"
+
 # Chapters after the verdicts, with what introduces them; pictures and tables say where they go.
 CHAPTER_TEXTS = {
     "paper": ("The paper, redone", "Ours as lines, CONTACT and the paper's tables as symbols."),
@@ -160,30 +163,52 @@ def verdict_csv(verdicts):
 
 
 def read_pictures(folder):
-    """All pictures that a `figures.csv` (file,title,caption,chapter) beside them announces."""
-    return announced(os.path.join(folder, "figures"), "figures.csv")
+    """All pictures that a `figures.csv` (file,title,caption,chapter) beside them announces, and
+    those of LIST that were made."""
+    return announced(os.path.join(folder, "figures"), "figures.csv") + from_list(folder, ".png")
 
 
 def read_tables(folder):
     """All CSV files that a `tables.csv` of the same columns announces as tables to print."""
-    return announced(os.path.join(folder, "data"), "tables.csv") + announced(
-        os.path.join(folder, "figures"), "tables.csv"
-    )
+    return [
+        *announced(os.path.join(folder, "data"), "tables.csv"),
+        *announced(os.path.join(folder, "figures"), "tables.csv"),
+        *from_list(folder, ".csv"),
+    ]
+
+
+def from_list(folder, ending):
+    """The entries of LIST with an ending, as far as the files were made."""
+    if not os.path.exists(LIST):
+        return []
+    entries = listed(LIST, os.path.join(folder, "figures"), must_be_there=False)
+    return [entry for entry in entries if entry["file"].endswith(ending)]
 
 
 def announced(folder, name):
     found = []
     pattern = os.path.join(glob.escape(folder), "**", name)
     for path in sorted(glob.glob(pattern, recursive=True)):
-        table = read_table(path, ("file", "title", "caption", "chapter"))
-        for k, line in enumerate(table.lines):
-            entry = {key: table.words(key)[k] for key in ("file", "title", "caption", "chapter")}
-            entry["path"] = os.path.join(os.path.dirname(path), entry["file"])
-            if entry["chapter"] not in CHAPTER_TEXTS:
-                raise InputError(f"no such chapter: {entry['chapter']} ({path}:{line})")
-            if not os.path.exists(entry["path"]):
-                raise InputError(f"no such file: {entry['path']} ({path}:{line})")
+        found += listed(path, os.path.dirname(path), must_be_there=True)
+    return found
+
+
+def listed(path, folder, must_be_there):
+    """The entries of one list; files are named as seen from a folder."""
+    found = []
+    names = ("file", "title", "caption", "chapter")
+    table = read_table(path, names)
+    for k, line in enumerate(table.lines):
+        entry = {name: table.words(name)[k] for name in names}
+        entry["path"] = entry["file"]
+        if not entry["file"].startswith("reference/"):
+            entry["path"] = os.path.join(folder, entry["file"])
+        if entry["chapter"] not in CHAPTER_TEXTS:
+            raise InputError(f"no such chapter: {entry['chapter']} ({path}:{line})")
+        if os.path.exists(entry["path"]):
             found.append(entry)
+        elif must_be_there:
+            raise InputError(f"no such file: {entry['path']} ({path}:{line})")
     return found
 
 

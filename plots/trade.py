@@ -21,13 +21,17 @@ STAGES = {
     "both": ("Both together", "Fx and Fy in µN, Mz in µNc"),
 }
 TARGETS = (0.1, 0.03, 0.01, 0.003, 0.001)
-# colour and marker by the first word of a method's name; lighter ones are the simpler models
-LOOKS = {
-    "Hertz": ("#f08519", "s"), "equal-area": ("#b8870b", "D"), "strips": ("#0b3c78", "o"),
-    "FASTSTRIP": ("#0b3c78", "o"), "FASTSIM": ("#a8326e", "^"), "NORM": ("#2f7d32", "v"),
-    "TANG": ("#2f7d32", "v"),
+# families of methods: colour, marker, and the words a name of theirs may begin with
+FAMILIES = {
+    "laws: linear, SHE, Polach": ("#8a8a8a", "X", ("linear", "SHE", "Polach")),
+    "Hertz": ("#f08519", "s", ("Hertz",)),
+    "ellipses of the strips": ("#b8870b", "D", ("equal-area",)),
+    "FASTSIM": ("#a8326e", "^", ("FASTSIM",)),
+    "FASTSTRIP as printed, corrected": ("#5f4ba8", "P", ("FASTSTRIP-",)),
+    "strips": ("#0b3c78", "o", ("strips", "FASTSTRIP")),
+    "Kalker's NORM, TANG": ("#2f7d32", "v", ("NORM", "TANG")),
 }
-OTHER = ("#6b6b6b", "P")
+MOST = 2.0  # larger errors are drawn at the upper edge
 
 
 def main(arguments=None):
@@ -127,8 +131,12 @@ def cheapest(points, error, target):
     return f"{best['method']}, {best['us']:.3g} µs"
 
 
-def look(method):
-    return LOOKS.get(method.split()[0], OTHER)
+def family(method):
+    """The family of a method by its name."""
+    for name, (_, _, words) in FAMILIES.items():
+        if method.startswith(words):
+            return name
+    raise InputError(f"a method of no known family: {method}")
 
 
 def draw(points, heading, path, stamp):
@@ -137,34 +145,38 @@ def draw(points, heading, path, stamp):
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, error, words in zip(panels, ("mean", "max"), ("mean error", "largest error")):
         best = front(points, error)
-        axes.plot([p["us"] for p in best], [100 * p[error] for p in best], color="#333333",
-                  linewidth=1.0, zorder=1, label="no other is better in both")
-        for family in dict.fromkeys(p["method"].split()[0] for p in points):
-            own = [p for p in points if p["method"].split()[0] == family]
-            colour, marker = look(family)
-            axes.plot([p["us"] for p in own], [100 * p[error] for p in own], linestyle="none",
-                      marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
-                      label=family)
-        for number, point in enumerate(best):
+        axes.plot([p["us"] for p in best], [100 * min(p[error], MOST) for p in best],
+                  color="#333333", linewidth=1.0, zorder=1, label="no other is better in both")
+        for name, (colour, marker, _) in FAMILIES.items():
+            own = [p for p in points if family(p["method"]) == name]
+            if own:
+                axes.plot([p["us"] for p in own], [100 * min(p[error], MOST) for p in own],
+                          linestyle="none", marker=marker, markersize=6.5, color=colour,
+                          markeredgecolor="white", label=name)
+        for number, point in enumerate(p for p in best if p[error] < MOST):
             axes.annotate(shorter(point["method"]), (point["us"], 100 * point[error]),
-                          xytext=(5, 5 if number % 2 else -12), textcoords="offset points",
+                          xytext=(4, 6 if number % 2 else -12), textcoords="offset points",
                           fontsize=7.5, color="#333333")
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("time per contact in µs")
         axes.set_ylabel("error in %")
         title(axes, f"{heading}: {words}")
-        axes.margins(0.12)
+        axes.margins(0.14)
     legend_above(figure, *panels)
-    save(figure, path, [stamp])
+    note = ""
+    if any(p["max"] >= MOST for p in points):
+        note = f"errors above {100 * MOST:.0f} % are drawn there"
+    save(figure, path, [stamp], note)
 
 
 def shorter(name):
     """A method's name without the words every label would repeat."""
-    for word in ("strips + FASTSTRIP ", "FASTSTRIP ", "FASTSIM ", "strips "):
+    for word in ("strips + FASTSTRIP ", "FASTSTRIP ", "FASTSIM ", "strips ", "NORM + TANG ",
+                 "NORM ", "TANG "):
         if name.startswith(word):
             return name[len(word):]
-    return name
+    return name.replace("Hertz + ", "H + ")
 
 
 def write_rows(path, header, rows):

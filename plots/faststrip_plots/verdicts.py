@@ -5,7 +5,7 @@ Columns of the manifest:
 - `id`, `chapter`: a name, and `verification` (exact solutions) or `validation` (other codes);
 - `case`, `method`: which rows of the value file count, `column=value` parts joined by `;`;
 - `quantity`: the column of the value file;
-- `value_file`: a CSV file of the report's data folder;
+- `value_file`: a CSV file of the report's data folder, or of `reference/`;
 - `reference_file`: empty, or a number, or `FILE#COLUMN@KEY`, the row being found by a key column
   that both files have (FILE as seen from where the command runs);
 - `metric`: how rows become one number: `mean`, `max`, `min`, `median` or `rms`, an underscore, and
@@ -78,7 +78,9 @@ def read_manifest(path: str) -> list[dict]:
 
 def judge(row: dict, folder: str) -> Verdict:
     """Compare what one row of the manifest asks for."""
-    path = os.path.join(folder, row["value_file"])
+    path = row["value_file"]
+    if not path.startswith("reference/"):
+        path = os.path.join(folder, path)
     if not os.path.exists(path):
         return Verdict(row, math.nan, 0, "missing", f"no file {row['value_file']}")
     table = read_table(path, [row["quantity"]])
