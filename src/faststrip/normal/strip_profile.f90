@@ -50,19 +50,61 @@ contains
     end function profile_integral
 
     !> Largest value of a quantity known at the middles of a patch's strips.
+    !>
+    !> From one middle to the next the square goes over from the parabola of the one strip to that
+    !> of the other, so that the peak does not jump where another strip becomes the largest.
     pure real(wp) function profile_peak(left, right, value) result(peak)
         real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
         real(wp), intent(in) :: right(:) !! right edges, (n), mm
         real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
 
-        real(wp) :: q0, slope, bend
-        integer :: k
+        real(wp) :: q0, slope, bend, next_q0, next_bend, distance, s, largest
+        integer :: k, n
 
-        k = maxloc(value, dim=1)
-        peak = value(k)
-        call parabola(left, right, value, k, q0, slope, bend)
-        if (bend < 0.0_wp) peak = sqrt(q0 - slope**2/(4.0_wp*bend))
+        n = size(value)
+        largest = maxval(value)**2
+        call parabola(left, right, value, 1, q0, slope, bend)
+        if (slope < 0.0_wp .and. bend < 0.0_wp) then
+            s = max(-0.5_wp*slope/bend, left(1) - 0.5_wp*(left(1) + right(1)))
+            largest = max(largest, q0 + s*(slope + s*bend))
+        end if
+        do k = 1, n - 1
+            call parabola(left, right, value, k + 1, next_q0, slope, next_bend)
+            distance = 0.5_wp*(left(k + 1) - left(k) + right(k + 1) - right(k))
+            largest = max(largest, peak_between(q0, next_q0, bend*distance**2, &
+                                                next_bend*distance**2))
+            q0 = next_q0
+            bend = next_bend
+        end do
+        if (slope > 0.0_wp .and. bend < 0.0_wp) then
+            s = min(-0.5_wp*slope/bend, right(n) - 0.5_wp*(left(n) + right(n)))
+            largest = max(largest, q0 + s*(slope + s*bend))
+        end if
+        peak = sqrt(largest)
     end function profile_peak
+
+    !> Largest value on 0 <= t <= 1 of `q0 + (q1 - q0) t + t (t - 1) (b0 + (b1 - b0) t)`.
+    pure real(wp) function peak_between(q0, q1, b0, b1) result(peak)
+        real(wp), intent(in) :: q0, q1, b0, b1
+
+        real(wp) :: a, b, c, discriminant, t
+
+        peak = max(q0, q1)
+        ! The slope a t^2 + 2 b t + c falls through zero at the maximum.
+        a = 3.0_wp*(b1 - b0)
+        b = 2.0_wp*b0 - b1
+        c = q1 - q0 - b0
+        discriminant = b*b - a*c
+        if (discriminant <= 0.0_wp) return
+        if (b > 0.0_wp) then
+            if (-a < b + sqrt(discriminant)) return
+            t = (b + sqrt(discriminant))/(-a)
+        else
+            if (c <= 0.0_wp .or. c > sqrt(discriminant) - b) return
+            t = c/(sqrt(discriminant) - b)
+        end if
+        peak = max(peak, q0 + t*(q1 - q0 + (t - 1.0_wp)*(b0 + (b1 - b0)*t)))
+    end function peak_between
 
     !> The parabola `q0 + slope s + bend s^2` of a square about the middle of strip k.
     pure subroutine parabola(left, right, value, k, q0, slope, bend)
