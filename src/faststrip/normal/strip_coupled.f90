@@ -124,8 +124,8 @@ contains
                 if (.not. in_order(workspace, patches)) return
                 call place_edges(workspace, patches)
                 call mark_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
-                                         workspace%p0(:n), workspace%half_length(:n), &
-                                         workspace%leaves(:n))
+                                         workspace%inv2r(:n), workspace%p0(:n), &
+                                         workspace%half_length(:n), workspace%leaves(:n))
                 if (any(workspace%leaves(:n))) return
                 if (scale < 1.0_wp .or. updates == most_updates) then
                     workspace%newton%kept = .false.

@@ -108,7 +108,8 @@ contains
         do j = 1, 3
             associate (i => k + (j - 1)*stride*inward)
                 y(j) = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))/width
-                q(j) = (workspace%half_length(i)/workspace%half_length(k))**2
+                q(j) = (workspace%half_length(i)/workspace%half_length(k))**2 &
+                       *(workspace%inv2r(i)/workspace%inv2r(k))
             end associate
         end do
         ! q(s) = 1 + b s + bend s^2 with s from the end strip's middle outwards.
@@ -215,7 +216,7 @@ contains
         real(wp), intent(in) :: penetration          !! above the lowest height, mm
         type(contact_strips_t), intent(in) :: strips !! a solution
 
-        real(wp), parameter :: beside(4) = [0.6_wp, 1.0_wp, 1.5_wp, 2.2_wp] ! widths from an end
+        real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp] ! widths from an end
         real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
         real(wp) :: depth, width
         integer :: j, k

@@ -177,18 +177,22 @@ contains
     end subroutine start_residual
 
     !> Mark strips without pressure and strips that have become too short beside a neighbour.
-    pure subroutine mark_leaving_strips(y_left, y_right, p0, half_length, leaves)
+    !> Lengths are compared over 1/sqrt(A): where the bodies are flat along x strips are long.
+    pure subroutine mark_leaving_strips(y_left, y_right, inv2r, p0, half_length, leaves)
         real(wp), intent(in) :: y_left(:), y_right(:) !! edges, (n), mm
+        real(wp), intent(in) :: inv2r(:)              !! A on the centre lines, (n), 1/mm
         real(wp), intent(in) :: p0(:), half_length(:) !! pressures, MPa, and lengths, mm, (n)
         logical, intent(out) :: leaves(:)             !! strips that leave the contact, (n)
 
+        real(wp) :: ratio
         integer :: k
 
         leaves = p0 <= 0.0_wp
         do k = 1, size(p0) - 1
             if (y_right(k) < y_left(k + 1)) cycle ! two patches
-            if (half_length(k) < leaving_length_ratio*half_length(k + 1)) leaves(k) = .true.
-            if (half_length(k + 1) < leaving_length_ratio*half_length(k)) leaves(k + 1) = .true.
+            ratio = half_length(k)/half_length(k + 1)*sqrt(inv2r(k)/inv2r(k + 1))
+            if (ratio < leaving_length_ratio) leaves(k) = .true.
+            if (1.0_wp < leaving_length_ratio*ratio) leaves(k + 1) = .true.
         end do
     end subroutine mark_leaving_strips
 end module faststrip_normal_strip_equations

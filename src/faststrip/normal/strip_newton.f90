@@ -131,7 +131,7 @@ contains
                 penetration = depth*(1.0_wp + limit*last(2*n + 1))
                 largest = maxval(abs(last))
                 if (iteration >= 2 .or. largest <= tolerance) then
-                    call mark_leaving_strips(y_left, y_right, p0, half_length, leaves)
+                    call mark_leaving_strips(y_left, y_right, inv2r, p0, half_length, leaves)
                     ! Far from the solution only ends are sure to leave.
                     if (largest > splitting_step .and. iteration < sure_iteration) &
                         call keep_inner_strips(y_left, y_right, leaves)

@@ -174,7 +174,8 @@ contains
                                         - middle)/half
                 ellipse = sqrt(1.0_wp - workspace%old_eta(i)**2)
                 workspace%old_p0(i) = workspace%p0(i)/ellipse
-                workspace%old_half_length(i) = workspace%half_length(i)/ellipse
+                workspace%old_half_length(i) = workspace%half_length(i)*sqrt(workspace%inv2r(i)) &
+                                               /ellipse
             end do
         end do
         patches%at%seed_length = 0.0_wp
@@ -200,7 +201,8 @@ contains
         workspace%p0(i) = ellipse*between(workspace%old_eta(k:k + 2), workspace%old_p0(k:k + 2), &
                                           eta_old)
         workspace%half_length(i) = ellipse*between(workspace%old_eta(k:k + 2), &
-                                                   workspace%old_half_length(k:k + 2), eta_old)
+                                                   workspace%old_half_length(k:k + 2), eta_old) &
+                                   /sqrt(workspace%inv2r(i))
     end subroutine start_from_old
 
     !> The parabola through three points, not beyond them by more than they differ.
