@@ -9,6 +9,7 @@ module faststrip_app_bench
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_reference, only: bench_reference, bench_reference_most_elements
     use faststrip_app_bench_accuracy, only: bench_accuracy
+    use faststrip_app_bench_kalker, only: bench_kalker
     use faststrip_app_bench_tangential, only: bench_tangential
     use faststrip_app_bench_robust, only: bench_robust
     use faststrip_app_bench_convergence, only: bench_convergence
@@ -48,7 +49,7 @@ contains
                      // ' elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)'), &
-            option_t('--quick', '', 'trade, extremes: few methods, few contacts'), &
+            option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
@@ -93,6 +94,9 @@ contains
         case ('rolling')
             call allow([character(len=name_length) :: '--contacts'])
             call bench_rolling(file, folder)
+        case ('kalker')
+            call allow([character(len=name_length) :: '--contacts', '--quick'])
+            call bench_kalker(file, folder, given(command, '--quick'))
         case ('robust')
             call allow([character(len=name_length) :: '--contacts'])
             call bench_robust(file, folder)
@@ -144,7 +148,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(36) = [character(len=84) :: &
+        character(len=*), parameter :: lines(38) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -157,7 +161,7 @@ contains
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
-            'the approach.', &
+            'the approach. Then its rolling on the same grids, to 1e-7 of the slip.', &
             'tangential: microseconds and nanoseconds per element of all tangential methods on', &
             'the strips of 5 to 61 by as many points, forces only and with the field; ratio:', &
             'to FASTSIM with the same number of elements. Processor time, medians.', &
@@ -166,7 +170,9 @@ contains
             'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
             'rolling: errors and times of Kalker''s method in rolling against CONTACT, by', &
             'its scheme and by the second-order one, on 0.4 and 0.2 mm: the paper''s contacts', &
-            'and 161 ellipses of 113 mm2.', &
+            'with either sign of the creepages, and 161 ellipses of 113 mm2.', &
+            'kalker: Kalker''s coefficients from TANG without sliding beside his table and', &
+            'CONTACT, 19 aspect ratios by 3 of Poisson''s (two minutes).', &
             'convergence: errors of 5 to 81 strips, against 301 strips, and against', &
             'Hertz on ellipses.', &
             'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
