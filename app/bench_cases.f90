@@ -17,7 +17,7 @@ module faststrip_app_bench_cases
         character(len=:), allocatable :: name !! `shift_` and the lateral shift
         real(wp) :: shift = 0.0_wp            !! lateral shift of the wheelset, mm
         real(wp) :: load = 0.0_wp             !! normal force, N
-        type(creepage_t) :: creepage          !! sign set B
+        type(creepage_t) :: creepage          !! of the sign set that was read
         type(gap_t) :: gap                    !! undeformed gap, mm
         real(wp) :: penetration = 0.0_wp      !! by CONTACT, mm
         real(wp) :: pmax = 0.0_wp             !! by CONTACT, MPa
@@ -29,11 +29,13 @@ module faststrip_app_bench_cases
 
 contains
 
-    !> Read `s1002_uic60_B.csv` of a folder and the gap files it stands for.
-    subroutine read_bench_cases(folder, cases, status)
+    !> Read `s1002_uic60_B.csv` of a folder, or that of the other sign set, and the gap files it
+    !> stands for.
+    subroutine read_bench_cases(folder, cases, status, signs)
         character(len=*), intent(in) :: folder                     !! name of the folder
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
         type(status_t), intent(out) :: status                      !! of the readers
+        character(len=1), intent(in), optional :: signs            !! of the creepages, A or B
 
         character(len=*), parameter :: names(13) = [character(len=16) :: &
             'yw_mm', 'Fn_N', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
@@ -42,10 +44,13 @@ contains
         type(csv_table_t) :: table
         real(wp), allocatable :: column(:)
         real(wp), allocatable :: values(:, :)
+        character(len=1) :: letter
         integer :: i, shift_column
 
+        letter = 'B'
+        if (present(signs)) letter = signs
         allocate (cases(0))
-        call read_csv(folder // '/s1002_uic60_B.csv', table, status)
+        call read_csv(folder // '/s1002_uic60_' // letter // '.csv', table, status)
         if (is_error(status)) return
         allocate (values(table%n_rows, size(names)), source=0.0_wp)
         do i = 1, size(names)

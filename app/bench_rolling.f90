@@ -54,15 +54,17 @@ contains
         call put_header(writer, [character(len=13) :: 'group', 'case', 'scheme', 'dx_mm', 'dy_mm', &
                                  'status', 'elements', 'fx_err_pct', 'fy_err_pct', 'mz_err_pct', &
                                  'steps', 'products', 'tang_s'])
-        call paper_contacts(folder, writer)
+        call paper_contacts(folder, 'A', writer)
+        call paper_contacts(folder, 'B', writer)
         call ellipses(folder, writer)
         call close_csv(writer, status)
         call fail_on_error(status)
     end subroutine bench_rolling
 
     !> The paper's contacts, pressures by NORM.
-    subroutine paper_contacts(folder, writer)
+    subroutine paper_contacts(folder, signs, writer)
         character(len=*), intent(in) :: folder
+        character(len=1), intent(in) :: signs !! of the creepages, A or B
         type(csv_writer_t), intent(inout) :: writer
 
         type(bench_case_t), allocatable :: cases(:)
@@ -74,7 +76,7 @@ contains
         type(status_t) :: status
         integer :: i, k, points, side
 
-        call read_bench_cases(folder, cases, status)
+        call read_bench_cases(folder, cases, status, signs)
         call fail_on_error(status)
         points = 0
         do i = 1, size(cases)
@@ -93,14 +95,14 @@ contains
                                     norm_options, normal, status)
                 call fail_on_error(status)
                 do k = 1, size(schemes)
-                    call compare('paper', cases(i)%name, k, norm%grid, edges_of_norm, &
+                    call compare('paper_' // signs, cases(i)%name, k, norm%grid, edges_of_norm, &
                                  cases(i)%load, cases(i)%area, cases(i)%creepage, &
                                  cases(i)%forces, tang, groups(k), writer)
                 end do
             end do
             do k = 1, size(schemes)
-                call tell('paper''s contacts, '//trim(number_text(sides(side)))//' mm', k, &
-                          groups(k))
+                call tell('paper''s contacts, signs ' // signs // ', ' // &
+                          trim(number_text(sides(side))) // ' mm', k, groups(k))
             end do
         end do
     end subroutine paper_contacts
