@@ -15,6 +15,7 @@ module faststrip_app_bench_reference
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             set_norm_gap, norm_solve
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
+    use faststrip_app_bench_reference_tang, only: measure_tang
     use faststrip_app_clock, only: microseconds, cpu_microseconds, median
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
@@ -92,6 +93,7 @@ contains
         do i = 1, size(sizes)
             if (sizes(i) > most_elements) exit
             call measure_size(bench, sizes(i), 1.0e6_wp*seconds, writer)
+            call measure_tang(bench%cases, sizes(i), 1.0e6_wp*seconds, writer)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)

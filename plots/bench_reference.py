@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Draw the time of Kalker's variational method against the number of elements, with slopes.
 
-Lines are from nothing, from a coarser grid, from strips and from the previous step; iterations are
-those of all grids, to 1e-9 (filled dots) and to 1e-4 of the approach (rings).
+One panel for NORM and one for TANG. Lines are from nothing, from a coarser grid, from strips and
+from the previous step; iterations are those of all grids, of NORM to 1e-9 (filled dots) and to 1e-4
+of the approach (rings), of TANG (squares) those inside Newton's steps.
 """
 
 import math
@@ -21,10 +22,13 @@ STARTS = {
     "coarse": style.Look("coarser grid", "#2e7d32", "-", 1.8),
     "strips": style.Look("15 strips", "#b03a2e", (0, (5, 1.8)), 1.8),
     "warm_load": style.Look("previous step, load ±5 %", "#f08519", (0, (1.5, 1.5)), 1.8),
+    "warm_creepage": style.Look("previous step, creepage ±5 %", "#a8326e", (0, (3, 1, 1, 1)), 1.8),
     "new_plans": style.Look("cold, new plans", "#8a8a8a", (0, (1.2, 1.2)), 1.6),
 }
-METHODS = {"norm": "NORM"}
-GOALS = {"norm": (3700, 5.0)}  # elements and milliseconds
+METHODS = {"norm": "NORM: pressures", "tang": "TANG: tractions in rolling"}
+MARKERS = {"norm": "o", "tang": "s"}
+GOALS = {"norm": (3700, 5.0), "tang": (3700, 100.0)}  # elements and milliseconds
+CONTACT = {"norm": "cpu_norm_s", "tang": "cpu_tang_s"}  # its times, grid of 0.1 mm
 SLOPE_PART = 8.0  # slopes are measured over this factor in elements, at both ends
 CLASS = 2.0 ** 0.5  # elements within this factor belong together
 
@@ -33,6 +37,8 @@ def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--bench", default=BENCH, metavar="CSV",
                         help="what `faststrip bench reference` wrote")
+    parser.add_argument("--contact", metavar="CSV",
+                        help="what CONTACT took, as reference/contact/s1002_uic60_B.csv")
     parser.add_argument("-o", "--output", default="out/bench_reference.png", metavar="PNG",
                         help="picture to write")
     options = parser.parse_args(arguments)
@@ -54,18 +60,35 @@ def main(arguments=None):
     runs = [(*key, medians(rows, values)) for key, rows in
             scales.groups(table.words("method"), table.words("start"), values["tolerance"])]
 
-    figure = style.new_figure(10.4, 4.8)
-    time, iterations = figure.subplots(1, 2, width_ratios=[1.5, 1.0], sharex=True)
-    draw_times(time, runs)
+    contact = read_table(options.contact, ("n_contact", *CONTACT.values())) \
+        if options.contact else None
+    methods = [method for method in METHODS if any(run[0] == method for run in runs)]
+    figure = style.new_figure(4.2 * len(methods) + 4.4, 5.2)
+    *times, iterations = figure.subplots(1, len(methods) + 1, sharex=True)
+    for axes, method in zip(times, methods):
+        draw_times(axes, [run for run in runs if run[0] == method])
+        if contact is not None:
+            axes.plot(contact.numbers("n_contact"), 1e3 * contact.numbers(CONTACT[method]),
+                      zorder=4, **style.CONTACT)
+        style.title(axes, METHODS[method])
+    times[0].set_ylabel("time of one contact, ms")
     draw_iterations(iterations, runs)
-    for axes in (time, iterations):
+    for axes in (*times, iterations):
         axes.set_xscale("log")
         axes.set_xlabel("elements in contact")
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
-    style.legend_above(figure, time)
+    legend_in_rows(figure, times)
     style.save(figure, options.output, [revision(table)],
-               "medians, one core; ring: goal at 3700 elements")
+               "medians, one core; large ring: goal at 3700 elements")
     print(options.output)
+
+
+def legend_in_rows(figure, times):
+    """One legend above all panels, in two rows if there are many names."""
+    handles = {label: handle for axes in times
+               for handle, label in zip(*axes.get_legend_handles_labels())}
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center",
+                  ncols=math.ceil(len(handles) / 2), handlelength=3.2, columnspacing=2.4)
 
 
 def finest(runs):
@@ -74,14 +97,15 @@ def finest(runs):
 
 
 def draw_times(axes, runs):
-    """Time against elements to the smallest tolerance, with slopes of the cold start and goals."""
+    """Time of one method against elements to the smallest tolerance, with slopes and the goal."""
     axes.set_yscale("log")
     for method, start, tolerance, run in runs:
         if tolerance != finest(runs):
             continue
         look = STARTS[start]
         axes.plot(run["elements"], 1e-3 * run["us"], color=look.colour, linestyle=look.line,
-                  linewidth=look.width, marker="o", markersize=3.6, label=look.label, zorder=3)
+                  linewidth=look.width, marker=MARKERS[method], markersize=3.6, label=look.label,
+                  zorder=3)
         if start != "cold":
             continue
         for part in ends(run["elements"]):
@@ -89,29 +113,27 @@ def draw_times(axes, runs):
             if math.isfinite(slope):
                 middle = part[len(part) // 2]
                 axes.annotate(f"∝ $N^{{{slope:.2f}}}$",
-                              (run["elements"][middle], 1e-3 * run["us"][middle]), (-8.0, 8.0),
+                              (run["elements"][middle], 1e-3 * run["us"][middle]), (-12.0, 12.0),
                               textcoords="offset points", ha="right", va="bottom",
                               color=look.colour)
         elements, goal = GOALS[method]
         axes.plot(elements, goal, linestyle="none", marker="o", markersize=10, zorder=5,
                   markerfacecolor="none", markeredgecolor=look.colour, markeredgewidth=1.6)
-    axes.set_ylabel("time of one contact, ms")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
-    style.title(axes, "Kalker's variational method: time against elements")
 
 
 def draw_iterations(axes, runs):
-    """Iterations against elements, filled for the smallest tolerance."""
-    for _, start, tolerance, run in runs:
+    """Iterations against elements, filled for the smallest tolerance of a method."""
+    for method, start, tolerance, run in runs:
         if start == "new_plans":
             continue
         look = STARTS[start]
-        filled = tolerance == finest(runs)
+        filled = tolerance == finest([other for other in runs if other[0] == method])
         axes.plot(run["elements"], run["iterations"], color=look.colour, linestyle=look.line,
-                  linewidth=look.width, marker="o", markersize=4.0, zorder=3,
+                  linewidth=look.width, marker=MARKERS[method], markersize=4.0, zorder=3,
                   markerfacecolor=look.colour if filled else "white")
     axes.set_ylim(bottom=0.0)
-    style.title(axes, "Iterations, all grids")
+    style.title(axes, "Iterations: ● NORM, all grids; ■ TANG")
 
 
 def ends(elements):

@@ -41,7 +41,7 @@ def main(arguments=None):
     for name, (file, words) in INPUTS.items():
         parser.add_argument(f"--{name}", default=f"{FOLDER}/{file}", metavar="CSV", help=words)
     parser.add_argument("--bench-reference", metavar="CSV",
-                        help="times of NORM: columns start (cold, strips) and us")
+                        help="what `faststrip bench reference` wrote")
     parser.add_argument("--strips", nargs="*", default=[], metavar="CSV",
                         help="what `faststrip contact --strips` wrote, for the range of b")
     parser.add_argument("--reference-a", default="reference/contact/s1002_uic60_A.csv",
@@ -94,7 +94,8 @@ def read(options):
                                                  "r_wheel_mm")),
         integral=tables["bench-integral"],
         normal=tables["bench-normal"],
-        reference=read_table(options.bench_reference, ("start", "us"))
+        reference=read_table(
+            options.bench_reference, ("method", "start", "tolerance", "elements", "us"))
         if options.bench_reference else None,
         strips=[read_strips(path) for path in options.strips],
         mu=options.mu,

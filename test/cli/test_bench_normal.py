@@ -66,13 +66,22 @@ class Bench(ProgramTest):
         for elements in (500, 1000):
             self.assertIn(f"{elements} elements, ", said)
         starts = {"new_plans", "cold", "coarse", "strips", "warm_load"}
+        rolling = [row for row in rows if row["method"] == "tang"]
+        norm = [row for row in rows if row["method"] == "norm"]
+        self.assertEqual(len(rolling) + len(norm), len(rows))
         for tolerance in (1e-9, 1e-4):
-            first = {row["start"]: row for row in rows if row["case"] == "shift_-5"
+            first = {row["start"]: row for row in norm if row["case"] == "shift_-5"
                      and float(row["tolerance"]) == tolerance and float(row["dx_mm"]) < 0.4}
             self.assertEqual(set(first), starts)
             self.assertLessEqual(float(first["strips"]["iterations"]),
                                  float(first["cold"]["iterations"]))
             self.assertEqual(first["new_plans"]["iterations"], first["cold"]["iterations"])
+        first = {row["start"]: row for row in rolling if row["case"] == "shift_-5"
+                 and float(row["dx_mm"]) < 0.4}
+        self.assertEqual(set(first), {"new_plans", "cold", "warm_creepage"})
+        self.assertEqual(first["new_plans"]["iterations"], first["cold"]["iterations"])
+        self.assertLess(float(first["warm_creepage"]["iterations"]),
+                        float(first["cold"]["iterations"]))
         for row in rows:
             self.assertGreater(float(row["us"]), 0.0)
             self.assertGreaterEqual(float(row["convolutions"]), float(row["iterations"]))

@@ -1,6 +1,7 @@
 """Pictures of integrals, degrees, convergence and times: drawn, right, bad input refused."""
 
 import math
+import pathlib
 import unittest
 
 import matplotlib.image
@@ -10,6 +11,7 @@ from plot_samples import Folder, csv_text, load
 
 from faststrip_plots import scales, style
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVES = "out/curves.csv"
 DEGREES = "out/degrees.csv"
 INTEGRAL = "out/bench_integral.csv"
@@ -83,11 +85,14 @@ def normal_rows():
 
 def reference_rows():
     return [
-        dict(method="norm", start=start, tolerance=tolerance, elements=elements + more,
+        dict(method=method, start=start, tolerance=tolerance, elements=elements + more,
              us=factor * elements**1.2 * again, iterations=12)
-        for start, factor in (("cold", 1.0), ("coarse", 0.9), ("strips", 0.7), ("warm_load", 0.8),
-                              ("new_plans", 1.2))
-        for tolerance in (1e-9, 1e-4)
+        for method, start, factor, tolerances in (
+            ("norm", "cold", 1.0, (1e-9, 1e-4)), ("norm", "coarse", 0.9, (1e-9, 1e-4)),
+            ("norm", "strips", 0.7, (1e-9, 1e-4)), ("norm", "warm_load", 0.8, (1e-9, 1e-4)),
+            ("norm", "new_plans", 1.2, (1e-9, 1e-4)), ("tang", "cold", 20.0, (1e-7,)),
+            ("tang", "warm_creepage", 13.0, (1e-7,)), ("tang", "new_plans", 23.0, (1e-7,)))
+        for tolerance in tolerances
         for elements in (500, 1000, 4000, 16000, 100000)
         for again, more in ((1.0, 0), (1.1, 30), (3.0, -20))
     ]
@@ -159,6 +164,9 @@ class Pictures(unittest.TestCase):
                         "bench_reference"):
             with self.subTest(command):
                 self.drawn(command, None, "-o", "p/q.png", pictures=["p/q.png"])
+        contact = str(ROOT / "reference/contact/s1002_uic60_B.csv")
+        self.drawn("bench_reference", None, "--contact", contact, "-o", "p/q.png",
+                   pictures=["p/q.png"])
 
     def test_curves_of_some_distances_only(self):
         for distances in ((0,), (2, 3), (7,), (0, 12)):
@@ -238,9 +246,10 @@ class BadInput(unittest.TestCase):
                                               " warm_shift in column start: hot"),
             ("bench_reference", dict(us=-1), "us is not above zero: -1"),
             ("bench_reference", dict(elements=0), "elements is not above zero: 0"),
-            ("bench_reference", dict(method="hope"), "none of norm in column method: hope"),
+            ("bench_reference", dict(method="hope"), "none of norm, tang in column method: hope"),
             ("bench_reference", dict(start="hot"), "none of cold, coarse, strips, warm_load,"
-                                                   " new_plans in column start: hot"),
+                                                   " warm_creepage, new_plans in column start:"
+                                                   " hot"),
         ):
             with self.subTest(command=command, words=words):
                 name = COMMANDS[command][0]
@@ -395,6 +404,7 @@ class Drawn(unittest.TestCase):
                          [[0, 1, 2], [3, 4]])
         axes = style.new_figure(4.0, 3.0).subplots()
         bench.draw_times(axes, [("norm", "cold", 1e-9, run), ("norm", "cold", 1e-4, run)])
+        self.assertEqual(axes.lines[0].get_marker(), "o")
         self.assertEqual(texts(axes), ["∝ $N^{1.20}$"] * 2)
 
     def test_medians_and_slopes_of_times(self):

@@ -309,13 +309,20 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(rows["C.B.faststrip-paper"]["verdict"], UNKNOWN)
 
     def test_times_of_the_variational_method_where_given(self):
-        with_reference = csv_text(("start", "us"), [dict(start="cold", us=2e5),
-                                                    dict(start="strips", us=5e4)])
+        columns = ("method", "start", "tolerance", "elements", "us")
+        with_reference = csv_text(columns, [
+            dict(zip(columns, cells)) for cells in (
+                ("norm", "cold", 1e-9, 3700, 2e5), ("norm", "strips", 1e-9, 3650, 5e4),
+                # neither another tolerance nor another number of elements, nor rolling
+                ("norm", "cold", 1e-4, 3700, 1.0), ("norm", "cold", 1e-9, 500, 1.0),
+                ("norm", "strips", 1e-9, 7500, 1.0), ("tang", "cold", 1e-7, 3700, 7e4),
+            )])
         rows = judge("--bench-reference", "out/paper/reference.csv", reference=with_reference)
         self.assertEqual([rows[key]["verdict"] for key in ("N9", "N10", "N11")],
                          [HOLDS, LIMITED, LIMITED])
         self.assertEqual([float(rows[key]["value"]) for key in ("N9", "N10", "N11")],
                          [200.0, 50.0, 4.0])
+        self.assertIn("TANG 70 ms", rows["N9"]["detail"])
 
     def test_range_of_strips(self):
         row = judge("--strips", "out/paper/strips.csv", strips=strips_text())["T4"]
