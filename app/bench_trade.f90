@@ -11,6 +11,7 @@ module faststrip_app_bench_trade
     use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
                              cell_integer, cell_number, open_csv, put_comment, put_header, &
                              put_cell, end_row, close_csv
+    use faststrip_app_bench_trade_influence, only: trade_influence
     use faststrip_app_clock, only: median
     use faststrip_app_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_app_methods, only: methods_t, check_methods
@@ -68,6 +69,7 @@ contains
                                   'normal', 'tangential', 'status', 'us'], &
                                  [character(len=15) :: 'err_' // figure_names], &
                                  [character(len=15) :: 'misfit', 'saturation', 'spin_share']])
+        call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
             if (quick .and. entries(i)%when /= 'always') cycle

@@ -16,6 +16,8 @@ from faststrip_plots.tables import InputError, read_table
 
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
 STAGES = {
+    "influence": ("Influence numbers in the strip method", "pressures and penetration against"
+                  " the closed evaluation"),
     "normal": ("Normal contact", "penetration, largest pressure and area"),
     "tangential": ("Tangential contact", "Fx and Fy in µN, Mz in µNc"),
     "both": ("Both together", "Fx and Fy in µN, Mz in µNc"),
@@ -23,6 +25,9 @@ STAGES = {
 TARGETS = (0.1, 0.03, 0.01, 0.003, 0.001)
 # families of methods: colour, marker, and the words a name of theirs may begin with
 FAMILIES = {
+    "tables: published, refitted": ("#c9a227", "p", ("published", "refitted")),
+    "quadratures": ("#6b6b6b", "h", ("trapezoids", "quadrature")),
+    "closed": ("#0b3c78", "D", ("closed",)),
     "laws: linear, SHE, Polach": ("#8a8a8a", "X", ("linear", "SHE", "Polach")),
     "Hertz": ("#f08519", "s", ("Hertz",)),
     "ellipses of the strips": ("#b8870b", "D", ("equal-area",)),
@@ -32,6 +37,7 @@ FAMILIES = {
     "Kalker's NORM, TANG": ("#2f7d32", "v", ("NORM", "TANG")),
 }
 MOST = 2.0  # larger errors are drawn at the upper edge
+LEAST = 1e-15  # and smaller ones, zero too, at the lower
 
 
 def main(arguments=None):
@@ -145,16 +151,16 @@ def draw(points, heading, path, stamp):
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, error, words in zip(panels, ("mean", "max"), ("mean error", "largest error")):
         best = front(points, error)
-        axes.plot([p["us"] for p in best], [100 * min(p[error], MOST) for p in best],
+        axes.plot([p["us"] for p in best], [drawn(p[error]) for p in best],
                   color="#333333", linewidth=1.0, zorder=1, label="no other is better in both")
         for name, (colour, marker, _) in FAMILIES.items():
             own = [p for p in points if family(p["method"]) == name]
             if own:
-                axes.plot([p["us"] for p in own], [100 * min(p[error], MOST) for p in own],
+                axes.plot([p["us"] for p in own], [drawn(p[error]) for p in own],
                           linestyle="none", marker=marker, markersize=6.5, color=colour,
                           markeredgecolor="white", label=name)
         for number, point in enumerate(p for p in best if p[error] < MOST):
-            axes.annotate(shorter(point["method"]), (point["us"], 100 * point[error]),
+            axes.annotate(shorter(point["method"]), (point["us"], drawn(point[error])),
                           xytext=(4, 6 if number % 2 else -12), textcoords="offset points",
                           fontsize=7.5, color="#333333")
         axes.set_xscale("log")
@@ -168,6 +174,11 @@ def draw(points, heading, path, stamp):
     if any(p["max"] >= MOST for p in points):
         note = f"errors above {100 * MOST:.0f} % are drawn there"
     save(figure, path, [stamp], note)
+
+
+def drawn(error):
+    """An error in %, no larger and no smaller than what is drawn."""
+    return 100 * min(max(error, LEAST), MOST)
 
 
 def shorter(name):

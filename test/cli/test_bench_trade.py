@@ -20,6 +20,15 @@ class Trade(ProgramTest):
         rows = self.trade("normal,fine,always,strip,faststrip,15,,,,\n"
                           "tangential,march,always,hertz,fastsim,,,40,40,\n"
                           "both,later,full,strip,faststrip,,,,,\n")
+        influence = [row for row in rows if row["stage"] == "influence"]
+        worst = {row["method"]: 0.0 for row in influence}
+        for row in influence:
+            worst[row["method"]] = max(worst[row["method"]], abs(float(row["err_pmax"])))
+        self.assertEqual(worst["closed evaluation"], 0.0)
+        self.assertLess(worst["quadrature by GSL"], 1e-11)
+        self.assertLess(worst["refitted, degree 12"], 5e-4)
+        self.assertGreater(worst["published polynomial"], 2e-3)
+        rows = [row for row in rows if row["stage"] != "influence"]
         self.assertEqual({row["method"] for row in rows}, {"fine", "march"})
         normal = [row for row in rows if row["stage"] == "normal"]
         self.assertEqual([row["set"] for row in normal],
@@ -36,6 +45,7 @@ class Trade(ProgramTest):
     def test_exact_on_ellipses(self):
         rows = self.trade("both,Hertz,always,hertz,fastsim,,,,,\n")
         self.assertEqual({row["status"] for row in rows}, {"ok"})
+        self.assertEqual(len(rows), 24 + 18)
 
     def test_bad_lists(self):
         for line, says in (("sideways,x,always,strip,fastsim,,,,,\n", "stage is out of range"),
