@@ -21,6 +21,7 @@ def main(arguments=None):
                         help="CONTACT's field of the same contact"
                         " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
     parser.add_argument("--no-contact", action="store_true", help="draw without CONTACT")
+    parser.add_argument("--norm", metavar="CSV", help="fields of the contact by NORM, for the cuts")
     parser.add_argument("--outlines", metavar="PNG",
                         help="picture of the outlines (default: out/patch_shift_MM.png)")
     parser.add_argument("--pressure", metavar="PNG",
@@ -31,6 +32,7 @@ def main(arguments=None):
     sweep = read_sweep(options.sweep)
     contact = command.contact_file(options.contact, options.shift)
     contact = read_field(contact) if contact and not options.no_contact else None
+    norm = read_field(options.norm) if options.norm else None
     ellipse = panels.hertz_ellipse(sweep, options.shift)
     if ellipse is None:
         print(f"no Hertz result at shift {options.shift:g}: drawn without ({options.sweep})")
@@ -39,7 +41,7 @@ def main(arguments=None):
         options.outlines or command.shift_file("patch", options.shift)[:-3] + "png":
             outline_figure(options.shift, strips, ellipse, contact),
         options.pressure or command.shift_file("pressure", options.shift)[:-3] + "png":
-            pressure_figure(options.shift, strips, field, ellipse, contact),
+            pressure_figure(options.shift, strips, field, ellipse, contact, norm),
     }
     for path, figure in pictures.items():
         style.save(figure, path, [strips.stamp, field.stamp, sweep.stamp])
@@ -57,7 +59,7 @@ def outline_figure(shift, strips, ellipse, contact):
     return figure
 
 
-def pressure_figure(shift, strips, field, ellipse, contact):
+def pressure_figure(shift, strips, field, ellipse, contact, norm=None):
     """Maps above, cuts below."""
     top = max(p.max() for source in (field, contact) if source for p in source.pressure)
     figure = style.new_figure(11.0, 7.4)
@@ -73,9 +75,9 @@ def pressure_figure(shift, strips, field, ellipse, contact):
     panels.share_limits(left, right)
     figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015,
                     panchor=False)
-    panels.draw_cut_along_y(along_y, strips, ellipse, contact)
+    panels.draw_cut_along_y(along_y, strips, ellipse, contact, norm)
     style.title(along_y, "Cut along $y$ at $x$ = 0")
-    y = panels.draw_cut_along_x(along_x, strips, field, ellipse, contact)
+    y = panels.draw_cut_along_x(along_x, strips, field, ellipse, contact, norm)
     where = style.number(round(y, 2))
     style.title(along_x, f"Cut along $x$ at $y$ = {where} mm, the strongest strip")
     style.legend_above(figure, along_y, along_x)

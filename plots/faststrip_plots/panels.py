@@ -98,7 +98,7 @@ def draw_difference(axes, sweep, reference, name, mu):
 def _line(axes, x, y, look):
     axes.plot(
         x, y, color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label,
-        marker="o", markersize=2.6, zorder=3,
+        marker="o", markersize=2.6, zorder=2.8 if look.width > 3.0 else 3,
     )
 
 
@@ -217,7 +217,7 @@ def _tiles(axes, tiles, values, top):
     return collection
 
 
-def draw_cut_along_y(axes, strips, ellipse=None, contact=None):
+def draw_cut_along_y(axes, strips, ellipse=None, contact=None, norm=None):
     """Pressure on the centre line x = 0."""
     look = style.normal_look("strip")
     for k, patch in enumerate(strips.patches):
@@ -228,18 +228,24 @@ def draw_cut_along_y(axes, strips, ellipse=None, contact=None):
                   markersize=3.2, zorder=3)
     if ellipse is not None:
         _half_ellipse(axes, ellipse.middle, ellipse.b, ellipse.pmax)
+    if norm is not None:
+        _norm_line(axes, *_beside_the_centre_line(norm))
     if contact is not None:
-        # the elements beside the centre line, one or two a row
-        x = [float(np.abs(row).min()) for row in contact.x]
-        p = [float(p[np.argmin(np.abs(row))]) for row, p in zip(contact.x, contact.pressure)]
-        keep = np.array(x) < grid_step(contact)
-        _symbols(axes, contact.y[keep], np.array(p)[keep], 34)
+        _symbols(axes, *_beside_the_centre_line(contact), 34)
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel("lateral $y$, mm")
     axes.set_ylabel("pressure, MPa")
 
 
-def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None):
+def _beside_the_centre_line(field):
+    """y and pressure of the elements of a grid that are nearest to x = 0."""
+    x = np.array([float(np.abs(row).min()) for row in field.x])
+    p = np.array([float(p[np.argmin(np.abs(row))]) for row, p in zip(field.x, field.pressure)])
+    keep = x < grid_step(field)
+    return field.y[keep], p[keep]
+
+
+def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None, norm=None):
     """Pressure along the strip with the largest pressure."""
     patch, k = strips.strongest()
     y = patch.y[k]
@@ -256,6 +262,9 @@ def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None):
         rest = 1.0 - ((y - ellipse.middle) / ellipse.b) ** 2
         if rest > 0.0:
             _half_ellipse(axes, 0.0, ellipse.a * math.sqrt(rest), ellipse.pmax * math.sqrt(rest))
+    if norm is not None:
+        row = norm.nearest_row(y)
+        _norm_line(axes, norm.x[row], norm.pressure[row])
     if contact is not None:
         row = contact.nearest_row(y)
         _symbols(axes, contact.x[row], contact.pressure[row], 24)
@@ -263,6 +272,16 @@ def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None):
     axes.set_xlabel("rolling direction $x$, mm")
     axes.set_ylabel("pressure, MPa")
     return y
+
+
+def _norm_line(axes, x, y):
+    """Pressures of NORM along a cut, apart where there is no contact between them."""
+    look = style.normal_look("norm")
+    gaps = np.flatnonzero(np.diff(x) > 1.5 * np.diff(x).min()) if len(x) > 1 else []
+    parts = zip(np.split(x, np.add(gaps, 1).astype(int)), np.split(y, np.add(gaps, 1).astype(int)))
+    for k, (along, pressure) in enumerate(parts):
+        axes.plot(along, pressure, color=look.colour, linestyle=look.line, linewidth=look.width,
+                  label=look.label if k == 0 else None, zorder=2.8)
 
 
 def _symbols(axes, x, y, number):

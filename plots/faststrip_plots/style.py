@@ -32,11 +32,14 @@ class Look:
 NORMAL = {
     "strip": Look("strips", "#0b3c78", "-", 2.0),
     "hertz": Look("Hertz", "#f08519", (0, (5, 1.8)), 1.8),
+    # wide, to be seen on both sides of a line it agrees with
+    "norm": Look("NORM", "#4d9748", (0, (1.6, 0.8)), 3.6),
 }
 METHOD = {
     ("strip", "faststrip"): Look("strips + FASTSTRIP", "#0b3c78", "-", 2.0),
     ("hertz", "fastsim"): Look("Hertz + FASTSIM", "#f08519", (0, (5, 1.8)), 1.8),
-    ("strip", "fastsim"): Look("strips + FASTSIM", "#a8326e", (0, (6, 1.6, 1.2, 1.6)), 1.6),
+    ("norm", "tang"): Look("NORM + TANG", "#4d9748", (0, (1.6, 0.8)), 3.6),
+    ("strip", "fastsim"): Look("strips + FASTSIM", "#a0306a", (0, (6, 1.6, 1.2, 1.6)), 1.6),
     ("strip", "faststrip-paper"): Look(
         "strips + FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.8
     ),

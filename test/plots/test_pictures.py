@@ -73,6 +73,14 @@ class Pictures(unittest.TestCase):
                  "out/fields_shift_0.csv": fields_text(2)}
         self.drawn("patches", "--no-contact", files=files)
 
+    def test_patches_with_norm(self):
+        # two patches along the rolling direction are two lines
+        rows = grid_text().splitlines()
+        apart = [row for row in rows if row.split(",")[0] not in ("0.25", "-0.25")]
+        self.assertLess(len(apart), len(rows))
+        for text in (grid_text(), "\n".join(apart) + "\n"):
+            self.drawn("patches", "--norm", "norm.csv", files={**FILES, "norm.csv": text})
+
     def test_negative_shift_finds_its_files(self):
         files = {name.replace("shift_0", "shift_-1.5"): text for name, text in FILES.items()}
         self.drawn("patches", "--shift", "-1.5", files=files,
