@@ -135,7 +135,7 @@ def legend_above(figure, *axes) -> None:
         for handle, label in zip(*each.get_legend_handles_labels()):
             handles.setdefault(label, handle)
     figure.legend(
-        handles.values(), handles.keys(), loc="outside upper center", ncols=max(1, min(4, len(handles))),
+        handles.values(), handles.keys(), loc="outside upper center", ncols=max(1, min(5, len(handles))),
         handlelength=3.2, columnspacing=2.4,
     )
 
