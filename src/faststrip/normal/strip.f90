@@ -22,7 +22,7 @@ module faststrip_normal_strip
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
-    use faststrip_normal_strip_equations, only: goal_t, effort_t
+    use faststrip_normal_strip_equations, only: goal_t, effort_t, effort_work, step_work
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_coupled, only: settle_coupled
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
@@ -59,6 +59,8 @@ module faststrip_normal_strip
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
+    ! Work of all levels together: so much, and so many steps of all strips.
+    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
@@ -195,7 +197,8 @@ contains
             call settle(workspace, compliance, goal, &
                         merge(options%tolerance, max(options%tolerance, coarse_tolerance), &
                               level >= first_counted), &
-                        levels(level), near, patches, penetration, strips, result, settled)
+                        levels(level), maxval(levels(:n_levels)), near, patches, penetration, &
+                        strips, result, settled)
             if (settled) then
                 if (level >= first_counted) n_settled = level
                 near = .true.
@@ -307,12 +310,13 @@ contains
     end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.
-    subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, near, patches, &
-                      penetration, strips, result, settled)
+    subroutine settle(workspace, compliance, goal, tolerance, strips_per_patch, wanted, &
+                      near, patches, penetration, strips, result, settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, tolerance
         type(goal_t), intent(in) :: goal
         integer, intent(in) :: strips_per_patch
+        integer, intent(in) :: wanted ! strips per patch in the end
         logical, intent(in) :: near ! do the strips start near a solution?
         type(patches_t), intent(inout) :: patches
         real(wp), intent(inout) :: penetration
@@ -343,6 +347,8 @@ contains
             if (patches%n == 0) exit
             call place_strips(workspace, patches, n)
             if (n > min(workspace%max_strips, size(strips%p0))) exit
+            if (effort_work(result%effort) > work_to_begin &
+                + most_steps*step_work(max(n, wanted))) exit
             trial = penetration
             solved = patches
             coupled = near .and. pass == 1

@@ -18,7 +18,7 @@ module faststrip_normal_strip_equations
     implicit none
     private
 
-    public :: goal_t, effort_t, add_effort, strip_residual, strip_jacobian, mark_leaving_strips
+    public :: goal_t, effort_t, add_effort, effort_work, step_work, strip_residual, strip_jacobian, mark_leaving_strips
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.
@@ -58,6 +58,25 @@ contains
         effort%gradients = effort%gradients + 2*n*n
         effort%operations = effort%operations + 2.0_wp/3.0_wp*real(m, wp)**3
     end subroutine add_effort
+
+    !> What was spent, in influence numbers: as many could have been computed in that time. One with
+    !> its derivatives counts three, and 100 operations of the linear algebra count one.
+    pure real(wp) function effort_work(effort) result(work)
+        type(effort_t), intent(in) :: effort !! of a solution
+
+        work = real(effort%values, wp) + 3.0_wp*real(effort%gradients, wp) &
+               + 0.01_wp*effort%operations
+    end function effort_work
+
+    !> The same for one step of n strips with a Jacobian.
+    pure real(wp) function step_work(n) result(work)
+        integer, intent(in) :: n !! strips
+
+        type(effort_t) :: effort
+
+        call add_effort(effort, n, 2*n + 1, .true., 0)
+        work = effort_work(effort)
+    end function step_work
 
     !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
     !> tips, load (or zero).
