@@ -210,7 +210,13 @@ contains
                     abs(result%penetration - coarser%penetration) &
                     <= auto_penetration*result%penetration) exit
             else if (scratch) then
-                if (level >= first_counted) exit
+                if (n_settled > 0) exit
+                ! Where a neck or an edge is too fine for few strips, more may settle.
+                if (level == n_levels) then
+                    if (levels(level) > most_at_once .or. level == most_levels) exit
+                    n_levels = level + 1
+                    levels(n_levels) = 2*levels(level) + 1
+                end if
                 level = level + 1
             else
                 if (resumed) level = 1
