@@ -148,7 +148,7 @@ contains
                         '{figures}', quoted(folder // '/figures'))
         select case (program)
         case ('faststrip'); line = quoted(command_argument(0)) // ' ' // line
-        case ('python'); line = quoted(python) // ' ' // line
+        case ('python'); line = 'FASTSTRIP_SVG=1 ' // quoted(python) // ' ' // line
         case default
             call fail(exit_bad_input, 'neither faststrip nor python: ' // program // ' (' &
                       // runs%file // ':' // integer_text(runs%line(row)) // ')')

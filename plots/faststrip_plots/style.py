@@ -143,8 +143,8 @@ def legend_above(figure, *axes) -> None:
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
     """Stamp the revisions the figure was made from into its corner and write it as PNG.
 
-    A `note` goes into the other corner. With `vector` the same is also written as SVG, under the
-    same name with that ending.
+    A `note` goes into the other corner. With `vector`, or FASTSTRIP_SVG in the environment, the
+    same is also written as SVG, under the same name with that ending.
     """
     known = list(dict.fromkeys(stamp for stamp in stamps if stamp))
     text = "; ".join(known) if known else "faststrip, revision not given"
@@ -153,7 +153,7 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         figure.savefig(path, dpi=DPI, format="png")
-        if vector:
+        if vector or os.environ.get("FASTSTRIP_SVG"):
             figure.set_layout_engine("none")  # what was placed for the PNG stays where it is
             # neither date nor random names: the same data give the same file
             with matplotlib.rc_context({"svg.hashsalt": "faststrip"}):
