@@ -16,7 +16,8 @@ module faststrip_app_batch
     use faststrip_app_methods, only: methods_t
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: beside
-    use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
+    use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, &
+                                    release_solver, solve
     use faststrip_app_result_csv, only: result_columns, put_result, put_smoothing
     implicit none
     private
@@ -90,6 +91,7 @@ contains
             end if
             call progress('contacts', row, table%n_rows)
         end do
+        call release_solver(solver)
         call close_csv(writer, status)
         call fail_on_error(status)
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &

@@ -8,7 +8,7 @@ module faststrip_app_contact
     use faststrip_app_method_options, only: method_options, take_method_options
     use faststrip_app_case_file, only: case_t, read_case
     use faststrip_app_scene, only: scene_t, make_scene, put_gap, put_profiles
-    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_app_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_app_result_csv, only: put_strips, put_field
     use faststrip_app_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -76,6 +76,7 @@ contains
                                                   case%methods%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
         call close_outputs(command, writer)
+        call release_solver(solver)
     end subroutine run_contact
 
     !> Open all files before anything is written: if one cannot be, the others stay as they were.

@@ -65,7 +65,7 @@ contains
             word = command_argument(i)
             i = i + 1
             if (only_arguments .or. word == '-' .or. index(word, '-') /= 1) then
-                command%arguments = [command%arguments, argument_t(word)]
+                call add_argument(command, word)
                 cycle
             else if (word == '--') then
                 only_arguments = .true.
@@ -106,6 +106,21 @@ contains
             call usage_error('too many arguments: ' // command%arguments(n_most + 1)%text, &
                              command%name)
     end subroutine parse_command
+
+    !> Done without a constructor, whose copy of the text the compiler does not give back.
+    subroutine add_argument(command, word)
+        type(command_t), intent(inout) :: command
+        character(len=*), intent(in) :: word
+
+        type(argument_t), allocatable :: arguments(:)
+        integer :: n
+
+        n = size(command%arguments)
+        allocate (arguments(n + 1))
+        arguments(:n) = command%arguments
+        arguments(n + 1)%text = word
+        call move_alloc(arguments, command%arguments)
+    end subroutine add_argument
 
     subroutine print_help(command)
         type(command_t), intent(in) :: command
