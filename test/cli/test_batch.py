@@ -85,6 +85,16 @@ class Batch(ProgramTest):
             self.assertNotEqual(other[name], plain[name], words)
             self.assert_close(float(other[name]), float(plain[name]), 0.1, what=words)
 
+    def test_kalkers_method_against_contact(self):
+        rows, results = self.batch_of_gaps("--normal", "norm", "--tangential", "tang",
+                                           "--element-dx", "0.4", "--element-dy", "0.4")
+        self.assertEqual({row["status"] for row in results}, {"ok"})
+        for name, mean, worst in (("Fx", 5e-4, 2e-3), ("Fy", 6e-4, 3e-3)):
+            errors = [abs(float(own[f"{name}_N"]) - float(row[f"{name}_extrap_N"]))
+                      / (0.3 * float(row["Fn_N"])) for row, own in zip(rows, results)]
+            self.assertLess(statistics.mean(errors), mean, name)
+            self.assertLess(max(errors), worst, name)
+
     def test_same_as_contact(self):
         self.write("case.nml", gap_case("gaps/g.csv", extra="&numerics /\n",
                                         motion="cksi = 0.001, cphi_rad_per_mm = 1e-4"))
@@ -181,6 +191,13 @@ class Sweep(ProgramTest):
         for strip, norm in zip(more[::4], more[3::4]):
             self.assert_close(float(norm["penetration_mm"]), float(strip["penetration_mm"]), 3e-3)
         self.assertEqual(len(self.good("sweep", case, "--tangential", "fastsim")), 15)
+        more = self.good("sweep", case, "--normal", "norm", "--tangential", "tang", "--element-dx",
+                         "0.4", "--element-dy", "0.4")
+        self.assertEqual([row["tangential"] for row in more[3::4]], ["tang"] * 5)
+        for strip, tang in zip(more[::4], more[3::4]):
+            for name in ("Fx_N", "Fy_N"):
+                self.assert_close(float(tang[name]), float(strip[name]),
+                                  absolute=0.02 * 0.3 * float(strip["N_N"]), what=name)
         one = self.good("contact", case, "--shift", "2")[0]
         for name in one:
             if not name.endswith("_us"):

@@ -191,6 +191,38 @@ class GapFile(ProgramTest):
             self.assert_close(float(row["Mz_Nmm"]), 6541.4, absolute=10 * within)
         self.refused(2, "contact", "case.nml", "--tangential", "kalker", says=["kalker"])
 
+    def test_norm_and_tang_by_elements(self):
+        motion = "cksi = 0.0008, cphi_rad_per_mm = 0.0001"
+        row = self.contact("--normal", "norm", "--tangential", "tang", "--element-dx", "0.5",
+                           "--element-dy", "0.25", "--fields", "f.csv", motion=motion)
+        field = self.read("f.csv")
+        # Pressures are NORM's, tractions and slip TANG's, on the same elements.
+        self.assertEqual(set(numbers(field, "area_mm2")), {0.125})
+        self.assert_close(0.125 * len(field), float(row["area_mm2"]), 1e-12)
+        self.assert_close(max(numbers(field, "pn_MPa")), float(row["pmax_MPa"]), 1e-12)
+        self.assert_close(0.125 * math.fsum(numbers(field, "pn_MPa")), 1e5, 1e-9)
+        self.assert_close(0.125 * math.fsum(numbers(field, "px_MPa")), float(row["Fx_N"]), 1e-9)
+        self.assert_close(0.125 * math.fsum(numbers(field, "power_MPa")),
+                          float(row["friction_power_N"]), 1e-9)
+        stuck = [element for element in field if element["state"] == "1"]
+        self.assert_close(len(stuck) / len(field), float(row["stick_fraction"]), 1e-12)
+        for element in field:
+            at_bound = math.hypot(float(element["px_MPa"]), float(element["py_MPa"])) \
+                > 0.3 * float(element["pn_MPa"]) * (1.0 - 1e-9)
+            slides = float(element["sx"]) != 0.0 or float(element["sy"]) != 0.0
+            self.assertEqual(slides, element["state"] == "2")
+            self.assertTrue(at_bound or not slides)
+
+    def test_what_tang_refuses(self):
+        text = gap_case(motion="cksi = 0.001")
+        self.write("unlike.nml", text.replace("mu = 0.3", "mu = 0.3, nu_wheel = 0.3"))
+        for normal in ("strip", "hertz", "norm"):
+            self.refused(1, "contact", "unlike.nml", "--normal", normal, "--tangential", "tang",
+                         says=["TANG", "like materials", "unlike.nml"])
+        self.write("case.nml", text)
+        self.refused(1, "contact", "case.nml", "--tangential", "tang", "--element-dx", "1e-3",
+                     "--element-dy", "1e-3", says=["elements", "case.nml"])
+
     def test_ellipses_of_the_strips(self):
         self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.002 * y * y)))
         strip = self.contact(gap_file="lopsided.csv")
