@@ -16,7 +16,7 @@ module faststrip_app_bench_extremes_tangential
     use faststrip_app_bench_ellipse, only: make_ellipse
     use faststrip_app_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_app_console, only: fail_on_error, progress
-    use faststrip_app_methods, only: methods_t, tangential_methods
+    use faststrip_app_methods, only: methods_t, tangential_methods, n_force_laws
     use faststrip_app_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
     use faststrip_app_tangential_stage, only: solve_tangential
     implicit none
@@ -32,11 +32,6 @@ module faststrip_app_bench_extremes_tangential
     real(wp), parameter :: ratio = 1.5_wp, load = 1.0e5_wp ! a/b, N
     integer, parameter :: points = 401
     real(wp), parameter :: small = 1.0e-6_wp
-    ! A method that takes longer than this for one contact is tried at few points, us.
-    real(wp), parameter :: slow = 2.0e4_wp
-
-    ! All but none.
-    integer, parameter :: n_tried = size(tangential_methods) - 1
 
 contains
 
@@ -47,9 +42,9 @@ contains
 
         integer :: method, i
 
-        do method = 1, n_tried
+        do method = 1, n_force_laws
             do i = 1, size(poisson), merge(2, 1, quick)
-                call progress('tangential methods', method, n_tried)
+                call progress('tangential methods', method, n_force_laws)
                 call one_method(trim(tangential_methods(method)), poisson(i), quick, writer)
             end do
         end do
@@ -69,7 +64,6 @@ contains
         type(status_t) :: status
         type(row_t) :: row
         integer :: m, c, k
-        logical :: few
 
         material = material_t(nu_wheel=nu, nu_rail=nu)
         call make_ellipse(normal_compliance(material), ratio, load, points, gap, truth)
@@ -77,10 +71,9 @@ contains
         call fail_on_error(status)
         call solve(solver, gap, material, 0.3_wp, demand_t(load=load), creepage_t(), outcome, &
                    status)
-        few = outcome%tangential_us > slow
-        do m = merge(size(motions), 1, few), size(motions)
-            do c = 1, size(sizes), merge(2, 1, quick .or. few)
-                do k = 1, size(frictions), merge(3, 1, quick .or. few)
+        do m = 1, size(motions)
+            do c = 1, size(sizes), merge(2, 1, quick)
+                do k = 1, size(frictions), merge(3, 1, quick)
                     row = row_t(chapter='tangential', method=method, x_name='creepage', &
                                 x=sizes(c), y_name='mu', y=frictions(k))
                     write (row%case, '(2a, f0.2)') trim(motions(m)), ' nu = 0', nu
