@@ -132,7 +132,9 @@ def draw_iterations(axes, runs):
         axes.plot(run["elements"], run["iterations"], color=look.colour, linestyle=look.line,
                   linewidth=look.width, marker=MARKERS[method], markersize=4.0, zorder=3,
                   markerfacecolor=look.colour if filled else "white")
-    axes.set_ylim(bottom=0.0)
+    # iterations of TANG are many times those of NORM
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
     style.title(axes, "Iterations: ● NORM, all grids; ■ TANG")
 
 
