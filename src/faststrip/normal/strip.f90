@@ -60,7 +60,7 @@ module faststrip_normal_strip
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all levels together: so much, and so many steps of all strips.
-    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
+    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 60.0_wp
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
@@ -213,7 +213,9 @@ contains
                 if (n_settled > 0) exit
                 ! Where a neck or an edge is too fine for few strips, more may settle.
                 if (level == n_levels) then
-                    if (levels(level) > most_at_once .or. level == most_levels) exit
+                    if (levels(level) > min(most_at_once, max(options%strips_per_patch, &
+                                                              fewest_strips)) &
+                        .or. level == most_levels) exit
                     n_levels = level + 1
                     levels(n_levels) = 2*levels(level) + 1
                 end if
