@@ -9,8 +9,9 @@
 !> surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
 !>
-!> Many strips are reached by levels: 7 find the patches, 15 and more refine them. A gap
-!> whose ends do not settle gets the answer of `faststrip_normal_lattice`.
+!> Many strips are reached by levels: 7 find the patches, 15 and more refine them. Where 20 or
+!> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
+!> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
