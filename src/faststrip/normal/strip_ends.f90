@@ -216,7 +216,8 @@ contains
         real(wp), intent(in) :: penetration          !! above the lowest height, mm
         type(contact_strips_t), intent(in) :: strips !! a solution
 
-        real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp] ! widths from an end
+        ! Distances from an end, in widths of the end strip
+        real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
         real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
         real(wp) :: depth, width
         integer :: j, k
@@ -231,13 +232,15 @@ contains
             width = strips%y_right(k) - strips%y_left(k)
             if (is_end(strips, k, k - 1)) then
                 do j = 1, size(beside)
-                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, strips, &
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
+                                                             strips, &
                                                              strips%y_left(k) - beside(j)*width))
                 end do
             end if
             if (is_end(strips, k, k + 1)) then
                 do j = 1, size(beside)
-                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, strips, &
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
+                                                             strips, &
                                                              strips%y_right(k) + beside(j)*width))
                 end do
             end if

@@ -18,7 +18,8 @@ module faststrip_normal_strip_equations
     implicit none
     private
 
-    public :: goal_t, effort_t, add_effort, effort_work, step_work, strip_residual, strip_jacobian, mark_leaving_strips
+    public :: goal_t, effort_t, add_effort, effort_work, step_work, strip_residual
+    public :: strip_jacobian, mark_leaving_strips
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.

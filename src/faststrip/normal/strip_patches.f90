@@ -118,7 +118,8 @@ contains
                     changed = .true.
                 end if
             else if (seed%y_to > high - 0.5_wp*dy .and. patches%at(p)%y_to > high &
-                     .and. patches%at(p)%y_from < high + dy .and. patches%at(p)%y_from > seed%y_from) then
+                     .and. patches%at(p)%y_from < high + dy &
+                     .and. patches%at(p)%y_from > seed%y_from) then
                 touches = .true.
                 if (seed%y_to - seed%y_from > 1.5_wp*dy) then
                     patches%at(p)%y_from = seed%y_from
@@ -159,8 +160,9 @@ contains
 
         n = min(1, patches%n)
         do p = 2, patches%n
-            clearance = 0.25_wp*min((patches%at(n)%y_to - patches%at(n)%y_from)/patches%at(n)%n_strips, &
-                                    (patches%at(p)%y_to - patches%at(p)%y_from)/patches%at(p)%n_strips)
+            clearance = 0.25_wp*min( &
+                        (patches%at(n)%y_to - patches%at(n)%y_from)/patches%at(n)%n_strips, &
+                        (patches%at(p)%y_to - patches%at(p)%y_from)/patches%at(p)%n_strips)
             if (patches%at(p)%y_from - patches%at(n)%y_to < clearance .and. may_merge) then
                 patches%at(n)%y_to = max(patches%at(n)%y_to, patches%at(p)%y_to)
                 patches%at(n)%too_far_to = patches%at(p)%too_far_to
