@@ -103,7 +103,8 @@ contains
         integer :: d, n
 
         do d = 1, size(refit_degrees)
-            call prepare_refit(refit_t(degree=refit_degrees(d), fit=fit_minimax_error), plan, status)
+            call prepare_refit(refit_t(degree=refit_degrees(d), fit=fit_minimax_error), plan, &
+                               status)
             call fail_on_error(status)
             do n = 0, ubound(rows, 1)
                 call refit_row(plan, n, rows(n, d), status)

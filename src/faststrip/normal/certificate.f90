@@ -26,7 +26,8 @@
 !> the area's estimate by 8/n, because a cubic through few lengths tells less of the tips; and
 !> pmax is not trusted beyond 0.15/n^2, the discretisation error of slim ellipses, whose pressures
 !> are so smooth along y that both terms miss it. The first term of pmax is the
-!> pressure that closes a wave of the amplitude e over the strip's width w on a half-space, over the strip with the largest pressure and its
+!> pressure that closes a wave of the amplitude e over the strip's width w on a half-space, over the
+!> strip with the largest pressure and its
 !> neighbours; the second is how far q = p0^2 of these is from the polynomial through the two
 !> strips on each side, over the largest q*. The factors in front were calibrated so that 95 %
 !> of the Hertz ellipses of a/b = 0.004 to 100 and of every second of the 20 gaps of the

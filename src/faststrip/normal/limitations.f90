@@ -8,7 +8,8 @@
 !> - flat along x: somewhere in the contact A was not positive, or below 3 % of the geometric mean
 !>   of the gap, and was raised to that. The patch there is as long as this makes it;
 !> - half-space doubtful: a slope of the gap above 0.2 across a strip or at its tip, or
-!>   surfaces that turn by more than 20 degrees over it. A half-space takes surfaces for planes and moves them along one
+!>   surfaces that turn by more than 20 degrees over it. A half-space takes surfaces for planes and
+!>   moves them along one
 !>   normal; the slope's square, 4 %, is what is left out. The gap does not tell by how much the
 !>   surfaces turn together, as wheel flange and rail corner do: that takes `gap_t%turn`, which
 !>   gaps made from profiles have.

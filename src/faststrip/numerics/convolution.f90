@@ -3,7 +3,8 @@
 !>     result(i, j) = sum over (k, l) of kernel(i - k, j - l) source(k, l)
 !>
 !> The grid is doubled and filled up with zeros, so that the transform's periodic images do not
-!> reach the result; the transforms along x pass over the rows of zeros. Plans and kernels are made once and kept in a workspace of the caller; applying
+!> reach the result; the transforms along x pass over the rows of zeros. Plans and kernels are made
+!> once and kept in a workspace of the caller; applying
 !> them allocates nothing (FFTW may take a buffer of its own for large grids).
 !>
 !> Plans are made with FFTW_ESTIMATE. A plan chosen by measuring is somewhat faster, but which one

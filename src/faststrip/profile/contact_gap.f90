@@ -43,7 +43,8 @@ contains
     !> `y' = (Y - Yc) cos(gamma) + (Z - Zc) sin(gamma)`; the gap is the distance of rail and
     !> wheel along the turned normal and `inv2r = 1/(2 R)`,
     !> `R = r cos(alpha - gamma)/cos(alpha)` with the local rolling radius r and slope angle
-    !> alpha of the wheel; `turn` is the mean slope angle of the two less gamma. Samples stand at the multiples of `step`, from the contact outwards as
+    !> alpha of the wheel; `turn` is the mean slope angle of the two less gamma. Samples stand at
+    !> the multiples of `step`, from the contact outwards as
     !> far as the gap stays within `height` and both profiles go on, as functions of y'.
     subroutine make_gap(wheel, rail, wheelset, contact, step, height, gap, status)
         type(profile_t), intent(in) :: wheel          !! wheel profile
