@@ -8,7 +8,7 @@ module faststrip_normal_patch_ellipse
     implicit none
     private
 
-    public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
+    public :: patch_ellipse_t, patch_ellipse, patch_end, lobe_end, check_strips
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -23,6 +23,9 @@ module faststrip_normal_patch_ellipse
 
     !> Strips are refused beyond this, mm and MPa.
     real(wp), parameter :: largest = 1.0e9_wp
+
+    !> A neck of a patch is shorter than this share of the longest strips on either side.
+    real(wp), parameter :: neck_share = 0.3_wp
 
     !> Area (mm^2) and load (N) below which a patch is none.
     real(wp), parameter :: smallest = 1.0e-60_wp
@@ -77,6 +80,28 @@ contains
             last = last + 1
         end do
     end function patch_end
+
+    !> The last strip of the lobe that begins with strip `first`: a patch whose strips are shorter
+    !> in between than `neck_share` of the longest on either side counts as two, for tractions pass
+    !> hardly through such a neck.
+    pure integer function lobe_end(strips, first) result(last)
+        type(contact_strips_t), intent(in) :: strips !! checked strips
+        integer, intent(in) :: first                 !! 1 to n
+
+        integer :: k, n
+
+        last = patch_end(strips, first)
+        n = last
+        do k = first + 1, n - 1
+            if (strips%half_length(k) > min(strips%half_length(k - 1), strips%half_length(k + 1))) &
+                cycle
+            if (strips%half_length(k) < neck_share*min(maxval(strips%half_length(first:k)), &
+                                                       maxval(strips%half_length(k:n)))) then
+                last = k
+                return
+            end if
+        end do
+    end function lobe_end
 
     !> The ellipse with the area `pi a b` of strips `first` to `last` and their proportion
     !> `a/b = sqrt(Ix/Iy)`, `Ix = int x^2 dA`, `Iy = int (y - yc)^2 dA` (theory 5): exact on an

@@ -1,7 +1,7 @@
 !> TFASTSTRIP, the better one: marching in the strips of any contact patch.
 !>
-!> Each patch has a virtual ellipse (semi-axes a, b of its area and second moments), which gives
-!> Kalker's coefficients; everything else is the strip's own: its length 2 xd, its pressure p0 and
+!> Each patch, and each lobe of a patch with a neck (`lobe_end`), has a virtual ellipse (semi-axes
+!> a, b of its area and second moments), which gives Kalker's coefficients; everything else is the strip's own: its length 2 xd, its pressure p0 and
 !> its place y. A strip is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's
 !> eq. (25)-(48) once corrected). What differs from the paper, and why:
 !>
@@ -59,7 +59,7 @@ module faststrip_tangential_faststrip
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, over_force
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, lobe_end, &
                                               check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, put_element, field_power, most_points, &
@@ -177,7 +177,7 @@ contains
         last = 0
         do while (last < strips%n)
             first = last + 1
-            last = patch_end(strips, first)
+            last = lobe_end(strips, first)
             call solve_patch(strips, first, last, material, mu, creepage, points_per_strip, &
                              result, stuck, covered, status, field, per_strip)
             if (is_error(status)) then
