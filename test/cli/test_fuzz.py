@@ -44,7 +44,8 @@ class Fuzz(ProgramTest):
         self.assertLess(int(row["iterations"]), 300, row)
 
     def test_overlap_outside_is_named(self):
-        for case in (1400, 1603, 1936, 2511, 2611, 6120, 6285, 11300, 11389, 11783, 21260):
+        for case in (1400, 1603, 1936, 2511, 2611, 6120, 6285, 11300, 11389, 11783, 21260,
+                     36154, 75150, 75577, 96296):
             with self.subTest(case):
                 done = self.run_program("fuzz", "--cases", 1, "--first", case, "-o", "case.csv")
                 self.assertEqual(done.returncode, 0, done.stdout)

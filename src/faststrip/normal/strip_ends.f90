@@ -209,7 +209,8 @@ contains
     end subroutine scan
 
     !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
-    !> scan of `close_overlaps` may miss it in a rough gap: in its valleys, and next to the ends.
+    !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and next
+    !> to the ends of the patches.
     pure real(wp) function overlap_left(curve, compliance, penetration, strips) result(largest)
         type(gap_curve_t), intent(in) :: curve       !! the gap
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
@@ -222,7 +223,9 @@ contains
         real(wp) :: depth, width
         integer :: j, k
 
-        depth = 0.0_wp
+        ! A valley may be cut off by the end of the points.
+        depth = max(overlap_outside(curve, compliance, penetration, strips, curve%y(1)), &
+                    overlap_outside(curve, compliance, penetration, strips, curve%y(curve%n)))
         do j = 2, curve%n_pieces
             if (curve%h_node(j) > min(curve%h_node(j - 1), curve%h_node(j + 1))) cycle
             depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
