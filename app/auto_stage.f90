@@ -13,6 +13,7 @@ module faststrip_app_auto_stage
     use faststrip_contact_indicators, only: indicators_t, find_indicators
     use faststrip_contact_choice, only: choose_methods, target_forces, target_pmax, &
                                         target_penetration
+    use faststrip_tangential_variational, only: are_alike
     use faststrip_app_methods, only: methods_t, targets
     use faststrip_app_normal_stage, only: demand_t
     implicit none
@@ -37,7 +38,8 @@ contains
         logical, intent(in) :: with_field         !! are elements wanted?
         type(methods_t), intent(out) :: chosen    !! by name
         character(len=:), allocatable, intent(out) :: words !! for the CSV
-        type(status_t), intent(out) :: status     !! of the library
+        type(status_t), intent(out) :: status
+            !! of the library; `st_target_missed` where even Kalker's methods cannot help
 
         integer, parameter :: numbers(3) = [target_forces, target_pmax, target_penetration]
         type(gap_curve_t) :: curve
@@ -66,7 +68,10 @@ contains
         chosen%points_per_strip = core%points_per_strip
         chosen%fastsim_nx = core%fastsim_nx
         chosen%fastsim_ny = core%fastsim_ny
-        if (status%code == st_target_missed) then
+        if (status%code == st_target_missed .and. methods%target == targets(1) .and. &
+            .not. are_alike(material)) then
+            words = 'the best there is for unlike materials, expected within ' // percent(expected)
+        else if (status%code == st_target_missed) then
             status = status_t()
             call take_kalker(methods, indicators, chosen)
             words = 'nothing cheaper is expected to be within ' // percent(methods%tolerance)

@@ -2,7 +2,7 @@
 module faststrip_app_solver
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, clear_status, is_error
+    use faststrip_status, only: status_t, clear_status, is_error, st_ok
     use faststrip_material, only: material_t, check_material
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t
@@ -94,7 +94,7 @@ contains
         type(outcome_t), intent(out) :: outcome    !! figures
         type(status_t), intent(out) :: status      !! an error, or a named limitation
 
-        type(status_t) :: tangential_status
+        type(status_t) :: tangential_status, choice_status
         real(wp) :: change
         integer(int64) :: before, between, after
 
@@ -108,7 +108,8 @@ contains
         else
             solver%gap = gap
         end if
-        call take_methods(solver, material, mu, demand, creepage, outcome, status)
+        call take_methods(solver, material, mu, demand, creepage, outcome, choice_status)
+        status = choice_status
         if (is_error(status)) return
         call make_room(solver%normal, solver%gap, status)
         if (is_error(status)) return
@@ -145,7 +146,8 @@ contains
                                   tangential_status)
         end if
         call system_clock(after)
-        if (solver%with_strip_forces .and. solver%methods%tangential == 'faststrip' &
+        solver%strip_forces%n = 0
+        if (solver%with_strip_forces .and. solver%chosen%tangential == 'faststrip' &
             .and. .not. is_error(tangential_status)) then
             ! Once more, so that the time is that of the forces.
             call reserve_strip_forces(solver%strip_forces, &
@@ -159,6 +161,7 @@ contains
         outcome%knows_stick = gives_stick(solver%normal%methods%tangential) .and. outcome%has_forces
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
+        if (status%code == st_ok) status = choice_status
         if (is_error(status) .or. solver%chosen%normal == 'norm') return
         call certify(solver%normal, material, outcome%normal, outcome%certificate, &
                      outcome%is_certified)

@@ -16,7 +16,6 @@ from faststrip_plots.style import legend_above, new_figure, save, title
 from faststrip_plots.tables import InputError, read_table
 
 REFERENCE = "Kalker"
-# the words that say which rows of a legend belong together come from the file
 COLOURS = ("#c9a227", "#f08519", "#0b3c78", "#2f7d32", "#a8326e")
 MARKERS = ("x", "s", "o", "D", "^")
 PANELS = (("pmax", "largest pressure"), ("forces", "forces, in mu N"))
@@ -63,7 +62,9 @@ def errors(table):
         row = {"scene": s, "method": m, "status": status[k], "us": "", "pmax": "", "forces": ""}
         if status[k] in RESULTS:
             row["us"] = float(np.nansum([number["normal_us"][k], number["tangential_us"][k]]))
-        if m != REFERENCE and status[k] in RESULTS and status[r] in RESULTS:
+        # where Kalker's methods refuse the materials, there is nothing to judge by
+        judged = status[r] in RESULTS and status[r] != "target_missed"
+        if m != REFERENCE and judged and status[k] in RESULTS:
             row["pmax"] = 100 * abs(number["pmax_MPa"][k] / number["pmax_MPa"][r] - 1)
             force = math.hypot(number["Fx_N"][k] - number["Fx_N"][r],
                                number["Fy_N"][k] - number["Fy_N"][r])

@@ -7,7 +7,7 @@ module faststrip_material
     implicit none
     private
 
-    public :: material_t, check_material, normal_compliance, combined_shear_modulus
+    public :: material_t, check_material, check_compliance, normal_compliance, combined_shear_modulus
     public :: combined_poisson_ratio
 
     !> Linear elastic, isotropic wheel and rail; steel on steel by default.
@@ -50,6 +50,21 @@ contains
                             ' is outside (-1, 0.5]: ' // trim(number_text(nu)))
         end if
     end subroutine check_body
+
+    !> Refuse a compliance no surface has.
+    pure subroutine check_compliance(compliance, status)
+        real(wp), intent(in) :: compliance    !! H of eq. (4), 1/MPa
+        type(status_t), intent(out) :: status !! `st_not_finite`, `st_bad_material`
+
+        call clear_status(status)
+        if (.not. ieee_is_finite(compliance)) then
+            call set_status(status, st_not_finite, 'the compliance is not a finite number: ' // &
+                            number_text(compliance))
+        else if (compliance <= 0.0_wp) then
+            call set_status(status, st_bad_material, 'the compliance is not positive: ' // &
+                            number_text(compliance))
+        end if
+    end subroutine check_compliance
 
     !> H of eq. (4): displacement per unit influence integral and pressure, 1/MPa.
     pure real(wp) function normal_compliance(material) result(h)

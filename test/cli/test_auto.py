@@ -2,7 +2,7 @@
 
 import math
 
-from cli_program import ROOT, ProgramTest
+from cli_program import ROOT, ProgramTest, rows_of
 
 SCENES = ROOT / "example" / "scenes"
 
@@ -38,6 +38,23 @@ class Auto(ProgramTest):
             self.assertGreater(float(row[f"{target}_{'MPa' if target == 'pmax' else 'mm'}"]), 0.0)
         row = self.contact("freight_25t", "--tangential", "none")
         self.assertEqual(row["Fx_N"], "")
+
+    def test_strips_beside_change_no_forces(self):
+        for tolerance in ("0.001", "0.3"):
+            words = ("--normal", "auto", "--tolerance", tolerance)
+            plain = self.contact("tread_straight", *words)
+            row = self.contact("tread_straight", *words, "--strips", "strips.csv")
+            for name in ("Fx_N", "Fy_N", "Mz_Nmm", "stick_fraction"):
+                self.assertEqual(row[name], plain[name], (tolerance, name))
+
+    def test_unlike_materials_get_the_best_there_is(self):
+        done = self.run_program("contact", SCENES / "polymer_roller.nml", "--normal", "auto",
+                                "--tolerance", "0.0001")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        row = rows_of(done.stdout)[0]
+        self.assertEqual(row["status"], "target_missed")
+        self.assertIn("the best there is for unlike materials", row["choice"])
+        self.assertLess(float(row["Fx_N"]), 0.0)
 
     def test_fields_need_elements(self):
         self.contact("tram_small_wheel", "--normal", "auto", "--tolerance", "0.3", "--fields",

@@ -35,6 +35,7 @@ module faststrip_normal_lattice
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
                                 st_no_contact, st_out_of_range, st_edge_of_data, st_overlap_left, &
                                 st_linear_algebra, st_workspace_too_small
+    use faststrip_material, only: check_compliance
     use faststrip_influence_row, only: center_influence_column, &
                                        center_influence_column_gradient, &
                                        influence_column_gradient
@@ -206,16 +207,11 @@ contains
         type(contact_strips_t), intent(in) :: strips
         type(status_t), intent(out) :: status
 
-        call clear_status(status)
+        call check_compliance(compliance, status)
+        if (is_error(status)) return
         if (.not. ieee_is_finite(target)) then
             call set_status(status, st_not_finite, &
                             'load or penetration is not a finite number: ' // number_text(target))
-        else if (.not. ieee_is_finite(compliance)) then
-            call set_status(status, st_not_finite, &
-                            'the compliance is not a finite number: ' // number_text(compliance))
-        else if (compliance <= 0.0_wp) then
-            call set_status(status, st_bad_material, &
-                            'the compliance is not positive: ' // number_text(compliance))
         else if (n_strips < 3) then
             call set_status(status, st_bad_argument, 'fewer than 3 strips per patch asked')
         else if (curve%n == 0) then

@@ -20,6 +20,7 @@ module faststrip_normal_strip
                                 st_no_contact, st_fewer_strips, &
                                 st_fallback_used, st_overlap_left, &
                                 st_workspace_too_small
+    use faststrip_material, only: check_compliance
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
@@ -437,14 +438,9 @@ contains
         type(contact_strips_t), intent(in) :: strips
         type(status_t), intent(out) :: status
 
-        call clear_status(status)
-        if (.not. ieee_is_finite(compliance)) then
-            call set_status(status, st_not_finite, &
-                            'the compliance is not a finite number: '//number_text(compliance))
-        else if (compliance <= 0.0_wp) then
-            call set_status(status, st_bad_material, &
-                            'the compliance is not positive: '//number_text(compliance))
-        else if (options%strips_per_patch < 1 .and. options%strips_per_patch /= strips_auto) then
+        call check_compliance(compliance, status)
+        if (is_error(status)) return
+        if (options%strips_per_patch < 1 .and. options%strips_per_patch /= strips_auto) then
             call set_status(status, st_bad_argument, 'fewer than one strip per patch asked')
         else if (.not. (options%tolerance > 0.0_wp .and. options%tolerance <= 1.0e-2_wp)) then
             call set_status(status, st_bad_argument, 'the tolerance is outside (0, 0.01]: ' &

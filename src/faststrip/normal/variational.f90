@@ -16,6 +16,7 @@ module faststrip_normal_variational
                                 st_bad_argument, st_bad_load, st_bad_material, st_edge_of_data, &
                                 st_no_contact, st_no_convergence, st_not_finite, &
                                 st_out_of_range, st_workspace_too_small
+    use faststrip_material, only: check_compliance
     use faststrip_influence_rectangle, only: rectangle_potential
     use faststrip_numerics_convolution, only: convolution_t, reserve_convolution, &
                                               release_convolution, set_kernel, &
@@ -624,14 +625,9 @@ contains
         type(norm_options_t), intent(in) :: options
         type(status_t), intent(out) :: status
 
-        call clear_status(status)
-        if (.not. ieee_is_finite(compliance)) then
-            call set_status(status, st_not_finite, &
-                            'the compliance is not a finite number: '//number_text(compliance))
-        else if (compliance <= 0.0_wp) then
-            call set_status(status, st_bad_material, &
-                            'the compliance is not positive: '//number_text(compliance))
-        else if (compliance < smallest .or. compliance > largest) then
+        call check_compliance(compliance, status)
+        if (is_error(status)) return
+        if (compliance < smallest .or. compliance > largest) then
             call set_status(status, st_out_of_range, 'the compliance is beyond all proportion: ' &
                             //number_text(compliance))
         else if (.not. ieee_is_finite(options%tolerance)) then

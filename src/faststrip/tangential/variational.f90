@@ -29,7 +29,7 @@ module faststrip_tangential_variational
 
     public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
-    public :: motion_rolling, motion_shift
+    public :: motion_rolling, motion_shift, are_alike
 
     !> Steady rolling, or a shift of bodies that were not displaced before.
     integer, parameter :: motion_rolling = 3, motion_shift = 1
@@ -70,6 +70,13 @@ module faststrip_tangential_variational
     end type tang_workspace_t
 
 contains
+
+    !> Do pressures cause no slip between bodies of these materials? TANG needs that.
+    pure logical function are_alike(material)
+        type(material_t), intent(in) :: material !! checked moduli, MPa
+
+        are_alike = abs(coupling_constant(material)) <= no_coupling
+    end function are_alike
 
     !> Solve the tangential problem of a grid of pressures.
     !>
@@ -190,7 +197,7 @@ contains
         g = combined_shear_modulus(material)
         if (g > largest .or. g < smallest) then
             call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
-        else if (abs(coupling_constant(material)) > no_coupling) then
+        else if (.not. are_alike(material)) then
             call set_status(status, st_bad_material, 'TANG is for like materials; here ' // &
                             'pressures cause slip, K = ' // &
                             number_text(coupling_constant(material)))
