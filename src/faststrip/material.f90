@@ -7,7 +7,8 @@ module faststrip_material
     implicit none
     private
 
-    public :: material_t, check_material, check_compliance, normal_compliance, combined_shear_modulus
+    public :: material_t, check_material, check_compliance, normal_compliance
+    public :: combined_shear_modulus
     public :: combined_poisson_ratio
 
     !> Linear elastic, isotropic wheel and rail; steel on steel by default.

@@ -246,7 +246,8 @@ contains
                          result%penetration - workspace%curve%h_lowest, strips) &
             > tolerated_overlap) &
             call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
-                                //'by more than 1 % of the penetration: a rough gap, or one cut off')
+                                //'by more than 1 % of the penetration: a rough gap, or one that ' &
+                                //'is cut off')
         call name_limitations(workspace%curve, strips, status)
         if (options%strips_per_patch > 0 .and. options%strips_per_patch < fewest_strips &
             .and. .not. is_error(status)) &
