@@ -37,6 +37,8 @@ enum faststrip_status {
     FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
     FASTSTRIP_CONFORMAL = 6,     /* the surfaces turn much within it: half-space doubtful */
     FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
+    FASTSTRIP_UNDER_RESOLVED = 8, /* the estimated error of the pressure is above the limit */
+    FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
     FASTSTRIP_NOT_FINITE = 101,

@@ -46,7 +46,8 @@ class Result:
     status: int
     """0, or the number of a named limitation"""
     word: str
-    """``ok``, or the name of the limitation (``edge_of_data``, ``fallback_used``, ...)"""
+    """``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``, ``fewer_strips``,
+    ``overlap_left``, ``flat_along_x``, ``conformal``, ``under_resolved``, ``more_strips``"""
     load: float
     penetration: float
     area: float
