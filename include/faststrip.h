@@ -8,12 +8,18 @@
  * named limitation; from there on no result, and the figures are zero. faststrip_message gives the
  * word of a status, faststrip_last_message says what was wrong with which value.
  *
- * A workspace serves one thread at a time; different workspaces are independent, and the library
- * remembers nothing outside of them. faststrip_new and faststrip_copy allocate, faststrip_free
- * frees, nothing else does (but the words of an error are made with a little memory of the Fortran
- * run-time library). A call needs less than 64 kB of stack. No function stops, prints, reads or
- * writes a file, changes the locale, or leaves floating-point flags, traps or rounding other than
- * it found them. A pointer that is neither null nor what it should be cannot always be noticed. */
+ * A workspace serves one thread at a time; different workspaces are independent. A pointer to a
+ * workspace is a number of this library's, not an address: one that was freed, or never made, is
+ * told (100) in every function, however often, and its memory is not touched. Outside of workspaces
+ * the library remembers which of them are in use, and nothing else. faststrip_new and
+ * faststrip_copy allocate, faststrip_free frees, nothing else does (but faststrip_check_case, which
+ * tries, and the words of an error, made with a little memory of the Fortran run-time library). A
+ * call needs less than 64 kB of stack. No function stops, prints, reads or writes a file, changes
+ * the locale, or leaves floating-point flags, traps or rounding other than it found them.
+ *
+ * The structs may grow in later releases, at their ends. A program compiled with an older header
+ * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
+ * is written than its header knows. A case larger than the library knows is refused (100). */
 #ifndef FASTSTRIP_H
 #define FASTSTRIP_H
 
@@ -77,7 +83,7 @@ enum faststrip_tangential {
 
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {
-    size_t size;          /* of this struct; set by faststrip_default_case */
+    size_t size;          /* of this struct as the caller knows it; set by faststrip_default_case */
     int normal;           /* enum faststrip_normal */
     int tangential;       /* enum faststrip_tangential */
     int strips_per_patch; /* 1 to 1000 across the largest patch, or 0: left to the solver */
@@ -101,7 +107,7 @@ typedef struct faststrip_case {
 
 /* Figures of one contact. */
 typedef struct faststrip_result {
-    size_t size;           /* of this struct, set by faststrip_solve */
+    size_t size;           /* bytes written, set by faststrip_solve: what the case's header knows */
     double load;           /* N */
     double penetration;    /* mm */
     double area;           /* mm^2 */
@@ -132,23 +138,28 @@ int faststrip_message(int status, char *text, size_t length);
 int faststrip_last_message(const faststrip_workspace *workspace, char *text, size_t length);
 
 /* Steel on steel, mu = 0.3, strips and FASTSTRIP, no load: to be filled in further.
- * length is sizeof(faststrip_case), by which header and library know that they fit. */
+ * length is sizeof(faststrip_case): how much of it the caller knows. */
 int faststrip_default_case(faststrip_case *contact, size_t length);
+
+/* What faststrip_new would return for the same case and room; text, if not null, says why. */
+int faststrip_check_case(const faststrip_case *contact, int max_points, char *text, size_t length);
 
 /* Make a workspace with room for the methods of a case, gaps of up to max_points points and, if
  * with_elements, the elements. *workspace is null when there is an error. */
 int faststrip_new(const faststrip_case *contact, int max_points, faststrip_workspace **workspace);
 
-/* Free a workspace; *workspace becomes null. One that is null already is left alone. */
+/* Free a workspace; *workspace becomes null. One that is null already is left alone; one that was
+ * freed through another pointer is told (100). */
 int faststrip_free(faststrip_workspace **workspace);
 
 /* Copy gap, solution and room of one workspace into another, for a step that may be taken back. */
 int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 
 /* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
- * n >= 5 points, y strictly increasing, mm, mm, 1/mm. turn says how far the surfaces have turned
- * from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not known. The
- * numbers are copied. */
+ * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. turn says how far the surfaces have
+ * turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not
+ * known. All numbers must be finite; they are copied. With more points than there is room for (110)
+ * nothing is read. With an error the workspace keeps the gap that it had. */
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
                       const double *inv2r, const double *turn);
 

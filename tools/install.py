@@ -30,7 +30,7 @@ Description: Wheel/rail contact by the modified strip method
 Version: {version}
 Cflags: -I${{includedir}} -I${{includedir}}/faststrip
 Libs: -L${{libdir}} -lfaststrip
-Libs.private: -lgfortran -lm
+Libs.private: {run_time}
 Requires.private: openblas
 """
 
@@ -115,6 +115,15 @@ def install_library(stage, prefix, version):
         (library / link).symlink_to(shared.name)
 
 
+def run_time_libraries():
+    """What a program linked statically needs of Fortran's compiler, in the linker's order."""
+    names = ["gfortran", "quadmath", "m"]
+    # Not every machine has the one with numbers of 16 bytes; a name that comes back was not found.
+    if command("gfortran", "-print-file-name=libquadmath.a").strip() == "libquadmath.a":
+        names.remove("quadmath")
+    return " ".join(f"-l{name}" for name in names)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--stage", required=True, type=pathlib.Path)
@@ -138,7 +147,8 @@ def main():
     install_library(options.stage, prefix, version)
     described = prefix / "lib" / "pkgconfig" / "faststrip.pc"
     described.parent.mkdir(parents=True, exist_ok=True)
-    described.write_text(PKG_CONFIG.format(prefix=prefix, version=version), encoding="utf-8")
+    described.write_text(PKG_CONFIG.format(prefix=prefix, version=version,
+                                           run_time=run_time_libraries()), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fenv.h>
+#include <limits.h>
 #include <locale.h>
 #include <pthread.h>
 #include <stdarg.h>
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #ifdef COUNTING
@@ -273,7 +275,7 @@ static void errors(void)
     faststrip_case other;
     faststrip_result result;
     double a[400], f[4];
-    int k[400], n = -1;
+    int k[400], n = -1, i;
     char text[FASTSTRIP_TEXT], little[4];
     int checked = 0, wrong_lines = 0;
 
@@ -296,12 +298,28 @@ static void errors(void)
     EXPECT(0, faststrip_message(-1, text, sizeof text));
     EXPECT(0, strcmp(text, "unknown_status"));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(NULL, sizeof other));
-    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, sizeof other - 8));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, 0));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, 8));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, sizeof other - 1));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, sizeof other + 8));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_case(&other, (size_t)-8));
     EXPECT(0, faststrip_default_case(&other, sizeof other));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(NULL, 100, &none));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 100, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 4, &none));
-    other.size -= 8;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_check_case(NULL, 100, text, sizeof text));
+    EXPECT(0, strcmp(text, "the case is missing"));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_check_case(&other, 4, text, sizeof text));
+    EXPECT(1, strstr(text, "got 4") != NULL);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_check_case(&other, 4, NULL, 0));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_check_case(&other, 4, little, sizeof little));
+    EXPECT(0, faststrip_check_case(&other, 5, text, sizeof text));
+    EXPECT(0, strlen(text));
+    other.size += 8;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_check_case(&other, 100, text, sizeof text));
+    EXPECT(1, strstr(text, "the header is newer") != NULL);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 100, &none));
+    other.size = 3;
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_new(&other, 100, &none));
     EXPECT(1, none == NULL);
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_free(NULL));
@@ -314,6 +332,17 @@ static void errors(void)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_set_gap(workspace, -1, e.y, e.h, e.inv2r, NULL));
     EXPECT(FASTSTRIP_TOO_FEW_POINTS, faststrip_set_gap(workspace, 0, e.y, e.h, e.inv2r, NULL));
     EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_set_gap(workspace, POINTS + 1, f, f, f, f));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_set_gap(workspace, INT_MAX, f, f, f, NULL));
+    EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+    EXPECT(1, strstr(text, "got 2147483647") != NULL);
+    for (i = 0; i < 3; i++) {
+        memcpy(a, e.h, sizeof e.h);
+        a[POINTS - 1 - 50 * i] = hostile[i];
+        EXPECT(FASTSTRIP_NOT_FINITE, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, a));
+        EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+        EXPECT(1, strstr(text, "turn(") != NULL);
+    }
     EXPECT(0, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, e.h));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(NULL, &e.contact, &result));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, NULL, &result));
@@ -358,6 +387,154 @@ static void errors(void)
     printf("checked %d\nwrong %d\n", checked, wrong_lines);
 }
 
+/* Workspaces that were freed, by pointers that were kept: told by every function, always, also
+ * when others have been made since, in this thread or another. */
+enum { KEPT = 200 };
+static faststrip_workspace *kept[KEPT];
+
+static long refused(faststrip_workspace *workspace)
+{
+    example e = examples[0];
+    faststrip_workspace *alive = make_workspace(), *copy = workspace;
+    faststrip_result result;
+    double a[9];
+    int k[9], n;
+    char text[FASTSTRIP_TEXT];
+    long wrong = 0;
+
+    wrong += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) != 100;
+    wrong += faststrip_solve(workspace, &e.contact, &result) != 100;
+    wrong += faststrip_get_strips(workspace, 9, &n, a, a, a, a, k) != 100;
+    wrong += faststrip_get_elements(workspace, 9, &n, a, a, a, a, a, a, a, a, k) != 100;
+    wrong += faststrip_last_message(workspace, text, sizeof text) != 100;
+    wrong += faststrip_copy(workspace, alive) != 100;
+    wrong += faststrip_copy(alive, workspace) != 100;
+    wrong += faststrip_free(&copy) != 100;
+    wrong += faststrip_free(&alive) != 0;
+    return wrong;
+}
+
+static void *refuse_all(void *argument)
+{
+    long *wrong = argument;
+    int i;
+
+    for (i = 0; i < KEPT; i++) *wrong += refused(kept[i]);
+    return NULL;
+}
+
+static void freed(void)
+{
+    faststrip_workspace *other[KEPT];
+    faststrip_case contact;
+    pthread_t thread[4];
+    long wrong = 0, found[4] = {0};
+    int i, k, status, twins = 0;
+
+    faststrip_default_case(&contact, sizeof contact);
+    contact.strips_per_patch = 3;
+    for (i = 0; i < KEPT; i++) wrong += faststrip_new(&contact, 5, &kept[i]) != 0;
+    for (i = 0; i < KEPT; i++) wrong += faststrip_free((other[i] = kept[i], &other[i])) != 0;
+    wrong += refused(kept[0]);
+    for (i = 0; i < KEPT; i++) wrong += faststrip_new(&contact, POINTS, &other[i]) != 0;
+    for (i = 0; i < KEPT; i++)
+        for (k = 0; k < KEPT; k++) twins += other[i] == kept[k] || (k < i && other[i] == other[k]);
+    for (i = 0; i < 4; i++) pthread_create(&thread[i], NULL, refuse_all, &found[i]);
+    for (i = 0; i < 4; i++) pthread_join(thread[i], NULL);
+    for (i = 0; i < 4; i++) wrong += found[i];
+    for (i = 0; i < KEPT; i++) {
+        solve_example(other[i], 0, &status);
+        wrong += status == FASTSTRIP_BAD_ARGUMENT;
+        wrong += faststrip_free(&other[i]) != 0 || other[i] != NULL;
+    }
+    printf("wrong %ld\ntwins %d\n", wrong, twins);
+}
+
+/* Processes forked while threads make and free workspaces: each can make one of its own. */
+static volatile int stop;
+
+static void *make_and_free(void *argument)
+{
+    faststrip_case contact = *(faststrip_case *)argument;
+    faststrip_workspace *workspace;
+
+    while (!stop) {
+        faststrip_new(&contact, 5, &workspace);
+        faststrip_free(&workspace);
+    }
+    return NULL;
+}
+
+static void forked(void)
+{
+    faststrip_workspace *workspace;
+    faststrip_case contact;
+    pthread_t thread[4];
+    int i, status, children = 0, wrong = 0;
+    pid_t child;
+
+    faststrip_default_case(&contact, sizeof contact);
+    contact.normal = FASTSTRIP_NORMAL_HERTZ;
+    contact.strips_per_patch = 1;
+    for (i = 0; i < 4; i++) pthread_create(&thread[i], NULL, make_and_free, &contact);
+    for (i = 0; i < 300; i++) {
+        child = fork();
+        if (child == 0) {
+            alarm(20); /* a child that waits for ever ends by this */
+            status = faststrip_new(&contact, 5, &workspace);
+            if (status == 0) status = faststrip_free(&workspace);
+            _exit(status);
+        }
+        children += child > 0;
+        wrong += waitpid(child, &status, 0) != child || status != 0;
+    }
+    stop = 1;
+    for (i = 0; i < 4; i++) pthread_join(thread[i], NULL);
+    printf("children %d\nwrong %d\n", children, wrong);
+}
+
+/* A caller whose header knows less of a case: nothing beyond is read or written, in a case that
+ * ends where its memory ends, and what it lacks is the default. */
+static void older(void)
+{
+    const size_t whole = sizeof(faststrip_case);
+    example e = examples[2];
+    faststrip_workspace *workspace = make_workspace();
+    size_t size, i;
+    int wrong = 0, sizes = 0;
+
+    e.contact.e_rail = 1.5e5;
+    e.contact.strips_per_patch = 7;
+    faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
+    for (size = 16; size <= whole; size += 8) {
+        unsigned char *exact = malloc(size), *room = malloc(whole);
+        faststrip_case *contact = (faststrip_case *)exact, filled;
+        faststrip_workspace *own;
+        faststrip_result result, wanted;
+
+        memset(room, 0x5a, whole);
+        wrong += faststrip_default_case((faststrip_case *)room, size) != 0;
+        for (i = size; i < whole; i++) wrong += room[i] != 0x5a;
+        wrong += faststrip_default_case(contact, size) != 0 || contact->size != size;
+        memcpy(exact + sizeof size, (char *)&e.contact + sizeof size, size - sizeof size);
+        faststrip_default_case(&filled, whole);
+        memcpy((char *)&filled + sizeof size, exact + sizeof size, size - sizeof size);
+        wrong += faststrip_new(contact, POINTS, &own) != 0;
+        wrong += faststrip_free(&own) != 0;
+        memset(&result, 0, sizeof result);
+        memset(&wanted, 0, sizeof wanted);
+        wrong += faststrip_solve(workspace, contact, &result)
+                 != faststrip_solve(workspace, &filled, &wanted);
+        wrong += memcmp(&result, &wanted, sizeof result) != 0;
+        wrong += result.size != sizeof result;
+        sizes++;
+        free(exact);
+        free(room);
+    }
+    faststrip_free(&workspace);
+    printf("sizes %d\nwrong %d\n", sizes, wrong);
+}
+
 int main(int argc, char **argv)
 {
     const char *what = argc > 1 ? argv[1] : "";
@@ -371,6 +548,9 @@ int main(int argc, char **argv)
     else if (strcmp(what, "little_memory") == 0) little_memory();
     else if (strcmp(what, "memory") == 0) memory();
     else if (strcmp(what, "errors") == 0) errors();
+    else if (strcmp(what, "freed") == 0) freed();
+    else if (strcmp(what, "older") == 0) older();
+    else if (strcmp(what, "forked") == 0) forked();
 #ifdef COUNTING
     else if (strcmp(what, "quiet") == 0) quiet();
 #endif

@@ -9,7 +9,7 @@ module faststrip_status
     implicit none
     private
 
-    public :: status_t, set_status, clear_status, is_error, status_word, number_text
+    public :: status_t, set_status, clear_status, is_error, status_word, number_text, count_text
     public :: message_length, first_error
     public :: st_ok
     public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
@@ -132,4 +132,13 @@ contains
         write (text, '(g0.6)') value
         text = adjustl(text)
     end function number_text
+
+    !> A whole number as text for a message. Of fixed length: for the length of any other gfortran
+    !> keeps a variable that all threads share.
+    pure function count_text(n) result(text)
+        integer, intent(in) :: n  !! any integer
+        character(len=11) :: text !! left-adjusted, blank-padded
+
+        write (text, '(i0)') n
+    end function count_text
 end module faststrip_status

@@ -51,6 +51,33 @@ class Callers(HostTest):
         self.assertEqual(self.results("./caller_cpp"), self.results("./caller_static"))
         self.assertNotIn("libfaststrip", self.shell("ldd caller_static"))
 
+    def test_static_linking_by_pkg_config(self):
+        """Against the archive alone: static altogether, or but for the system's libraries."""
+        sources = dict(blocks())
+        self.write("caller.c", sources["c"])
+        self.write("caller.cpp", sources["c"])
+        self.write("caller.f", sources["f77"])
+        self.write("caller.f90", sources["fortran"])
+        self.shell(f"cp -r '{self.installed.prefix}' archive; rm archive/lib/*.so*;"
+                   f" sed -i \"s|^prefix=.*|prefix=$PWD/archive|\" archive/lib/pkgconfig/faststrip.pc")
+        found = set()
+        for compiler, source in (
+            ("gcc", "caller.c"), ("gcc -static-libgcc", "caller.c"), ("gcc -static", "caller.c"),
+            ("g++ -static", "caller.cpp"), ("gfortran -static-libgfortran", "caller.f90"),
+            ("gfortran -static-libgfortran", "caller.c"),
+            ("gfortran -static", "caller.f90"), ("gfortran -std=legacy -static", "caller.f"),
+        ):
+            with self.subTest(compiler=compiler, source=source):
+                self.shell(f"{compiler} {source} $(pkg-config --static --cflags --libs faststrip)"
+                           " -o static_caller",
+                           PKG_CONFIG_PATH=str(self.folder / "archive" / "lib" / "pkgconfig"))
+                needed = self.shell("ldd ./static_caller || true")
+                self.assertNotIn("libfaststrip", needed)
+                if compiler.endswith("-static"):
+                    self.assertIn("not a dynamic executable", needed)
+                found.add(self.results("./static_caller", LD_LIBRARY_PATH=""))
+        self.assertEqual(len(found), 1, found)
+
     def test_hosts_that_trap(self):
         sources = dict(blocks())
         traps = "-g -ffpe-trap=invalid,zero,overflow,underflow"

@@ -109,6 +109,17 @@ class Installed(HostTest):
         self.assertIn("-lfaststrip", flags)
         self.assertNotRegex(flags, FORBIDDEN)
 
+    def test_the_structs_of_the_last_release_are_those_of_the_header(self):
+        source = (ROOT / "src" / "faststrip" / "interop" / "c_structs.f90").read_text("utf-8")
+        listed = re.findall(r"^ +(\d+)_c_size_t, (\d+)_c_size_t", source, re.MULTILINE)
+        self.write("sizes.c", '#include <faststrip.h>\n#include <stdio.h>\nint main(void) { return '
+                              'printf("%zu %zu", sizeof(faststrip_case), sizeof(faststrip_result)) < 0; }')
+        found = self.shell("gcc sizes.c $(pkg-config --cflags faststrip) -o sizes && ./sizes")
+        self.assertEqual(found.split(), list(listed[-1]))
+        # The result grows together with the case only.
+        cases = [int(case) for case, _ in listed]
+        self.assertEqual(cases, sorted(set(cases)))
+
     def test_statuses_are_the_same_in_every_face(self):
         source = (ROOT / "src" / "faststrip" / "status.f90").read_text(encoding="utf-8")
         codes = {name: int(code) for name, code in

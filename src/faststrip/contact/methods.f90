@@ -1,6 +1,6 @@
 !> Which methods a contact is solved by, and how finely: numbers for programs, names for people.
 module faststrip_contact_methods
-    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
+    use faststrip_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
     use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points
     implicit none
@@ -66,19 +66,26 @@ contains
 
         call clear_status(status)
         if (methods%normal < 1 .or. methods%normal > size(normal_names)) then
-            call set_status(status, st_bad_argument, 'no such normal method')
+            call set_status(status, st_bad_argument, 'no such normal method: ' // &
+                            count_text(methods%normal))
         else if (methods%tangential < 0 .or. methods%tangential > ubound(tangential_names, 1)) then
-            call set_status(status, st_bad_argument, 'no such tangential method')
+            call set_status(status, st_bad_argument, 'no such tangential method: ' // &
+                            count_text(methods%tangential))
         else if ((methods%strips_per_patch < 1 .and. &
                   methods%strips_per_patch /= strips_auto) .or. &
                  methods%strips_per_patch > most_strips) then
-            call set_status(status, st_bad_argument, 'strips per patch outside 1 to 1000')
+            call set_status(status, st_bad_argument, 'strips per patch must be 1 to 1000, or ' // &
+                            '0 (left to the solver), got ' // &
+                            count_text(methods%strips_per_patch))
         else if (methods%points_per_strip < 1 .or. methods%points_per_strip > most_points) then
-            call set_status(status, st_bad_argument, 'points per strip outside 1 to 1000')
+            call set_status(status, st_bad_argument, 'points per strip must be 1 to 1000, got ' // &
+                            count_text(methods%points_per_strip))
         else if (min(methods%fastsim_nx, methods%fastsim_ny) < 1 .or. &
                  max(methods%fastsim_nx, methods%fastsim_ny) > most_rows) then
-            call set_status(status, st_bad_argument, 'rows of FASTSIM, or points along them, ' // &
-                            'outside 1 to 10000')
+            call set_status(status, st_bad_argument, 'points along a row of FASTSIM and rows ' // &
+                            'must be 1 to 10000, got ' // &
+                            trim(count_text(methods%fastsim_nx)) // ' and ' // &
+                            count_text(methods%fastsim_ny))
         end if
     end subroutine check_contact_methods
 

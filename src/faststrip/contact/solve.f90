@@ -7,8 +7,8 @@
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, st_bad_argument, &
-                                st_workspace_too_small
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                st_bad_argument, st_workspace_too_small
     use faststrip_material, only: material_t, check_material, normal_compliance
     use faststrip_creepage, only: creepage_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
@@ -98,8 +98,8 @@ contains
         call check_contact_methods(methods, status)
         if (is_error(status)) return
         if (max_points < min_gap_points .or. max_points > most_gap_points) then
-            call set_status(status, st_bad_argument, 'room for fewer than 5 or more than a ' // &
-                            'million gap points asked')
+            call set_status(status, st_bad_argument, 'room for gap points must be 5 to a ' // &
+                            'million, got ' // count_text(max_points))
             return
         end if
         room = strip_room(methods)

@@ -3,8 +3,8 @@
 !> Every function returns a code of `faststrip_status`. Pointers, sizes and handles are checked
 !> here; numbers are checked by the procedures that take them.
 module faststrip_interop_c
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_ptr, c_null_ptr, &
-                                           c_null_char, c_associated, c_f_pointer, c_sizeof
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
+                                           c_null_char, c_associated, c_f_pointer
     use faststrip_status, only: status_t, status_word, set_status, is_error, st_ok, &
                                 st_bad_argument, st_workspace_too_small
     use faststrip_material, only: material_t
@@ -16,34 +16,18 @@ module faststrip_interop_c
     use faststrip_contact_solve, only: contact_case_t, contact_result_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
+    use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
+                                           write_result
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     implicit none
     private
 
-    public :: c_case_t, c_result_t
-    public :: faststrip_version, faststrip_message, faststrip_default_case, faststrip_new
-    public :: faststrip_free, faststrip_copy, faststrip_set_gap, faststrip_solve
+    public :: faststrip_version, faststrip_message, faststrip_default_case, faststrip_check_case
+    public :: faststrip_new, faststrip_free, faststrip_copy, faststrip_set_gap, faststrip_solve
     public :: faststrip_get_strips, faststrip_get_elements, faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
 
     character(len=*), parameter :: version = '0.1.0'
-
-    !> `faststrip_case` of the header.
-    type, bind(c) :: c_case_t
-        integer(c_size_t) :: size
-        integer(c_int) :: normal, tangential, strips_per_patch, points_per_strip
-        integer(c_int) :: fastsim_nx, fastsim_ny, by_load, warm_start, with_elements
-        real(c_double) :: e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration
-        real(c_double) :: cksi, ceta, cphi
-    end type c_case_t
-
-    !> `faststrip_result` of the header.
-    type, bind(c) :: c_result_t
-        integer(c_size_t) :: size
-        real(c_double) :: load, penetration, area, pmax, y_min, y_max, x_max
-        real(c_double) :: fx, fy, mz, friction_power, stick_fraction
-        integer(c_int) :: n_patches, n_strips, n_elements, iterations
-    end type c_result_t
 
 contains
 
@@ -66,7 +50,7 @@ contains
 
     !> The words of a workspace's last call, with the offending value; empty when all was well.
     integer(c_int) function faststrip_last_message(workspace, text, length) bind(c) result(code)
-        type(c_ptr), value :: workspace      !! a handle
+        integer(c_intptr_t), value :: workspace !! a handle
         type(c_ptr), value :: text           !! `length` characters, written
         integer(c_size_t), value :: length   !! with the closing zero
 
@@ -84,35 +68,28 @@ contains
         type(c_ptr), value :: case           !! a `faststrip_case`
         integer(c_size_t), value :: length   !! its size as the caller knows it
 
-        type(c_case_t), pointer :: fields
-        type(contact_case_t) :: defaults
+        type(status_t) :: status
 
-        code = st_bad_argument
-        if (.not. c_associated(case)) return
-        call c_f_pointer(case, fields)
-        if (length /= c_sizeof(fields)) return
-        code = st_ok
-        fields%size = length
-        fields%normal = defaults%methods%normal
-        fields%tangential = defaults%methods%tangential
-        fields%strips_per_patch = defaults%methods%strips_per_patch
-        fields%points_per_strip = defaults%methods%points_per_strip
-        fields%fastsim_nx = defaults%methods%fastsim_nx
-        fields%fastsim_ny = defaults%methods%fastsim_ny
-        fields%by_load = merge(1, 0, defaults%by_load)
-        fields%warm_start = merge(1, 0, defaults%warm_start)
-        fields%with_elements = 0
-        fields%e_wheel = defaults%material%e_wheel
-        fields%e_rail = defaults%material%e_rail
-        fields%nu_wheel = defaults%material%nu_wheel
-        fields%nu_rail = defaults%material%nu_rail
-        fields%mu = defaults%mu
-        fields%load = defaults%load
-        fields%penetration = defaults%penetration
-        fields%cksi = defaults%creepage%cksi
-        fields%ceta = defaults%creepage%ceta
-        fields%cphi = defaults%creepage%cphi
+        call write_default_case(case, length, status)
+        code = status%code
     end function faststrip_default_case
+
+    !> What `faststrip_new` has to say of a case: nothing when it can make the workspace.
+    integer(c_int) function faststrip_check_case(case, max_points, text, length) bind(c) &
+        result(code)
+        type(c_ptr), value :: case           !! a `faststrip_case`
+        integer(c_int), value :: max_points  !! most points of a gap
+        type(c_ptr), value :: text           !! `length` characters, written; or null
+        integer(c_size_t), value :: length   !! with the closing zero
+
+        integer(c_intptr_t) :: number
+        type(status_t) :: status, ignored
+
+        call make_workspace(case, max_points, number, status)
+        if (number /= 0) call free_handle(number, ignored)
+        code = status%code
+        if (c_associated(text)) code = max(code, put_text(trim(status%message), text, length))
+    end function faststrip_check_case
 
     !> Make a workspace with room for the methods of a case.
     integer(c_int) function faststrip_new(case, max_points, workspace) bind(c) result(code)
@@ -120,17 +97,13 @@ contains
         integer(c_int), value :: max_points  !! most points of a gap
         type(c_ptr), value :: workspace      !! where the handle goes
 
-        type(c_ptr), pointer :: address
-        type(c_case_t), pointer :: fields
+        integer(c_intptr_t), pointer :: number
         type(status_t) :: status
 
         code = st_bad_argument
         if (.not. c_associated(workspace)) return
-        call c_f_pointer(workspace, address)
-        address = c_null_ptr
-        if (.not. is_case(case)) return
-        call c_f_pointer(case, fields)
-        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, address, status)
+        call c_f_pointer(workspace, number)
+        call make_workspace(case, max_points, number, status)
         code = status%code
     end function faststrip_new
 
@@ -138,23 +111,23 @@ contains
     integer(c_int) function faststrip_free(workspace) bind(c) result(code)
         type(c_ptr), value :: workspace !! where the handle is
 
-        type(c_ptr), pointer :: address
+        integer(c_intptr_t), pointer :: number
         type(status_t) :: status
 
         code = st_bad_argument
         if (.not. c_associated(workspace)) return
-        call c_f_pointer(workspace, address)
+        call c_f_pointer(workspace, number)
         code = st_ok
-        if (.not. c_associated(address)) return
-        call free_handle(address, status)
+        if (number == 0) return
+        call free_handle(number, status)
         code = status%code
-        address = c_null_ptr
+        number = 0
     end function faststrip_free
 
     !> Copy a workspace's gap and solution, for a step that may be taken back.
     integer(c_int) function faststrip_copy(from, to) bind(c) result(code)
-        type(c_ptr), value :: from !! a handle
-        type(c_ptr), value :: to   !! another one
+        integer(c_intptr_t), value :: from !! a handle
+        integer(c_intptr_t), value :: to   !! another one
 
         type(handle_t), pointer :: source, target
         type(status_t) :: status
@@ -164,13 +137,13 @@ contains
         if (is_error(status)) return
         call find_handle(to, target, status)
         code = status%code
-        if (is_error(status) .or. c_associated(from, to)) return
+        if (is_error(status) .or. from == to) return
         call copy_handle(source, target)
     end function faststrip_copy
 
     !> Hand over the gap that the next solutions are for.
     integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, turn) bind(c) result(code)
-        type(c_ptr), value :: workspace   !! a handle
+        integer(c_intptr_t), value :: workspace !! a handle
         integer(c_int), value :: n        !! number of points
         type(c_ptr), value :: y, h, inv2r !! `n` numbers each, mm, mm, 1/mm
         type(c_ptr), value :: turn        !! `n` numbers, rad, or null: not known
@@ -182,7 +155,9 @@ contains
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        if (n < 0 .or. .not. (c_associated(y) .and. c_associated(h) .and. c_associated(inv2r))) then
+        if (n < 0) then
+            call set_status(handle%status, st_bad_argument, 'the gap has fewer than no points')
+        else if (.not. (c_associated(y) .and. c_associated(h) .and. c_associated(inv2r))) then
             call set_status(handle%status, st_bad_argument, 'y, h or inv2r of the gap is missing')
         else
             call c_f_pointer(y, y_of, [n])
@@ -198,31 +173,27 @@ contains
 
     !> Solve one contact on the gap of the workspace.
     integer(c_int) function faststrip_solve(workspace, case, result) bind(c) result(code)
-        type(c_ptr), value :: workspace !! a handle
+        integer(c_intptr_t), value :: workspace !! a handle
         type(c_ptr), value :: case      !! a `faststrip_case`
         type(c_ptr), value :: result    !! a `faststrip_result`, written
 
         type(handle_t), pointer :: handle
-        type(c_case_t), pointer :: fields
-        type(c_result_t), pointer :: figures
+        type(c_case_t) :: fields
+        type(c_result_t) :: figures
         type(contact_result_t) :: solution
         type(status_t) :: status
 
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        if (.not. (is_case(case) .and. c_associated(result))) then
-            call set_status(handle%status, st_bad_argument, 'no case or no result, or a case ' // &
-                            'not made by faststrip_default_case')
-            code = handle%status%code
-            return
-        end if
-        call c_f_pointer(case, fields)
-        call c_f_pointer(result, figures)
+        call read_case(case, fields, handle%status)
+        if (.not. (is_error(handle%status) .or. c_associated(result))) &
+            call set_status(handle%status, st_bad_argument, 'the result is missing')
+        code = handle%status%code
+        if (is_error(handle%status)) return
         call take_case(fields, handle%case)
         call handle_solve(handle, fields%with_elements /= 0, solution)
         code = handle%status%code
-        figures%size = c_sizeof(figures)
         associate (normal => solution%normal, tangential => solution%tangential)
             figures%load = normal%load
             figures%penetration = normal%penetration
@@ -241,12 +212,13 @@ contains
             figures%n_elements = handle%field%n
             figures%iterations = normal%iterations
         end associate
+        call write_result(figures, fields%size, result)
     end function faststrip_solve
 
     !> The strips of the last contact.
     integer(c_int) function faststrip_get_strips(workspace, room, n, y_left, y_right, half_length, &
                                                  p0, patch) bind(c) result(code)
-        type(c_ptr), value :: workspace                        !! a handle
+        integer(c_intptr_t), value :: workspace !! a handle
         integer(c_int), value :: room                          !! length of the arrays
         type(c_ptr), value :: n                                !! number of strips, written
         type(c_ptr), value :: y_left, y_right, half_length, p0 !! mm, mm, mm, MPa, written
@@ -275,7 +247,7 @@ contains
     !> The elements of the last contact, if they were asked for.
     integer(c_int) function faststrip_get_elements(workspace, room, n, x, y, area, pn, px, py, sx, &
                                                    sy, state) bind(c) result(code)
-        type(c_ptr), value :: workspace !! a handle
+        integer(c_intptr_t), value :: workspace !! a handle
         integer(c_int), value :: room   !! length of the arrays
         type(c_ptr), value :: n         !! number of elements, written
         type(c_ptr), value :: x, y      !! middle of the element, mm, written
@@ -368,17 +340,20 @@ contains
         call put_numbers([c%c11, c%c22, c%c23, c%c33], coefficients)
     end function faststrip_kalker
 
-    !> Is there a case of the size this library knows?
-    logical function is_case(case)
+    !> A workspace for a case; 0, and an error, if there cannot be one.
+    subroutine make_workspace(case, max_points, number, status)
         type(c_ptr), intent(in) :: case
+        integer(c_int), intent(in) :: max_points
+        integer(c_intptr_t), intent(out) :: number
+        type(status_t), intent(out) :: status
 
-        type(c_case_t), pointer :: fields
+        type(c_case_t) :: fields
 
-        is_case = c_associated(case)
-        if (.not. is_case) return
-        call c_f_pointer(case, fields)
-        is_case = fields%size == c_sizeof(fields)
-    end function is_case
+        number = 0
+        call read_case(case, fields, status)
+        if (is_error(status)) return
+        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, number, status)
+    end subroutine make_workspace
 
     pure type(contact_methods_t) function methods_of(fields) result(methods)
         type(c_case_t), intent(in) :: fields

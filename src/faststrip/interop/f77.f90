@@ -27,8 +27,7 @@
 !> RES(13) number of patches                           RES(14) number of strips
 !> ```
 module faststrip_interop_f77
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
-                                           c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
     use faststrip_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
                                 st_workspace_too_small
     use faststrip_material, only: material_t
@@ -152,7 +151,7 @@ contains
         integer(c_int), intent(out) :: info         !! status
 
         type(status_t) :: status
-        type(c_ptr) :: address
+        integer(c_intptr_t) :: number
 
         info = 0
         if (liwork == -1) then
@@ -164,12 +163,11 @@ contains
             return
         end if
         iwork(:n_iwork) = 0
-        call new_handle(methods_of(iopt), max_points, iopt(9) /= 0, address, status)
+        call new_handle(methods_of(iopt), max_points, iopt(9) /= 0, number, status)
         info = status%code
         if (is_error(status)) return
         iwork(1) = first_mark
-        iwork(2:n_iwork - 1) = transfer([transfer(address, 0_c_intptr_t), 0_c_intptr_t, &
-                                         0_c_intptr_t], iwork(:1), n_iwork - 2)
+        iwork(2:n_iwork - 1) = transfer([number, 0_c_intptr_t, 0_c_intptr_t], iwork(:1), n_iwork - 2)
         iwork(n_iwork) = last_mark
     end subroutine fsinit
 
@@ -346,7 +344,7 @@ contains
 
         type(status_t) :: status
 
-        call free_handle(address_of(iwork), status)
+        call free_handle(number_of(iwork), status)
         info = status%code
         iwork = 0
     end subroutine fsfree
@@ -389,17 +387,17 @@ contains
 
         type(status_t) :: status
 
-        call find_handle(address_of(iwork), handle, status)
+        call find_handle(number_of(iwork), handle, status)
         info = status%code
     end subroutine find
 
-    pure type(c_ptr) function address_of(iwork)
+    pure integer(c_intptr_t) function number_of(iwork)
         integer(c_int), intent(in) :: iwork(n_iwork)
 
-        address_of = c_null_ptr
+        number_of = 0
         if (iwork(1) == first_mark .and. iwork(n_iwork) == last_mark) &
-            address_of = transfer(iwork(2:n_iwork - 1), address_of)
-    end function address_of
+            number_of = transfer(iwork(2:n_iwork - 1), number_of)
+    end function number_of
 
     pure type(contact_methods_t) function methods_of(iopt) result(methods)
         integer(c_int), intent(in) :: iopt(n_iopt)

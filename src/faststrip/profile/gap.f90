@@ -2,7 +2,7 @@
 module faststrip_profile_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
+    use faststrip_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                 st_bad_argument, st_not_finite, st_not_increasing, &
                                 st_too_few_points
     implicit none
@@ -34,39 +34,36 @@ contains
         type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
                                               !! `st_not_finite`, `st_not_increasing`
 
-        integer :: i
-
         call clear_status(status)
         if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
             call set_status(status, st_bad_argument, 'the gap has no y, h or inv2r')
             return
         end if
-        call check_gap_points(gap%y, gap%h, gap%inv2r, status)
-        if (status%code /= 0 .or. .not. allocated(gap%turn)) return
-        if (size(gap%turn) /= size(gap%y)) then
-            call set_status(status, st_bad_argument, 'y and turn of the gap differ in ' // &
-                            'length: ' // trim(count_text(size(gap%y))) // ', ' // &
-                            trim(count_text(size(gap%turn))))
-            return
-        end if
-        do i = 1, size(gap%turn)
-            call check_finite('turn', i, gap%turn(i), status)
-            if (status%code /= 0) return
-        end do
+        ! What is not allocated counts as an argument that is not present.
+        call check_gap_points(gap%y, gap%h, gap%inv2r, status, gap%turn)
     end subroutine check_gap
 
     !> The same for a gap in plain arrays.
-    pure subroutine check_gap_points(y, h, inv2r, status)
+    pure subroutine check_gap_points(y, h, inv2r, status, turn)
         real(wp), intent(in) :: y(:)          !! lateral coordinate, mm
         real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), 1/mm
         type(status_t), intent(out) :: status !! as `check_gap`
+        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, rad
 
         real(wp) :: before
         integer :: i, n
 
         call clear_status(status)
         n = size(y)
+        if (present(turn)) then
+            if (size(turn) /= n) then
+                call set_status(status, st_bad_argument, &
+                                'y and turn of the gap differ in length: ' // &
+                                trim(count_text(n)) // ', ' // trim(count_text(size(turn))))
+                return
+            end if
+        end if
         if (size(h) /= n .or. size(inv2r) /= n) then
             call set_status(status, st_bad_argument, &
                             'y, h and inv2r of the gap differ in length: ' // &
@@ -95,6 +92,11 @@ contains
             end if
             before = y(i)
         end do
+        if (.not. present(turn)) return
+        do i = 1, n
+            call check_finite('turn', i, turn(i), status)
+            if (status%code /= 0) return
+        end do
     end subroutine check_gap_points
 
     pure subroutine check_finite(name, i, value, status)
@@ -108,13 +110,4 @@ contains
                             ') of the gap is not a finite number: ' // trim(number_text(value)))
         end if
     end subroutine check_finite
-
-    !> A whole number as text. Of fixed length: for the length of any other gfortran keeps a
-    !> variable that all threads share.
-    pure function count_text(n) result(text)
-        integer, intent(in) :: n
-        character(len=11) :: text
-
-        write (text, '(i0)') n
-    end function count_text
 end module faststrip_profile_gap

@@ -7,7 +7,7 @@
 !> distance of the points.
 module faststrip_profile_gap_curve
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, &
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                 st_workspace_too_small, st_bad_argument
     use faststrip_profile_gap, only: gap_t, check_gap, check_gap_points
     use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot
@@ -86,7 +86,8 @@ contains
         type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
         real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, finite, rad
 
-        call check_gap_points(y, h, inv2r, status)
+        call check_room(curve, size(y), status)
+        if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, turn)
         if (is_error(status)) return
         call take_points(curve, y, h, inv2r, status)
         if (is_error(status) .or. .not. present(turn)) return
@@ -103,14 +104,8 @@ contains
 
         n = size(y)
         curve%n = 0
-        if (.not. allocated(curve%y)) then
-            call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
-            return
-        else if (size(curve%y) < n) then
-            call set_status(status, st_workspace_too_small, &
-                            'the gap has more points than the room reserved for it')
-            return
-        end if
+        call check_room(curve, n, status)
+        if (is_error(status)) return
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
@@ -122,6 +117,22 @@ contains
         curve%n = n
         call cut_into_monotone_pieces(curve)
     end subroutine take_points
+
+    !> Refuse more points than there is room for; the points themselves are not looked at.
+    pure subroutine check_room(curve, n, status)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: n
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (.not. allocated(curve%y)) then
+            call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
+        else if (n > size(curve%y)) then
+            call set_status(status, st_workspace_too_small, 'the gap must have at most ' // &
+                            trim(count_text(size(curve%y))) // &
+                            ' points, for which room was reserved, got ' // count_text(n))
+        end if
+    end subroutine check_room
 
     !> Geometric mean of the terms that are positive; the least of all where no other is so much
     !> larger that it matters; 0 if none is.

@@ -1,0 +1,217 @@
+!> Which workspaces are in use: the one thing the library remembers outside of them.
+!>
+!> A handle is a number, not an address: a place in this register, and how often that place was
+!> given out. So a handle that was freed, or never made, is told without touching memory that is
+!> no longer its own, and does not become another one's.
+!>
+!> Entering and leaving go one at a time, by a mutex that a fork waits for. Looking up takes no
+!> lock: a place changes only when its own handle enters or leaves, and who frees a workspace while
+!> another thread uses it breaks the rule of one thread at a time.
+module faststrip_interop_register
+    use, intrinsic :: iso_c_binding, only: c_int, c_long, c_intptr_t, c_ptr, c_funptr, c_null_ptr, &
+                                           c_loc, c_funloc, c_f_pointer, c_associated
+    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
+                                st_workspace_too_small
+    implicit none
+    private
+
+    public :: enter_register, leave_register, look_up_register
+
+    ! Bits of a handle for the place; the rest, but the sign, counts how often it was given out.
+    integer, parameter :: place_bits = 20
+    integer(c_intptr_t), parameter :: place_mask = 2_c_intptr_t**place_bits - 1
+    integer(c_intptr_t), parameter :: count_mask = &
+        ishft(not(0_c_intptr_t), -1 - place_bits)
+
+    ! Places are made in blocks of doubling length, the first one here; none ever moves.
+    integer, parameter :: first_bits = 6, first_length = 2**first_bits
+    integer, parameter :: n_blocks = place_bits - first_bits
+
+    !> Where a handle lives.
+    type :: place_t
+        integer(c_intptr_t) :: handle = 0 ! that is in use; 0: none
+        integer(c_intptr_t) :: count = 0  ! how often the place was given out
+        type(c_ptr) :: address = c_null_ptr
+        integer :: next_free = 0
+    end type place_t
+
+    type(place_t), save, target :: first_block(0:first_length - 1)
+    type(c_ptr), save :: blocks(n_blocks) = c_null_ptr
+    integer, save :: n_places = 0   ! that were ever given out
+    integer, save :: first_free = 0 ! of those given back; 0: none
+    logical, save :: fork_waits = .false.
+
+    ! C's `pthread_mutex_t`, at most 48 bytes with the C libraries of Linux, where one of zeros is
+    ! ready to be used (PTHREAD_MUTEX_INITIALIZER).
+    integer(c_long), save :: mutex(16) = 0
+
+    interface
+        integer(c_int) function pthread_mutex_lock(mutex) bind(c)
+            import :: c_int, c_long
+            integer(c_long), intent(inout) :: mutex(*)
+        end function pthread_mutex_lock
+
+        integer(c_int) function pthread_mutex_unlock(mutex) bind(c)
+            import :: c_int, c_long
+            integer(c_long), intent(inout) :: mutex(*)
+        end function pthread_mutex_unlock
+
+        integer(c_int) function pthread_atfork(prepare, parent, child) bind(c)
+            import :: c_int, c_funptr
+            type(c_funptr), value :: prepare, parent, child
+        end function pthread_atfork
+    end interface
+
+contains
+
+    !> Make a handle for what is at an address.
+    subroutine enter_register(address, handle, status)
+        type(c_ptr), intent(in) :: address              !! of a workspace
+        integer(c_intptr_t), intent(out) :: handle      !! never given out before; 0 when there is
+                                                        !! an error
+        type(status_t), intent(out) :: status           !! `st_workspace_too_small`
+
+        type(place_t), pointer :: place
+        integer :: number
+
+        handle = 0
+        call clear_status(status)
+        call lock()
+        number = first_free
+        if (number == 0) number = n_places + 1
+        call make_place(number, place)
+        if (associated(place)) then
+            if (number == first_free) first_free = place%next_free
+            n_places = max(n_places, number)
+            ! Counted from a number that differs between copies of the library in one process.
+            if (place%count == 0) place%count = ishft(transfer(c_loc(first_block), 0_c_intptr_t), -4)
+            place%count = max(iand(place%count + 1, count_mask), 1_c_intptr_t)
+            handle = ior(ishft(place%count, place_bits), int(number, c_intptr_t))
+            place%address = address
+            place%handle = handle
+        else
+            call set_status(status, st_workspace_too_small, 'no room for another workspace')
+        end if
+        call unlock()
+    end subroutine enter_register
+
+    !> Take a handle out; from here on it is none.
+    subroutine leave_register(handle, address, status)
+        integer(c_intptr_t), intent(in) :: handle !! as the caller passed it
+        type(c_ptr), intent(out) :: address       !! what it stood for; null if it is no handle
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no handle, or freed
+
+        type(place_t), pointer :: place
+
+        call lock()
+        call look_up_register(handle, address, status)
+        if (c_associated(address)) then
+            call find_place(int(iand(handle, place_mask)), place)
+            place%handle = 0
+            place%address = c_null_ptr
+            place%next_free = first_free
+            first_free = int(iand(handle, place_mask))
+        end if
+        call unlock()
+    end subroutine leave_register
+
+    !> What a handle stands for.
+    subroutine look_up_register(handle, address, status)
+        integer(c_intptr_t), intent(in) :: handle !! as the caller passed it
+        type(c_ptr), intent(out) :: address       !! null if it is no handle
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no handle, or freed
+
+        type(place_t), pointer :: place
+
+        address = c_null_ptr
+        call clear_status(status)
+        place => null()
+        if (handle > 0 .and. iand(handle, place_mask) > 0) &
+            call find_place(int(iand(handle, place_mask)), place)
+        if (associated(place)) then
+            if (place%handle == handle) address = place%address
+        end if
+        if (.not. c_associated(address)) &
+            call set_status(status, st_bad_argument, 'no workspace, or one that was freed')
+    end subroutine look_up_register
+
+    !> The place of a number from 1 on; null where none was made.
+    subroutine find_place(number, place)
+        integer, intent(in) :: number
+        type(place_t), pointer, intent(out) :: place
+
+        type(place_t), pointer :: block(:)
+        integer :: k
+
+        place => null()
+        k = block_of(number)
+        if (k == 0) then
+            place => first_block(number)
+        else if (c_associated(blocks(k))) then
+            call c_f_pointer(blocks(k), block, [block_length(k)])
+            place => block(number - block_length(k) + 1)
+        end if
+    end subroutine find_place
+
+    !> The same, where no block is there yet with a new one; null if there is no more room.
+    subroutine make_place(number, place)
+        integer, intent(in) :: number
+        type(place_t), pointer, intent(out) :: place
+
+        type(place_t), pointer :: block(:)
+        integer :: k, failure
+
+        place => null()
+        if (number > place_mask) return
+        k = block_of(number)
+        if (k > 0) then
+            if (.not. c_associated(blocks(k))) then
+                allocate (block(block_length(k)), stat=failure)
+                if (failure /= 0) return
+                blocks(k) = c_loc(block)
+            end if
+        end if
+        call find_place(number, place)
+    end subroutine make_place
+
+    !> Block k > 0 holds as many places as all before it, from number `block_length(k)` on.
+    pure integer function block_of(number)
+        integer, intent(in) :: number
+
+        block_of = max(bit_size(number) - leadz(number) - first_bits, 0)
+    end function block_of
+
+    pure integer function block_length(k)
+        integer, intent(in) :: k
+
+        block_length = ishft(first_length, k - 1)
+    end function block_length
+
+    subroutine lock()
+        integer(c_int) :: ignored
+
+        ignored = pthread_mutex_lock(mutex)
+        if (fork_waits) return
+        ! A child of a fork must not find the mutex taken by a thread that it does not have.
+        fork_waits = pthread_atfork(c_funloc(before_fork), c_funloc(after_fork), &
+                                    c_funloc(after_fork)) == 0
+    end subroutine lock
+
+    subroutine unlock()
+        integer(c_int) :: ignored
+
+        ignored = pthread_mutex_unlock(mutex)
+    end subroutine unlock
+
+    subroutine before_fork() bind(c, name='')
+        integer(c_int) :: ignored
+
+        ignored = pthread_mutex_lock(mutex)
+    end subroutine before_fork
+
+    subroutine after_fork() bind(c, name='')
+        integer(c_int) :: ignored
+
+        ignored = pthread_mutex_unlock(mutex)
+    end subroutine after_fork
+end module faststrip_interop_register
