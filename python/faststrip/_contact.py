@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
+import _thread
 import ctypes
 from ctypes import c_double, c_int, c_void_p
 from dataclasses import dataclass
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._library import TEXT, Case, FaststripError, Figures, check, library, word_of
+from ._arguments import array, as_long_as, flag, number, numbers, refused, several, whole
+from ._interrupt import interruptible
+from ._library import (
+    BAD_ARGUMENT,
+    FIRST_ERROR,
+    TEXT,
+    TOO_SMALL,
+    Case,
+    FaststripError,
+    Figures,
+    check,
+    check_case,
+    library,
+    word_of,
+)
 
 Array = npt.NDArray[np.float64]
 
@@ -19,7 +34,21 @@ TANGENTIAL = {
     "none": 0, "faststrip": 1, "fastsim": 2, "faststrip-paper": 3, "faststrip-corrected": 4,
     "fastsim-elliptic": 5, "fastsim-weighted": 6, "linear": 7, "she": 8, "polach": 9,
 }
-BAD_ARGUMENT = 100
+
+# Limits of the library.
+MOST_STRIPS = 1000
+MOST_POINTS = 1000
+MOST_ROWS = 10000
+GAP_POINTS = 5, 1000000
+
+# From here on a call may take more than a tenth of a second on a slow machine, and is made so that
+# Ctrl-C ends it, which costs 10 to 40 us: strips of a patch, points of FASTSIM, points of a gap.
+# Below, the slowest gaps seen took 0.15 s (waves, 31 strips, a busy machine).
+LONG_STRIPS = 31
+LONG_GRID = 100000
+LONG_GAP = 100000
+# FASTSIM and its variants.
+BY_GRID = 2, 5, 6
 
 
 @dataclass(frozen=True)
@@ -95,11 +124,33 @@ class Elements(NamedTuple):
     state: npt.NDArray[np.int32]
 
 
-def _number_of(names: Dict[str, int], name: str, what: str) -> int:
-    if name not in names:
+def _number_of(names: Dict[str, int], name: Any, what: str) -> int:
+    if not isinstance(name, str) or name not in names:
         raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
                              f"no {what} method {name!r}; there are {', '.join(names)}")
     return names[name]
+
+
+MATERIAL_NAMES = "material.e_wheel", "material.e_rail", "material.nu_wheel", "material.nu_rail"
+CREEPAGE_NAMES = "creepage[0]", "creepage[1]", "creepage[2]"
+FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]",
+                 "coefficients[2]", *CREEPAGE_NAMES, "mu", "load")
+
+
+def _material_of(material: Any) -> List[float]:
+    if not isinstance(material, Material):
+        raise refused("material", "a faststrip.Material", material)
+    return numbers(MATERIAL_NAMES, (material.e_wheel, material.e_rail, material.nu_wheel,
+                                    material.nu_rail))
+
+
+def _three_creepages(creepage: Any) -> Tuple[Any, ...]:
+    return several("creepage", creepage, "longitudinal, lateral and spin", (3,))
+
+
+def _grid_of(name: str, grid: Any) -> Tuple[int, int]:
+    nx, ny = several(name, grid, "points along a row and rows", (2,))
+    return whole(name, nx, 1, MOST_ROWS), whole(name, ny, 1, MOST_ROWS)
 
 
 def _arrays(n: int, doubles: int) -> list:
@@ -110,6 +161,17 @@ def _addresses(arrays: list) -> list:
     return [c_void_p(array.ctypes.data) for array in arrays]
 
 
+class _Workspace:
+    """A workspace of the library, freed with the last that holds it: so not during a call."""
+
+    def __init__(self) -> None:
+        self.handle = c_void_p()
+        self.in_use = _thread.allocate_lock()
+
+    def __del__(self, free: Any = library.faststrip_free, byref: Any = ctypes.byref) -> None:
+        free(byref(self.handle))
+
+
 class Contact:
     """One wheel on one rail: methods, the room they need, the gap, the last solution.
 
@@ -117,33 +179,83 @@ class Contact:
     tangential: ``faststrip``, ``fastsim``, ``none``; to compare with, ``faststrip-paper``,
     ``faststrip-corrected``, ``fastsim-elliptic``, ``fastsim-weighted`` and, for forces alone,
     ``linear``, ``she``, ``polach``. strips_per_patch is 1 to 1000, or ``auto``. Use one Contact per
-    thread; calls release Python's lock while they compute.
+    thread; calls release Python's lock while they compute. Ctrl-C ends a call; after that the
+    contact needs a gap again.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",
                  strips_per_patch: Union[int, str] = 15, points_per_strip: int = 15,
                  fastsim_grid: Tuple[int, int] = (50, 50), with_elements: bool = False,
                  max_points: int = 1000) -> None:
-        self._workspace = c_void_p()
-        self._case = Case()
-        check(library.faststrip_default_case(ctypes.byref(self._case), ctypes.sizeof(Case)))
-        self._case.normal = _number_of(NORMAL, normal, "normal")
-        self._case.tangential = _number_of(TANGENTIAL, tangential, "tangential")
-        self._case.strips_per_patch = 0 if strips_per_patch == "auto" else int(strips_per_patch)
-        self._case.points_per_strip = points_per_strip
-        self._case.fastsim_nx, self._case.fastsim_ny = fastsim_grid
-        self._case.with_elements = with_elements
-        self._make_room(max_points)
+        self._workspace: Optional[_Workspace] = None
+        self._closed = False
+        self._material: Any = Material  # that is in the case; none yet
+        case = self._case = Case()
+        check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
+        case.normal = _number_of(NORMAL, normal, "normal")
+        case.tangential = _number_of(TANGENTIAL, tangential, "tangential")
+        auto = isinstance(strips_per_patch, str) and strips_per_patch == "auto"
+        case.strips_per_patch = 0 if auto else whole("strips_per_patch", strips_per_patch, 1,
+                                                     MOST_STRIPS, ", or 'auto'")
+        case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
+        case.fastsim_nx, case.fastsim_ny = _grid_of("fastsim_grid", fastsim_grid)
+        case.with_elements = flag("with_elements", with_elements)
+        self._make_room(whole("max_points", max_points, *GAP_POINTS))
 
     def _make_room(self, max_points: int) -> None:
-        self.close()
-        check(library.faststrip_new(ctypes.byref(self._case), max_points,
-                                    ctypes.byref(self._workspace)))
+        workspace, case = _Workspace(), self._case
+        arguments = ctypes.byref(case), max_points, ctypes.byref(workspace.handle)
+
+        def make() -> Tuple[int, _Workspace]:
+            return library.faststrip_new(*arguments), workspace
+
+        # Much room is a matter of seconds too.
+        elements = case.fastsim_nx * case.fastsim_ny if case.with_elements else 0
+        long = case.strips_per_patch > 100 or elements > LONG_GRID or max_points > LONG_GAP
+        status, _ = interruptible(make, self._abandon) if long else make()
+        if status >= FIRST_ERROR:
+            check_case(case, max_points)
+            check(status)
+        self._workspace = workspace
         self._max_points = max_points
+        # What may take longer than a moment; elsewhere a thread of its own would cost too much.
+        strips = case.strips_per_patch if case.normal != NORMAL["hertz"] else 1
+        grid = case.fastsim_nx * case.fastsim_ny if case.tangential in BY_GRID else 0
+        self._long = (strips == 0 or strips > LONG_STRIPS or grid > LONG_GRID
+                      or max_points > LONG_GAP)
+
+    def _abandon(self) -> None:
+        """Leave workspace and case to a call that goes on after it was interrupted."""
+        self._workspace = None
+        self._case = Case.from_buffer_copy(self._case)
+
+    def _open_workspace(self) -> _Workspace:
+        if self._workspace is None:
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 "the contact is closed" if self._closed else
+                                 "the last call was interrupted: set the gap again")
+        return self._workspace
+
+    def _call(self, function: Any, *arguments: Any, long: bool = False, keep: Any = None) -> int:
+        """The status of a call on the workspace; if it is long, `keep` is kept until its end."""
+        workspace = self._open_workspace()
+        if not workspace.in_use.acquire(False):
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 "the contact is in use by another thread")
+        try:
+            if long:
+                status = interruptible(
+                    lambda kept=keep: function(workspace.handle, *arguments), self._abandon)
+            else:
+                status = function(workspace.handle, *arguments)
+            return check(status, workspace.handle) if status >= FIRST_ERROR else status
+        finally:
+            workspace.in_use.release()
 
     def close(self) -> None:
         """Give the memory back; the contact cannot be used afterwards."""
-        library.faststrip_free(ctypes.byref(self._workspace))
+        self._workspace = None
+        self._closed = True
 
     def __enter__(self) -> "Contact":
         return self
@@ -151,9 +263,9 @@ class Contact:
     def __exit__(self, *problem: Any) -> None:
         self.close()
 
-    def __del__(self) -> None:
-        if hasattr(self, "_workspace"):
-            self.close()
+    def __reduce__(self) -> Any:
+        raise TypeError("a Contact cannot be copied or pickled: make one in every process, "
+                        "or use copy_from")
 
     def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike,
                 turn: Optional[npt.ArrayLike] = None) -> None:
@@ -162,22 +274,23 @@ class Contact:
         surfaces have turned from the tangent plane at y = 0, rad, by which conformal contacts are
         told. The numbers are copied.
         """
-        points = np.ascontiguousarray(y, dtype=np.float64)
+        points = array("y", y)
         if points.ndim != 1:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), "y is not one-dimensional")
-        try:
-            others = [
-                np.ascontiguousarray(np.broadcast_to(np.asarray(values, np.float64), points.shape))
-                for values in (h, inv2r, turn) if values is not None]
-        except ValueError as problem:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "y, h, inv2r or turn differ in length") from problem
-        if points.size > self._max_points:
-            self._make_room(points.size)
+                                 f"y must be one-dimensional, got shape {points.shape}")
+        if points.size > GAP_POINTS[1]:
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 f"y must have at most {GAP_POINTS[1]} points, got {points.size}")
+        others = [as_long_as(points, "h", h), as_long_as(points, "inv2r", inv2r)]
+        if turn is not None:
+            others.append(as_long_as(points, "turn", turn))
+        if not self._closed and (self._workspace is None or points.size > self._max_points):
+            self._make_room(max(points.size, self._max_points))
         addresses = _addresses([points, *others])
-        check(library.faststrip_set_gap(self._workspace, points.size, *addresses[:3],
-                                        addresses[3] if turn is not None else None),
-              self._workspace)
+        if turn is None:
+            addresses.append(None)
+        self._call(library.faststrip_set_gap, points.size, *addresses,
+                   long=points.size > LONG_GAP, keep=(points, others))
 
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
               creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0), mu: float = 0.3,
@@ -189,19 +302,21 @@ class Contact:
         """
         if (load is None) == (penetration is None):
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "one of load and penetration is needed")
+                                 "one of load and penetration is needed, got "
+                                 + ("none" if load is None else "both"))
         case = self._case
         case.by_load = load is not None
-        case.load = 0.0 if load is None else load
-        case.penetration = 0.0 if penetration is None else penetration
-        case.cksi, case.ceta, case.cphi = creepage
-        case.mu = mu
-        case.e_wheel, case.e_rail = material.e_wheel, material.e_rail
-        case.nu_wheel, case.nu_rail = material.nu_wheel, material.nu_rail
-        case.warm_start = warm_start
+        case.load = 0.0 if load is None else number("load", load)
+        case.penetration = 0.0 if penetration is None else number("penetration", penetration)
+        case.cksi, case.ceta, case.cphi = numbers(CREEPAGE_NAMES, _three_creepages(creepage))
+        case.mu = number("mu", mu)
+        if material is not self._material:
+            case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = _material_of(material)
+            self._material = material
+        case.warm_start = flag("warm_start", warm_start)
         figures = Figures()
-        status = check(library.faststrip_solve(self._workspace, ctypes.byref(case),
-                                               ctypes.byref(figures)), self._workspace)
+        status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
+                            long=self._long)
         return Result(status, word_of(status),
                       *(getattr(figures, name) for name, _ in Figures._fields_[1:]))
 
@@ -216,16 +331,24 @@ class Contact:
     def _fetch(self, function: Any, doubles: int) -> list:
         n = c_int()
         arrays = _arrays(0, doubles)
-        function(self._workspace, 0, ctypes.byref(n), *_addresses(arrays))
+        try:
+            self._call(function, 0, ctypes.byref(n), *_addresses(arrays))
+        except FaststripError as problem:
+            if problem.status != TOO_SMALL:
+                raise
         arrays = _arrays(n.value, doubles)
-        check(function(self._workspace, n.value, ctypes.byref(n), *_addresses(arrays)),
-              self._workspace)
+        self._call(function, n.value, ctypes.byref(n), *_addresses(arrays))
         return arrays
 
     def copy_from(self, other: "Contact") -> None:
         """Take over gap, solution and room of another contact, for a step that is taken back."""
-        check(library.faststrip_copy(other._workspace, self._workspace))
-        self._max_points = other._max_points
+        if not isinstance(other, Contact):
+            raise refused("other", "a Contact", other)
+        if other is self:
+            return
+        mine = self._open_workspace()
+        other._call(library.faststrip_copy, mine.handle)
+        self._max_points, self._long = other._max_points, other._long or self._long
 
 
 def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
@@ -235,8 +358,16 @@ def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
     """FASTSIM on an ellipse with semi-axes a along x and b along y (mm) and Kalker's C11, C22, C23:
     Fx, Fy (N) and Mz (N mm) on the rail."""
     forces = (c_double * 3)()
-    check(library.faststrip_fastsim(a, b, shear_modulus, *coefficients[:3], *creepage, mu, load,
-                                    *grid, forces))
+    c = several("coefficients", coefficients, "C11, C22, C23", (3, 4))
+    nx, ny = _grid_of("grid", grid)
+    values = numbers(FASTSIM_NAMES, (a, b, shear_modulus, c[0], c[1], c[2],
+                                     *_three_creepages(creepage), mu, load))
+    if nx * ny > LONG_GRID:
+        status = interruptible(lambda: library.faststrip_fastsim(*values, nx, ny, forces))
+    else:
+        status = library.faststrip_fastsim(*values, nx, ny, forces)
+    if status >= FIRST_ERROR:
+        check(status, None, **dict(zip(FASTSIM_NAMES, values)), grid=grid)
     return tuple(forces)
 
 
@@ -245,15 +376,17 @@ def hertz(inv2r_x: float, inv2r_y: float, load: float,
     """Hertz's contact of the gap ``inv2r_x x**2 + inv2r_y y**2``: semi-axes a along x, b along y,
     penetration (mm), largest pressure (MPa)."""
     figures = (c_double * 4)()
-    check(library.faststrip_hertz(material.e_wheel, material.e_rail, material.nu_wheel,
-                                  material.nu_rail, inv2r_x, inv2r_y, load, figures))
+    check(library.faststrip_hertz(*_material_of(material), number("inv2r_x", inv2r_x),
+                                  number("inv2r_y", inv2r_y), number("load", load), figures),
+          None, inv2r_x=inv2r_x, inv2r_y=inv2r_y, load=load, material=material)
     return tuple(figures)
 
 
 def kalker(a_over_b: float, nu: float = 0.28) -> Tuple[float, float, float, float]:
     """Kalker's creepage coefficients C11, C22, C23, C33 for any a/b."""
     coefficients = (c_double * 4)()
-    check(library.faststrip_kalker(a_over_b, nu, coefficients))
+    check(library.faststrip_kalker(number("a_over_b", a_over_b), number("nu", nu), coefficients),
+          None, a_over_b=a_over_b, nu=nu)
     return tuple(coefficients)
 
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import functools
 import os
 import pathlib
 import subprocess
 import sys
 from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
-from typing import Iterator, Optional
+from typing import Any, Iterator, Optional, Tuple
 
 FILE = "libfaststrip.so.0"
 TEXT = 257
 FIRST_ERROR = 100
+BAD_ARGUMENT = 100
+NOT_FINITE = 101
+TOO_SMALL = 110
 
 
 class LibraryNotFound(ImportError):
@@ -31,6 +35,11 @@ class FaststripError(Exception):
         super().__init__(f"{word}: {message}" if message else word)
         self.status = status
         self.word = word
+        self.message = message
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        # An exception is made anew from its arguments, which are not the text alone.
+        return type(self), (self.status, self.word, self.message), self.__dict__
 
 
 class Case(ctypes.Structure):
@@ -105,6 +114,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "message": [c_int, c_char_p, c_size_t],
         "last_message": [handle, c_char_p, c_size_t],
         "default_case": [POINTER(Case), c_size_t],
+        "check_case": [POINTER(Case), c_int, c_char_p, c_size_t],
         "new": [POINTER(Case), c_int, POINTER(handle)],
         "free": [POINTER(handle)],
         "copy": [handle, handle],
@@ -117,7 +127,11 @@ def _declare(library: ctypes.CDLL) -> None:
         "kalker": [number, number, POINTER(number)],
     }
     for name, types in arguments.items():
-        function = getattr(library, f"faststrip_{name}")
+        try:
+            function = getattr(library, f"faststrip_{name}")
+        except AttributeError:
+            raise LibraryNotFound(f"{library._name} is older than this package: it has no "
+                                  f"faststrip_{name}") from None
         function.argtypes = types
         function.restype = c_int
 
@@ -126,6 +140,7 @@ library = _load()
 _declare(library)
 
 
+@functools.lru_cache(maxsize=None)
 def word_of(status: int) -> str:
     """The word of a status."""
     text = ctypes.create_string_buffer(TEXT)
@@ -133,11 +148,26 @@ def word_of(status: int) -> str:
     return text.value.decode("ascii")
 
 
-def check(status: int, workspace: Optional[c_void_p] = None) -> int:
-    """Raise what is an error; give other statuses back."""
+def check(status: int, workspace: Optional[c_void_p] = None, **values: Any) -> int:
+    """Raise what is an error, with the words of a workspace or else the values of the call; give
+    other statuses back."""
     if status < FIRST_ERROR:
         return status
-    text = ctypes.create_string_buffer(TEXT)
+    words = ", ".join(f"{name} = {value!r}" for name, value in values.items())
     if workspace:
+        text = ctypes.create_string_buffer(TEXT)
         library.faststrip_last_message(workspace, text, TEXT)
-    raise FaststripError(status, word_of(status), text.value.decode("ascii"))
+        words = text.value.decode("ascii")
+    raise FaststripError(status, word_of(status), words)
+
+
+def check_case(case: Case, max_points: int) -> None:
+    """Raise what a case without a workspace is refused for."""
+    text = ctypes.create_string_buffer(TEXT)
+    status = library.faststrip_check_case(ctypes.byref(case), max_points, text, TEXT)
+    if status >= FIRST_ERROR:
+        size = f"strips_per_patch {case.strips_per_patch}, max_points {max_points}"
+        if case.with_elements:
+            size += (f", with_elements, points_per_strip {case.points_per_strip},"
+                     f" fastsim_grid {case.fastsim_nx} x {case.fastsim_ny}")
+        raise FaststripError(status, word_of(status), f"{text.value.decode('ascii')} ({size})")

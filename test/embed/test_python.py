@@ -1,9 +1,17 @@
 """The Python package: installed by pip, found, its arrays, its exceptions."""
 
 import concurrent.futures
+import copy
+import decimal
+import gc
 import os
+import pickle
+import re
+import signal
 import subprocess
 import sys
+import threading
+import time
 import unittest
 
 from installed import ROOT, HostTest
@@ -23,7 +31,8 @@ class Package(HostTest):
     def test_pip_installs_the_package(self):
         names = sorted(path.name for path in (self.folder / "site" / "faststrip").iterdir())
         self.assertEqual([name for name in names if name != "__pycache__"],
-                         ["__init__.py", "_contact.py", "_library.py", "py.typed"])
+                         ["__init__.py", "_arguments.py", "_contact.py", "_interrupt.py",
+                          "_library.py", "py.typed"])
 
     def test_the_example_of_its_help(self):
         self.python("import doctest, faststrip, sys; "
@@ -56,6 +65,87 @@ class Package(HostTest):
         return subprocess.run([sys.executable, "-c", text], cwd=self.folder, env=environment,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
                               check=False)
+
+
+POOL = """
+import multiprocessing, sys, faststrip, numpy
+
+def work(load):
+    y = numpy.linspace(-15.0, 15.0, 301)
+    contact = faststrip.Contact(normal="hertz")
+    contact.set_gap(y, 2e-3 * y**2, 1.0 / 920.0)
+    return contact.solve(load=load)
+
+if __name__ == "__main__":
+    with multiprocessing.get_context(sys.argv[1]).Pool(2) as pool:
+        print(pool.apply_async(work, (1e5,)).get(60).word)
+        try:
+            pool.apply_async(work, (-1.0,)).get(60)
+        except faststrip.FaststripError as problem:
+            print(problem.status, problem.word, problem)
+        print(pool.apply_async(work, (2e5,)).get(60).word)
+"""
+
+# Strips by which two valleys take many seconds.
+LONG_CALL = """
+import os, sys, time, faststrip, numpy
+y = numpy.linspace(-15.0, 15.0, 601)
+gap = y, 4e-5 * (y * y - 40.0)**2, 1.0 / 920.0
+contact = faststrip.Contact(strips_per_patch=1000)
+contact.set_gap(*gap)
+print("ready", flush=True)
+try:
+    contact.solve(load=1e5)
+    print("done", flush=True)
+except KeyboardInterrupt:
+    print("interrupted", time.monotonic(), flush=True)
+try:
+    contact.solve(load=1e5)
+except faststrip.FaststripError as problem:
+    print(problem, flush=True)
+contact.set_gap(*gap)
+other = faststrip.Contact()
+other.set_gap(*gap)
+print(other.solve(load=1e5).word, flush=True)
+del contact
+"""
+
+
+class Processes(HostTest):
+    """Signals and other processes."""
+
+    def start(self, name, text, *words):
+        self.write(name, text)
+        return subprocess.Popen(
+            [sys.executable, name, *words], cwd=self.folder, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, encoding="utf-8",
+            env={**self.installed.environment, "PYTHONPATH": str(ROOT / "python")})
+
+    def test_errors_come_back_from_a_pool(self):
+        for way in ("fork", "spawn"):
+            with self.subTest(way), self.start("pool.py", POOL, way) as process:
+                try:
+                    text, _ = process.communicate(timeout=120)
+                finally:
+                    process.kill()
+                self.assertRegex(text, r"\Aok\n105 bad_load bad_load: .*-1.*\nok\n\Z")
+
+    def test_ctrl_c_ends_a_long_call(self):
+        with self.start("long.py", LONG_CALL) as process:
+            try:
+                self.assertEqual(process.stdout.readline(), "ready\n")
+                time.sleep(0.3)
+                sent = time.monotonic()
+                process.send_signal(signal.SIGINT)
+                word, when = process.stdout.readline().split()
+                self.assertEqual(word, "interrupted")
+                self.assertLess(float(when) - sent, 1.0)
+                rest, _ = process.communicate(timeout=60)
+            finally:
+                process.kill()
+        self.assertEqual(rest, "bad_argument: the last call was interrupted: set the gap again\n"
+                               "ok\n")
+        self.assertEqual(process.returncode, 0)
 
 
 class Contacts(HostTest):
@@ -160,6 +250,169 @@ class Contacts(HostTest):
         y = self.numpy.repeat(self.y, 2)[::2]
         contact.set_gap(y, list(self.gap[1]), self.numpy.full(601, 1.0 / 920.0))
         self.assertEqual(contact.solve(load=1e5), wanted)
+
+    def test_errors_are_pickled_and_copied(self):
+        with self.assertRaises(self.faststrip.FaststripError) as caught:
+            self.contact().solve(load=-1.0)
+        problem = caught.exception
+        problem.where = "here"
+        for again in (pickle.loads(pickle.dumps(problem)), copy.copy(problem),
+                      copy.deepcopy(problem)):
+            self.assertIs(type(again), self.faststrip.FaststripError)
+            self.assertEqual((str(again), again.args, again.status, again.word, again.message,
+                              again.where),
+                             (str(problem), problem.args, 105, "bad_load", problem.message, "here"))
+        for call in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "cannot be copied or pickled"):
+                call(self.contact())
+
+    def test_the_constructor_says_what_is_wrong(self):
+        np, contact = self.numpy, self.faststrip.Contact
+        wrong_numbers = (1.7, 15.0, np.float64(15.0), 2**32 + 5, 2**64, -3, 0, True, np.True_, None,
+                         "15", b"15", 1j, np.array([15]), np.ma.masked, float("nan"),
+                         decimal.Decimal(15))
+        for name in ("strips_per_patch", "points_per_strip", "max_points"):
+            for value in wrong_numbers:
+                with self.subTest(name, value=value):
+                    self.refused("bad_argument", contact, says=f"{name} must be a whole number",
+                                 **{name: value})
+        for grid in (50, (50,), (50, 50, 50), None, "ab", "50", (50, None), (1.5, 50), (50, 0),
+                     (True, 50), (2**32 + 5, 50), {50: 50, 20: 20}, (50, 10001)):
+            with self.subTest(grid=grid):
+                self.refused("bad_argument", contact, says="fastsim_grid must be", fastsim_grid=grid)
+        for value in ("yes", None, 2, 1.0, [], np.array([True])):
+            with self.subTest(value=value):
+                self.refused("bad_argument", contact, says="with_elements must be True or False",
+                             with_elements=value)
+        for name in ("normal", "tangential"):
+            for value in (None, 1, [], "Strip", ""):
+                self.refused("bad_argument", contact, says=f"no {name} method {value!r}",
+                             **{name: value})
+        self.refused("bad_argument", contact, strips_per_patch="many", says="'many'")
+        self.refused("bad_argument", contact, strips_per_patch=1001, says="got 1001")
+        self.refused("bad_argument", contact, tangential="polach", with_elements=True,
+                     says="polach gives forces only")
+        for value in (np.int8(7), np.uint64(7), np.array(7), np.int64(7)):
+            made = contact(strips_per_patch=value, points_per_strip=value, max_points=value,
+                           fastsim_grid=(value, value), with_elements=np.True_)
+            made.set_gap(self.y[::100], 2e-3 * self.y[::100]**2, 1e-3)
+            self.assertEqual(made.solve(load=1e3).n_strips, 7)
+
+    def test_limits_are_those_of_the_library(self):
+        sources = "".join((ROOT / "src" / "faststrip" / name).read_text(encoding="utf-8") for name in
+                          ("contact/methods.f90", "contact/solve.f90", "tangential/types.f90",
+                           "profile/gap.f90"))
+        package = sys.modules["faststrip._contact"]
+        for name, limit in (("most_strips", package.MOST_STRIPS),
+                            ("most_points", package.MOST_POINTS),
+                            ("most_rows", package.MOST_ROWS),
+                            ("min_gap_points", package.GAP_POINTS[0]),
+                            ("most_gap_points", package.GAP_POINTS[1])):
+            self.assertEqual(re.findall(rf"\b{name} = (\d+)", sources), [str(limit)], name)
+
+    def test_gaps_are_refused_by_name(self):
+        np, y = self.numpy, self.y
+        contact = self.faststrip.Contact()
+        good = {"y": y, "h": 2e-3 * y**2, "inv2r": np.full(601, 1e-3), "turn": np.zeros(601)}
+        nan, hole = y.copy(), [*y]
+        nan[3], hole[7] = np.nan, None
+        for name in good:
+            for value in (np.ma.array(y), np.ma.masked_less(y, 0.0), y + 0j, y > 0.0,
+                          y.astype(str), y.astype("M8[s]"), "abc", {}, hole, [[1.0], [1.0, 2.0]],
+                          np.array([y]), [*map(str, y)], object()):
+                with self.subTest(name, value=str(value)[:20]):
+                    self.refused("bad_argument", contact.set_gap, says=name,
+                                 **{**good, name: value})
+            if name != "turn":
+                self.refused("bad_argument", contact.set_gap, says=f"{name} must be",
+                             **{**good, name: None})
+            if name != "y":
+                for value in (y[1:], y[:1], []):
+                    self.refused("bad_argument", contact.set_gap, says=f"{name} must be as long as "
+                                 f"y, 601, or one number, got {len(value)}", **{**good, name: value})
+            for value in (nan, -np.inf) if name != "y" else (nan,):
+                self.refused("not_finite", contact.set_gap, says=name, **{**good, name: value})
+        self.refused("bad_argument", contact.set_gap, np.arange(1e6 + 1), 0.0, 0.0, says="1000000")
+        with self.assertRaises(self.faststrip.FaststripError):
+            contact.solve(load=1e5)
+        wanted = self.contact().solve(load=1e5)
+        for kind in (np.float32, np.longdouble, object, ">f8"):
+            contact.set_gap(y.astype(kind) if kind != np.float32 else y, self.gap[1].astype(
+                kind if kind != np.float32 else float), 1.0 / 920.0)
+            self.assertEqual(contact.solve(load=1e5), wanted)
+
+    def test_numbers_are_refused_by_name(self):
+        np, contact, faststrip = self.numpy, self.contact(), self.faststrip
+        good = {"load": 1e5, "mu": 0.3}
+        for name in ("load", "mu", "penetration"):
+            rest = {key: value for key, value in good.items() if key != "load" or name == "mu"}
+            for value in ("1e5", True, 1j, np.complex128(1.0), [1e5], np.array([1e5]), np.ma.masked,
+                          np.ma.array(1.0), b"1", object(), *((None,) if name == "mu" else ())):
+                with self.subTest(name, value=value):
+                    self.refused("bad_argument", contact.solve, says=f"{name} must be a number",
+                                 **{**rest, name: value})
+            for value in (float("inf"), -np.inf, np.nan, np.float32("nan"), 10**400):
+                self.refused("not_finite", contact.solve, says=f"{name} must be finite",
+                             **{**rest, name: value})
+        for value in (None, 1.0, (1.0, 2.0), "abc", (0.0, 0.0, 0.0, 0.0), (0.0, "0", 0.0),
+                      np.ma.zeros(3), {1.0, 2.0, 3.0}, (0.0, 1j, 0.0)):
+            self.refused("bad_argument", contact.solve, load=1e5, creepage=value, says="creepage")
+        self.refused("not_finite", contact.solve, load=1e5, creepage=(0.0, np.nan, 0.0),
+                     says="creepage[1]")
+        for value in (None, 2e5, (2e5, 2e5, 0.3, 0.3)):
+            self.refused("bad_argument", contact.solve, load=1e5, material=value, says="material")
+        self.refused("bad_argument", contact.solve, load=1e5,
+                     material=faststrip.Material(nu_rail="0.3"), says="material.nu_rail")
+        self.refused("bad_argument", contact.solve, load=1e5, warm_start=None, says="warm_start")
+        self.refused("bad_argument", contact.copy_from, None, says="other must be a Contact")
+        self.refused("bad_argument", faststrip.hertz, "1", 1.0, 1.0, says="inv2r_x")
+        self.refused("no_hertz_ellipse", faststrip.hertz, 0.0, 1.0, 1.0, says="inv2r_x = 0.0")
+        self.refused("not_finite", faststrip.kalker, np.nan, says="a_over_b")
+        self.refused("out_of_range", faststrip.kalker, 0.0, says="a_over_b = 0.0")
+        ellipse = {"a": 6.0, "b": 5.0, "coefficients": (4.0, 4.0, 1.5), "creepage": (0.0, 0.0, 0.0),
+                   "mu": 0.3, "load": 1e5}
+        for name in ellipse:
+            self.refused("bad_argument", faststrip.fastsim, says=name, **{**ellipse, name: None})
+        self.refused("bad_argument", faststrip.fastsim, says="grid", **ellipse, grid=(2**32 + 5, 5))
+        self.refused("bad_argument", faststrip.fastsim, says="load = -1.0", **{**ellipse, "load": -1})
+        wanted = contact.solve(load=1e5, creepage=(1e-3, 0.0, 0.0))
+        for load in (100000, np.float32(1e5), np.array(1e5), np.int64(100000),
+                     decimal.Decimal(100000)):
+            for creepage in ([1e-3, 0, 0], np.array([1e-3, 0.0, 0.0]), (np.float64(1e-3), 0, 0)):
+                self.assertEqual(contact.solve(load=load, creepage=creepage), wanted)
+
+    def test_a_contact_serves_one_thread_at_a_time(self):
+        contact = self.contact(strips_per_patch=200)
+        alone = contact.solve(load=1e5)
+        answers = []
+
+        def work():
+            for _ in range(5):
+                try:
+                    answers.append(contact.solve(load=1e5))
+                except self.faststrip.FaststripError as problem:
+                    answers.append(str(problem))
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertIn("bad_argument: the contact is in use by another thread", answers)
+        self.assertIn(alone, answers)
+        self.assertEqual({answer for answer in answers if isinstance(answer, str)},
+                         {"bad_argument: the contact is in use by another thread"})
+        for answer in answers:
+            self.assertTrue(isinstance(answer, str) or answer == alone, answer)
+
+    def test_the_memory_of_a_running_call_stays(self):
+        contact = self.contact(strips_per_patch=400)
+        thread = threading.Thread(target=contact.solve, kwargs={"load": 1e5})
+        thread.start()
+        contact.close()
+        del contact
+        gc.collect()
+        thread.join()
 
     def test_errors_have_a_word_and_say_what(self):
         contact = self.contact()
