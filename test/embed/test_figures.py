@@ -1,0 +1,274 @@
+"""Every figure of every face is that of the Fortran interface, bit for bit: unlike bodies, gaps
+without symmetry, all creepages, every method, every field of every struct and array."""
+
+import math
+import os
+import sys
+import unittest
+
+from installed import HOSTS, ROOT, HostTest
+
+NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
+TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
+              "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
+FORCES_ONLY = {"linear", "she", "polach"}
+# Bodies, friction, load, penetration, creepages: no two alike, the second demand unlike the first.
+FIRST = (2.1e5, 1.43e5, 0.27, 0.335, 0.31, 7.3e4, 0.061, 1.3e-3, -7e-4, 1.7e-4)
+SECOND = (1.9e5, 2.3e5, 0.31, 0.24, 0.23, 6.1e4, 0.047, -9e-4, 1.6e-3, -2.3e-4)
+CLASSIC = {
+    "fastsim": ((6.1, 4.3, 7.9e4, 4.4, 3.8, 1.6, 1e-3, 5e-4, 2e-4, 0.31, 9e4, 17, 9),
+                (3.2, 5.9, 8.3e4, 3.6, 3.1, 1.2, -7e-4, 9e-4, -1e-4, 0.23, 6e4, 8, 21),
+                (5.0, 4.0, 8.0e4, 4.1, 3.7, 1.4, 2e-4, -3e-4, 9e-4, 0.4, 5e4, 12, 13),
+                (0.0, 4.3, 7.9e4, 4.4, 3.8, 1.6, 1e-3, 5e-4, 2e-4, 0.31, 9e4, 17, 9),
+                (6.1, 4.3, 7.9e4, 4.4, 3.8, 1.6, 1e-3, 5e-4, 2e-4, 0.31, -9e4, 17, 9)),
+    "hertz": ((2.1e5, 1.43e5, 0.27, 0.335, 1.1e-3, 2.3e-3, 9e4),
+              (1.9e5, 2.3e5, 0.31, 0.24, 2.7e-3, 4e-4, 6e4),
+              (2.0e5, 2.1e5, 0.2, 0.29, 1e-3, 9e-4, 1e5),
+              (2.1e5, 1.43e5, 0.27, 0.335, -1.1e-3, 2.3e-3, 9e4),
+              (2.1e5, 0.0, 0.27, 0.335, 1.1e-3, 2.3e-3, 9e4)),
+    "kalker": ((1.7, 0.27), (0.3, 0.24), (1.0, 0.335), (0.0, 0.27), (1.7, 0.9)),
+}
+
+
+def lopsided(y):
+    return 2.1e-3 * y * y + 3e-5 * y**3 + 4e-3 * y
+
+
+def valleys(y):
+    return 4e-5 * (y * y - 40.0)**2 + 3e-4 * y
+
+
+def gap(height, first, last, n):
+    """y, h, inv2r, turn of points that lie the denser the farther right."""
+    rows = []
+    for i in range(n):
+        part = i / (n - 1)
+        y = first + (last - first) * part * (1.2 - 0.2 * part)
+        rows.append((y, height(y), (1.0 + 0.011 * y) / 903.0, 0.08 * y + 1e-3 * y * y))
+    return rows
+
+
+def contacts():
+    """normal, tangential, strips, points, nx, ny, by load, elements, turn, demands, gap."""
+    usual = gap(lopsided, -14.0, 17.0, 201)
+    for normal in NORMAL:
+        for tangential in TANGENTIAL:
+            yield (normal, tangential, 11, 7, 13, 9, 1, int(tangential not in FORCES_ONLY), 0,
+                   FIRST, SECOND, usual)
+    for normal in NORMAL:
+        for by_load in (0, 1):
+            for rows in (usual, gap(valleys, -13.0, 14.0, 181)):
+                yield (normal, "faststrip", 9, 5, 7, 11, by_load, 0, 0, SECOND, FIRST, rows)
+    yield ("strip", "faststrip", 0, 6, 7, 11, 1, 1, 0, FIRST, SECOND, usual)
+    yield ("strip", "fastsim", 12, 6, 5, 17, 0, 1, 0, FIRST, SECOND, usual)
+    # A surface that turns much; points that end in the contact; an error, then none.
+    yield ("strip", "faststrip", 8, 6, 7, 11, 1, 1, 1, FIRST, SECOND, usual)
+    yield ("hertz", "fastsim", 8, 6, 7, 11, 1, 0, 1, FIRST, SECOND, usual)
+    yield ("strip", "faststrip", 8, 6, 7, 11, 1, 1, 0, FIRST, SECOND, usual[60:105])
+    yield ("strip", "faststrip", 8, 6, 7, 11, 1, 1, 0, (*FIRST[:5], -7.0, *FIRST[6:]), SECOND,
+           usual)
+    yield ("strip", "faststrip", 8, 6, 7, 11, 0, 1, 0, FIRST, (*SECOND[:6], -0.3, *SECOND[7:]),
+           usual)
+
+
+def input_text():
+    rows = list(contacts())
+    lines = [str(len(rows))]
+    for normal, tangential, *numbers, first, second, points in rows:
+        lines.append(" ".join(map(str, (normal, tangential, NORMAL.index(normal) + 1,
+                                        TANGENTIAL.index(tangential), *numbers, len(points)))))
+        lines += [" ".join(map(repr, row)) for row in (first, second, *points)]
+    for values in (*CLASSIC["fastsim"], *CLASSIC["hertz"], *CLASSIC["kalker"]):
+        lines.append(" ".join(map(repr, values)))
+    return "\n".join(lines) + "\n"
+
+
+def figures(text):
+    """What a program printed: numbers by name, contact, step and index; words by name and place."""
+    found = {}
+    for line in text.splitlines():
+        name, *places = line.split()
+        if name in ("message", "word"):
+            _, contact, step, *words = line.split(None, 3)
+            found[name, int(contact), int(step), 0] = " ".join(words).strip()
+        else:
+            contact, step, i, value = places
+            found[name, int(contact), int(step), int(i)] = float(value)
+    return found
+
+
+class Figures(HostTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
+        sys.path.insert(0, str(ROOT / "python"))
+        try:
+            import faststrip
+        finally:
+            sys.path.remove(str(ROOT / "python"))
+            del os.environ["FASTSTRIP_PREFIX"]
+        cls.faststrip = faststrip
+        cls.write("contacts.txt", input_text())
+        cls.shell(f"gfortran -O1 -J. '{HOSTS}/figures.f90' $(pkg-config --cflags --libs faststrip)"
+                  " -o by_fortran")
+        cls.wanted = figures(cls.shell("./by_fortran <contacts.txt"))
+        cls.contacts = list(contacts())
+
+    def same(self, found, left_out=lambda name, contact: False):
+        """All that is wanted, and the number of strips in the result, are found; nothing else is."""
+        wanted = {key: value for key, value in self.wanted.items() if not left_out(*key[:2])}
+        for key in [key for key in found if key[0] == "result_n_strips"]:
+            self.assertEqual(found.pop(key), wanted["n_strips", *key[1:]], key)
+        self.assertEqual(sorted(set(wanted) ^ set(found))[:9], [])
+        self.assertEqual([(key, wanted[key], found[key]) for key in wanted
+                          if wanted[key] != found[key]][:9], [])
+
+    def test_the_contacts_tell_figures_apart(self):
+        """In most contacts no two figures are equal, so that none can stand for another."""
+        names = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
+                 "friction_power", "stick_fraction", "n_patches", "n_strips", "iterations",
+                 "n_elements")
+        apart = 0
+        for contact in range(1, len(self.contacts) + 1):
+            values = [self.wanted[name, contact, 1, 0] for name in names]
+            self.assertTrue(all(map(math.isfinite, values)))
+            apart += len(set(values)) == len(names)
+        self.assertGreater(apart, 5)
+        statuses = {value for key, value in self.wanted.items() if key[0] == "status"}
+        self.assertLessEqual({0.0, 2.0, 6.0, 105.0}, statuses)
+        self.assertGreater(sum(key[0] == "element_px" and value != 0.0
+                               for key, value in self.wanted.items()), 1000)
+
+    def test_c(self):
+        self.shell(f"gcc -O1 -Wall -Wextra -Werror '{HOSTS}/figures.c'"
+                   " $(pkg-config --cflags --libs faststrip) -o by_c")
+        self.same(figures(self.shell("./by_c <contacts.txt")),
+                  lambda name, contact: name == "shear_modulus")
+
+    def test_f77(self):
+        self.shell(f"gfortran -std=legacy -Wall -O1 '{HOSTS}/figures.f'"
+                   " $(pkg-config --libs faststrip) -o by_f77")
+        turning = {i for i, row in enumerate(self.contacts, 1) if row[8]}
+        self.assertEqual(len(turning), 2)
+        self.same(figures(self.shell("./by_f77 <contacts.txt")),
+                  lambda name, contact: name in ("shear_modulus", "iterations",
+                                                 "default_penetration") or contact in turning)
+
+    def test_python(self):
+        found = {}
+        for number, row in enumerate(self.contacts, 1):
+            self.by_python(found, number, *row)
+        self.classic_by_python(found)
+        self.same(found, lambda name, contact: name.startswith("default_") or name == "word")
+
+    def by_python(self, found, number, normal, tangential, strips, points, nx, ny, by_load,
+                  elements, turn, first, second, rows):
+        faststrip = self.faststrip
+        options = {"normal": normal, "tangential": tangential, "strips_per_patch": strips or "auto",
+                   "points_per_strip": points, "fastsim_grid": (nx, ny),
+                   "with_elements": elements == 1, "max_points": len(rows)}
+        contact, copy = faststrip.Contact(**options), faststrip.Contact(**options)
+        y, h, inv2r, turns = zip(*rows)
+        contact.set_gap(y, h, inv2r, turns if turn else None)
+
+        def show_arrays(of, step):
+            strips, elements = of.strips(), of.elements()
+            found["n_strips", number, step, 0] = len(strips.p0)
+            for what, table in (("strip", strips), ("element", elements)):
+                for name, values in table._asdict().items():
+                    for i, value in enumerate(values, 1):
+                        found[f"{what}_{name}", number, step, i] = value
+
+        def solve(of, step, demand):
+            e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration, *creepage = demand
+            try:
+                result = of.solve(
+                    **({"load": load} if by_load else {"penetration": penetration}),
+                    creepage=tuple(creepage), mu=mu, warm_start=step > 1,
+                    material=faststrip.Material(e_wheel=e_wheel, e_rail=e_rail, nu_wheel=nu_wheel,
+                                                nu_rail=nu_rail))
+            except faststrip.FaststripError as problem:
+                self.assertEqual(problem.word, self.wanted["word", 0, problem.status, 0])
+                found["status", number, step, 0] = problem.status
+                found["message", number, step, 0] = problem.message
+                for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
+                             "fy", "mz", "friction_power", "stick_fraction", "n_patches",
+                             "iterations", "n_elements"):
+                    found[name, number, step, 0] = 0.0
+            else:
+                self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
+                # Words of a limitation are not handed on.
+                found["message", number, step, 0] = self.wanted["message", number, step, 0]
+                for name, value in vars(result).items():
+                    if name not in ("word", "n_strips"):
+                        found[name, number, step, 0] = value
+                found["result_n_strips", number, step, 0] = result.n_strips
+            show_arrays(of, step)
+
+        solve(contact, 1, first)
+        copy.copy_from(contact)
+        show_arrays(copy, 2)
+        solve(contact, 3, second)
+        solve(copy, 4, second)
+
+    def classic_by_python(self, found):
+        faststrip = self.faststrip
+
+        def fastsim(a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load, nx, ny):
+            return faststrip.fastsim(a, b, (c11, c22, c23), (cksi, ceta, cphi), mu, load,
+                                     shear_modulus=g, grid=(nx, ny))
+
+        def hertz(e_wheel, e_rail, nu_wheel, nu_rail, inv2r_x, inv2r_y, load):
+            return faststrip.hertz(inv2r_x, inv2r_y, load, faststrip.Material(
+                e_wheel=e_wheel, e_rail=e_rail, nu_wheel=nu_wheel, nu_rail=nu_rail))
+
+        for function, names in ((fastsim, ("fx", "fy", "mz")),
+                                (hertz, ("a", "b", "penetration", "pmax")),
+                                (faststrip.kalker, ("c11", "c22", "c23", "c33"))):
+            what = function.__name__
+            for step, values in enumerate(CLASSIC[what], 1):
+                status, answers = 0, [0.0] * len(names)
+                try:
+                    answers = function(*values)
+                except faststrip.FaststripError as problem:
+                    status = problem.status
+                found[f"{what}_status", 0, step, 0] = status
+                for name, value in zip(names, answers):
+                    found[f"{what}_{name}", 0, step, 0] = value
+        for step, values in enumerate(CLASSIC["hertz"], 1):
+            e_wheel, e_rail, nu_wheel, nu_rail = values[:4]
+            # By another formula: to the last bits only.
+            wanted = self.wanted["shear_modulus", 0, step, 0]
+            modulus = faststrip.Material(e_wheel, e_rail, nu_wheel, nu_rail).shear_modulus \
+                if e_rail > 0.0 else wanted
+            self.assertAlmostEqual(modulus, wanted, delta=1e-12 * wanted)
+            found["shear_modulus", 0, step, 0] = wanted
+
+    def test_the_defaults_of_python(self):
+        package, material = self.faststrip, self.faststrip.Material()
+        for name in ("e_wheel", "e_rail", "nu_wheel", "nu_rail"):
+            self.assertEqual(getattr(material, name), self.wanted[f"default_{name}", 0, 0, 0])
+        y, h, inv2r, _ = zip(*self.contacts[0][-1])
+        bare, told = package.Contact(), package.Contact(
+            normal=NORMAL[int(self.wanted["default_normal", 0, 0, 0]) - 1],
+            tangential=TANGENTIAL[int(self.wanted["default_tangential", 0, 0, 0])],
+            strips_per_patch=int(self.wanted["default_strips_per_patch", 0, 0, 0]),
+            points_per_strip=int(self.wanted["default_points_per_strip", 0, 0, 0]))
+        results = []
+        for contact, friction in ((bare, {}), (told, {"mu": self.wanted["default_mu", 0, 0, 0]})):
+            contact.set_gap(y, h, inv2r)
+            results.append(contact.solve(load=8e4, creepage=(4e-3, 1e-3, 1e-4), **friction))
+        self.assertEqual(*results)
+        for normal, tangential in (("hertz", "fastsim"),):
+            grid = tuple(int(self.wanted[f"default_fastsim_{name}", 0, 0, 0]) for name in ("nx", "ny"))
+            results = []
+            for options in ({}, {"fastsim_grid": grid}):
+                contact = package.Contact(normal=normal, tangential=tangential, **options)
+                contact.set_gap(y, h, inv2r)
+                results.append(contact.solve(load=8e4, creepage=(1e-3, 1e-3, 1e-4)))
+            self.assertEqual(*results)
+
+
+if __name__ == "__main__":
+    unittest.main()
