@@ -133,8 +133,9 @@ static void without_workspace(void)
         for (j = 0; j < 11; j++) x[j] = number();
         nx = whole();
         ny = whole();
-        put("fastsim_status", i, 0, faststrip_fastsim(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7],
-                                                      x[8], x[9], x[10], nx, ny, f));
+        put("fastsim_status", i, 0,
+            faststrip_fastsim(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10], nx,
+                              ny, f));
         put("fastsim_fx", i, 0, f[0]);
         put("fastsim_fy", i, 0, f[1]);
         put("fastsim_mz", i, 0, f[2]);

@@ -1,8 +1,8 @@
 !> Every figure of every contact of a list on standard input, by the Fortran interface: what the
 !> other faces (`figures.c`, `figures.f`, Python) are compared with, bit for bit.
 !>
-!> One line each: `name contact step index value`. Step 1 is the first demand, step 2 the copy of its
-!> solution, step 3 the second demand from there (warm), step 4 the same on the copy.
+!> One line each: `name contact step index value`. Step 1 is the first demand, step 2 the copy of
+!> its solution, step 3 the second demand from there (warm), step 4 the same on the copy.
 program figures
     use faststrip
     use, intrinsic :: iso_fortran_env, only: output_unit

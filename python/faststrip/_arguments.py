@@ -113,6 +113,8 @@ def several(name: str, value: Any, what: str, counts: Sequence[int]) -> Tuple[An
 def array(name: str, value: Any) -> Array:
     """Numbers of double precision, of any shape, in one piece."""
     must = "an array of real numbers"
+    if value is None:
+        raise refused(name, must, value)
     if isinstance(value, np.ma.MaskedArray):
         raise refused(name, f"{must} without a mask (see numpy.ma.filled, compressed)", value)
     try:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import _thread
 import ctypes
+import operator
 from ctypes import c_double, c_int, c_void_p
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -97,6 +98,10 @@ class Result:
     n_strips: int
     n_elements: int
     iterations: int
+
+
+# What a result takes from the library's struct: by its names, whatever their order there.
+_figures_of = operator.attrgetter(*(field.name for field in fields(Result)[2:]))
 
 
 class Strips(NamedTuple):
@@ -317,8 +322,7 @@ class Contact:
         figures = Figures()
         status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
                             long=self._long)
-        return Result(status, word_of(status),
-                      *(getattr(figures, name) for name, _ in Figures._fields_[1:]))
+        return Result(status, word_of(status), *_figures_of(figures))
 
     def strips(self) -> Strips:
         """The strips of the last contact."""

@@ -59,7 +59,8 @@ class Callers(HostTest):
         self.write("caller.f", sources["f77"])
         self.write("caller.f90", sources["fortran"])
         self.shell(f"cp -r '{self.installed.prefix}' archive; rm archive/lib/*.so*;"
-                   f" sed -i \"s|^prefix=.*|prefix=$PWD/archive|\" archive/lib/pkgconfig/faststrip.pc")
+                   " sed -i \"s|^prefix=.*|prefix=$PWD/archive|\""
+                   " archive/lib/pkgconfig/faststrip.pc")
         found = set()
         for compiler, source in (
             ("gcc", "caller.c"), ("gcc -static-libgcc", "caller.c"), ("gcc -static", "caller.c"),

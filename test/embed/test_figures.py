@@ -116,7 +116,7 @@ class Figures(HostTest):
         cls.contacts = list(contacts())
 
     def same(self, found, left_out=lambda name, contact: False):
-        """All that is wanted, and the number of strips in the result, are found; nothing else is."""
+        """What is wanted, and the number of strips in the result, is found, and nothing else."""
         wanted = {key: value for key, value in self.wanted.items() if not left_out(*key[:2])}
         for key in [key for key in found if key[0] == "result_n_strips"]:
             self.assertEqual(found.pop(key), wanted["n_strips", *key[1:]], key)
@@ -261,7 +261,8 @@ class Figures(HostTest):
             results.append(contact.solve(load=8e4, creepage=(4e-3, 1e-3, 1e-4), **friction))
         self.assertEqual(*results)
         for normal, tangential in (("hertz", "fastsim"),):
-            grid = tuple(int(self.wanted[f"default_fastsim_{name}", 0, 0, 0]) for name in ("nx", "ny"))
+            grid = tuple(int(self.wanted[f"default_fastsim_{name}", 0, 0, 0])
+                         for name in ("nx", "ny"))
             results = []
             for options in ({}, {"fastsim_grid": grid}):
                 contact = package.Contact(normal=normal, tangential=tangential, **options)

@@ -112,8 +112,9 @@ class Installed(HostTest):
     def test_the_structs_of_the_last_release_are_those_of_the_header(self):
         source = (ROOT / "src" / "faststrip" / "interop" / "c_structs.f90").read_text("utf-8")
         listed = re.findall(r"^ +(\d+)_c_size_t, (\d+)_c_size_t", source, re.MULTILINE)
-        self.write("sizes.c", '#include <faststrip.h>\n#include <stdio.h>\nint main(void) { return '
-                              'printf("%zu %zu", sizeof(faststrip_case), sizeof(faststrip_result)) < 0; }')
+        self.write("sizes.c", "#include <faststrip.h>\n#include <stdio.h>\nint main(void) {"
+                              'printf("%zu %zu", sizeof(faststrip_case), sizeof(faststrip_result));'
+                              "return 0; }")
         found = self.shell("gcc sizes.c $(pkg-config --cflags faststrip) -o sizes && ./sizes")
         self.assertEqual(found.split(), list(listed[-1]))
         # The result grows together with the case only.

@@ -279,7 +279,8 @@ class Contacts(HostTest):
         for grid in (50, (50,), (50, 50, 50), None, "ab", "50", (50, None), (1.5, 50), (50, 0),
                      (True, 50), (2**32 + 5, 50), {50: 50, 20: 20}, (50, 10001)):
             with self.subTest(grid=grid):
-                self.refused("bad_argument", contact, says="fastsim_grid must be", fastsim_grid=grid)
+                self.refused("bad_argument", contact, says="fastsim_grid must be",
+                             fastsim_grid=grid)
         for value in ("yes", None, 2, 1.0, [], np.array([True])):
             with self.subTest(value=value):
                 self.refused("bad_argument", contact, says="with_elements must be True or False",
@@ -299,9 +300,9 @@ class Contacts(HostTest):
             self.assertEqual(made.solve(load=1e3).n_strips, 7)
 
     def test_limits_are_those_of_the_library(self):
-        sources = "".join((ROOT / "src" / "faststrip" / name).read_text(encoding="utf-8") for name in
-                          ("contact/methods.f90", "contact/solve.f90", "tangential/types.f90",
-                           "profile/gap.f90"))
+        sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")
+                          for name in ("contact/methods", "contact/solve", "tangential/types",
+                                       "profile/gap"))
         package = sys.modules["faststrip._contact"]
         for name, limit in (("most_strips", package.MOST_STRIPS),
                             ("most_points", package.MOST_POINTS),
@@ -329,7 +330,8 @@ class Contacts(HostTest):
             if name != "y":
                 for value in (y[1:], y[:1], []):
                     self.refused("bad_argument", contact.set_gap, says=f"{name} must be as long as "
-                                 f"y, 601, or one number, got {len(value)}", **{**good, name: value})
+                                 f"y, 601, or one number, got {len(value)}",
+                                 **{**good, name: value})
             for value in (nan, -np.inf) if name != "y" else (nan,):
                 self.refused("not_finite", contact.set_gap, says=name, **{**good, name: value})
         self.refused("bad_argument", contact.set_gap, np.arange(1e6 + 1), 0.0, 0.0, says="1000000")
@@ -374,7 +376,8 @@ class Contacts(HostTest):
         for name in ellipse:
             self.refused("bad_argument", faststrip.fastsim, says=name, **{**ellipse, name: None})
         self.refused("bad_argument", faststrip.fastsim, says="grid", **ellipse, grid=(2**32 + 5, 5))
-        self.refused("bad_argument", faststrip.fastsim, says="load = -1.0", **{**ellipse, "load": -1})
+        self.refused("bad_argument", faststrip.fastsim, says="load = -1.0",
+                     **{**ellipse, "load": -1})
         wanted = contact.solve(load=1e5, creepage=(1e-3, 0.0, 0.0))
         for load in (100000, np.float32(1e5), np.array(1e5), np.int64(100000),
                      decimal.Decimal(100000)):

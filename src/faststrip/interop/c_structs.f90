@@ -52,7 +52,7 @@ module faststrip_interop_c_structs
 
 contains
 
-    !> Steel on steel, the methods of the project and nothing to solve, as far as the caller knows it.
+    !> Steel on steel, the methods of the project and nothing to solve, as far as it is known.
     subroutine write_default_case(address, length, status)
         type(c_ptr), intent(in) :: address      !! of a `faststrip_case`, or null
         integer(c_size_t), intent(in) :: length !! of what the caller's header knows

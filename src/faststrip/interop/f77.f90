@@ -167,7 +167,8 @@ contains
         info = status%code
         if (is_error(status)) return
         iwork(1) = first_mark
-        iwork(2:n_iwork - 1) = transfer([number, 0_c_intptr_t, 0_c_intptr_t], iwork(:1), n_iwork - 2)
+        iwork(2:n_iwork - 1) = transfer([number, 0_c_intptr_t, 0_c_intptr_t], iwork(:1), &
+                                         n_iwork - 2)
         iwork(n_iwork) = last_mark
     end subroutine fsinit
 

@@ -84,7 +84,8 @@ contains
             if (number == first_free) first_free = place%next_free
             n_places = max(n_places, number)
             ! Counted from a number that differs between copies of the library in one process.
-            if (place%count == 0) place%count = ishft(transfer(c_loc(first_block), 0_c_intptr_t), -4)
+            if (place%count == 0) &
+                place%count = ishft(transfer(c_loc(first_block), 0_c_intptr_t), -4)
             place%count = max(iand(place%count + 1, count_mask), 1_c_intptr_t)
             handle = ior(ishft(place%count, place_bits), int(number, c_intptr_t))
             place%address = address
