@@ -8,7 +8,7 @@ module faststrip_normal_patch_ellipse
     implicit none
     private
 
-    public :: patch_ellipse_t, patch_ellipse, patch_end, lobe_end, check_strips
+    public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -23,9 +23,6 @@ module faststrip_normal_patch_ellipse
 
     !> Strips are refused beyond this, mm and MPa.
     real(wp), parameter :: largest = 1.0e9_wp
-
-    !> A neck of a patch is shorter than this share of the longest strips on either side.
-    real(wp), parameter :: neck_share = 0.3_wp
 
     !> Area (mm^2) and load (N) below which a patch is none.
     real(wp), parameter :: smallest = 1.0e-60_wp
@@ -81,46 +78,26 @@ contains
         end do
     end function patch_end
 
-    !> The last strip of the lobe that begins with strip `first`: a patch whose strips are shorter
-    !> in between than `neck_share` of the longest on either side counts as two, for tractions pass
-    !> hardly through such a neck.
-    pure integer function lobe_end(strips, first) result(last)
-        type(contact_strips_t), intent(in) :: strips !! checked strips
-        integer, intent(in) :: first                 !! 1 to n
-
-        integer :: k, n
-
-        last = patch_end(strips, first)
-        n = last
-        do k = first + 1, n - 1
-            if (strips%half_length(k) > min(strips%half_length(k - 1), strips%half_length(k + 1))) &
-                cycle
-            if (strips%half_length(k) < neck_share*min(maxval(strips%half_length(first:k)), &
-                                                       maxval(strips%half_length(k:n)))) then
-                last = k
-                return
-            end if
-        end do
-    end function lobe_end
-
     !> The ellipse with the area `pi a b` of strips `first` to `last` and their proportion
     !> `a/b = sqrt(Ix/Iy)`, `Ix = int x^2 dA`, `Iy = int (y - yc)^2 dA` (theory 5): exact on an
-    !> ellipse.
-    pure type(patch_ellipse_t) function patch_ellipse(strips, first, last) result(ellipse)
+    !> ellipse. Strips may count in part.
+    pure type(patch_ellipse_t) function patch_ellipse(strips, first, last, share) result(ellipse)
         type(contact_strips_t), intent(in) :: strips !! checked strips
         integer, intent(in) :: first                 !! first strip of the patch
         integer, intent(in) :: last                  !! last strip of the patch
+        real(wp), intent(in), optional :: share(first:) !! what of each strip counts, 0 to 1
 
-        real(wp) :: area, moment_x, moment_y, w, y, ratio
+        real(wp) :: area, moment_x, moment_y, w, counted, y, ratio
         integer :: i
 
         area = 0.0_wp
         do i = first, last
-            w = strips%y_right(i) - strips%y_left(i)
+            counted = strips%y_right(i) - strips%y_left(i)
+            if (present(share)) counted = share(i)*counted
             y = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
-            area = area + 2.0_wp*strips%half_length(i)*w
-            ellipse%y = ellipse%y + 2.0_wp*strips%half_length(i)*w*y
-            ellipse%load = ellipse%load + strip_load(strips%p0(i), strips%half_length(i), w)
+            area = area + 2.0_wp*strips%half_length(i)*counted
+            ellipse%y = ellipse%y + 2.0_wp*strips%half_length(i)*counted*y
+            ellipse%load = ellipse%load + strip_load(strips%p0(i), strips%half_length(i), counted)
         end do
         if (area <= smallest .or. ellipse%load <= smallest) then
             ellipse = patch_ellipse_t()
@@ -131,9 +108,11 @@ contains
         moment_y = 0.0_wp
         do i = first, last
             w = strips%y_right(i) - strips%y_left(i)
+            counted = w
+            if (present(share)) counted = share(i)*w
             y = 0.5_wp*(strips%y_left(i) + strips%y_right(i)) - ellipse%y
-            moment_x = moment_x + 2.0_wp/3.0_wp*strips%half_length(i)**3*w
-            moment_y = moment_y + 2.0_wp*strips%half_length(i)*w*(y*y + w*w/12.0_wp)
+            moment_x = moment_x + 2.0_wp/3.0_wp*strips%half_length(i)**3*counted
+            moment_y = moment_y + 2.0_wp*strips%half_length(i)*counted*(y*y + w*w/12.0_wp)
         end do
         ! Products instead of a quotient of moments, which may both be zero.
         if (moment_x >= largest_ratio**2*moment_y) then

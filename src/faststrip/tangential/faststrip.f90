@@ -1,8 +1,10 @@
 !> TFASTSTRIP, the better one: marching in the strips of any contact patch.
 !>
-!> Each patch, and each lobe of a patch with a neck (`lobe_end`), has a virtual ellipse (semi-axes
-!> a, b of its area and second moments), which gives Kalker's coefficients; everything else is the strip's own: its length 2 xd, its pressure p0 and
-!> its place y. A strip is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's
+!> Each patch has a virtual ellipse (semi-axes a, b of its area and second moments), which gives
+!> Kalker's coefficients; everything else is the strip's own: its length 2 xd, its pressure p0 and
+!> its place y. The lobes of a patch with a neck have ellipses of their own, and where they hang
+!> together a little (`patch_lobes`), what their ellipses give is averaged strip by strip. A strip
+!> is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's
 !> eq. (25)-(48) once corrected). What differs from the paper, and why:
 !>
 !>  1. **Flexibility** `L_i = l_i (xd/a)^gamma`, gamma = 3/8. FASTSIM has gamma = 0 (one flexibility
@@ -59,8 +61,10 @@ module faststrip_tangential_faststrip
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, over_force
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, lobe_end, &
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
+    use faststrip_normal_patch_lobes, only: has_neck, find_openness, next_level, level_weight, &
+                                            next_lobe, all_parted, all_joined
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, put_element, field_power, most_points, &
                                           state_adhesion, state_slip
@@ -93,16 +97,20 @@ module faststrip_tangential_faststrip
     ! A patch or a strip that can carry less than this, N, carries nothing.
     real(wp), parameter :: smallest_force = 1.0e-20_wp
 
-    !> What one patch's strips share.
+    !> What the strips of one patch, or of one lobe, share.
     type :: patch_law_t
-        real(wp) :: a            !! semi-axis of the virtual ellipse along x, mm
-        real(wp) :: y            !! centroid, mm
-        real(wp) :: l1, l2, l3   !! flexibilities of a strip of length 2a, mm/MPa
-        real(wp) :: k1, k2       !! the same in slip, mm/MPa
-        real(wp) :: spin_slope   !! slope of px in adhesion per y cphi, strip of length 2a, MPa/mm
-        real(wp) :: cksi         !! longitudinal creepage at the centroid
-        real(wp) :: stretch_x    !! arms in x are longer by this part where nothing slides
-        real(wp) :: stretch_y    !! arms in y, from the centroid
+        real(wp) :: a = 0.0_wp   !! semi-axis of the virtual ellipse along x, mm
+        real(wp) :: y = 0.0_wp   !! centroid, mm
+        real(wp) :: l1 = 0.0_wp, l2 = 0.0_wp, l3 = 0.0_wp
+            !! flexibilities of a strip of length 2a, mm/MPa
+        real(wp) :: k1 = 0.0_wp, k2 = 0.0_wp !! the same in slip, mm/MPa
+        real(wp) :: spin_slope = 0.0_wp
+            !! slope of px in adhesion per y cphi, strip of length 2a, MPa/mm
+        real(wp) :: stretch_x = 0.0_wp !! arms in x are longer by this part where nothing slides
+        real(wp) :: stretch_y = 0.0_wp !! arms in y, from the centroid
+        real(wp) :: exponent = 0.0_wp  !! m of the bound
+        real(wp) :: alpha = 0.0_wp     !! of the bound
+        real(wp) :: weight = 0.0_wp    !! sum of the weights of an average; zero: carries nothing
     end type patch_law_t
 
     ! Strips marched side by side, and what their number is rounded up to.
@@ -177,7 +185,7 @@ contains
         last = 0
         do while (last < strips%n)
             first = last + 1
-            last = lobe_end(strips, first)
+            last = patch_end(strips, first)
             call solve_patch(strips, first, last, material, mu, creepage, points_per_strip, &
                              result, stuck, covered, status, field, per_strip)
             if (is_error(status)) then
@@ -223,29 +231,59 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        type(patch_ellipse_t) :: ellipse
-        type(kalker_coefficients_t) :: c
         type(patch_law_t) :: law
-        real(wp) :: g, ab, force, along, across, turning, spin_share, saturation, exponent, alpha
-        type(block_t) :: block
-        real(wp) :: fading, bound(most_points), t, thickness
         type(tangential_result_t) :: before
         real(wp) :: power
-        integer :: i, first_element
+        integer :: first_element
 
-        ellipse = patch_ellipse(strips, first, last)
+        before = result
+        first_element = 1
+        if (present(field)) first_element = field%n + 1
+        if (has_neck(strips%half_length(first:last))) then
+            call march_lobes(strips, first, last, material, mu, creepage, points, result, stuck, &
+                             covered, status, field, per_strip)
+        else
+            call find_law(patch_ellipse(strips, first, last), material, mu, creepage, law, status)
+            call march_strips(law, strips, first, last, mu, creepage, points, result, stuck, &
+                              covered, field, per_strip)
+        end if
+        if (is_error(status)) return
+        power = max(-((result%fx - before%fx)*creepage%cksi &
+                      + (result%fy - before%fy)*creepage%ceta &
+                      + (result%mz - before%mz)*creepage%cphi), 0.0_wp)
+        result%friction_power = result%friction_power + power
+        if (present(field)) call match_power(power, first_element, field)
+        if (present(per_strip)) then
+            associate (share => per_strip%friction_power(first:last))
+                if (sum(share) > 0.0_wp) share = share*(power/sum(share))
+            end associate
+        end if
+    end subroutine solve_patch
+
+    !> What an ellipse says of the strips of a patch.
+    pure subroutine find_law(ellipse, material, mu, creepage, law, status)
+        type(patch_ellipse_t), intent(in) :: ellipse
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(patch_law_t), intent(out) :: law !! without weight if there is nothing to carry
+        type(status_t), intent(inout) :: status
+
+        type(kalker_coefficients_t) :: c
+        real(wp) :: g, ab, force, along, across, turning, spin_share, saturation, slope, fading
+
         force = mu*ellipse%load
         if (force <= smallest_force) return
         call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         g = combined_shear_modulus(material)
         ab = ellipse%a*ellipse%b
+        law%weight = 1.0_wp
         law%a = ellipse%a
         law%y = ellipse%y
-        law%cksi = creepage%cksi - ellipse%y*creepage%cphi
 
         ! Linear forces over mu N, and from them how far the patch slides and how far by spin.
-        along = over_force(c%c11*g*ab*law%cksi, force)
+        along = over_force(c%c11*g*ab*(creepage%cksi - ellipse%y*creepage%cphi), force)
         across = over_force(c%c22*g*ab*creepage%ceta, force)
         turning = over_force(c%c23*g*ab*sqrt(ab)*creepage%cphi, force)
         saturation = along**2 + across**2 + turning**2
@@ -260,43 +298,133 @@ contains
         law%k1 = in_slip(law%l1, law%l3, spin_share, saturation)
         law%k2 = in_slip(law%l2, law%l3, spin_share, saturation)
         ! The slope that gives C33: int 2 y^2 xd^2 (a/xd)^gamma dy slope = C33 G (ab)^2.
-        t = c%c33*g/(2.0_wp*ellipse%b*j1)
-        law%spin_slope = longitudinal_part/law%l1 + (1.0_wp - longitudinal_part)*t
+        slope = c%c33*g/(2.0_wp*ellipse%b*j1)
+        law%spin_slope = longitudinal_part/law%l1 + (1.0_wp - longitudinal_part)*slope
         fading = 1.0_wp - saturation**4
         law%stretch_x = fading*(c%c23*sqrt(ellipse%b/ellipse%a)*g*law%l2*1.5_wp/(law%a*i3) &
                                 - 1.0_wp)
-        law%stretch_y = fading*(t/law%spin_slope - 1.0_wp)
+        law%stretch_y = fading*(slope/law%spin_slope - 1.0_wp)
+        law%exponent = 1.0_wp - flattening*saturation*spin_share
+        law%alpha = asymmetry*(1.0_wp - spin_share)
+    end subroutine find_law
 
-        exponent = 1.0_wp - flattening*saturation*spin_share
-        alpha = asymmetry*(1.0_wp - spin_share)
+    !> March the strips of a patch with a neck, each by the mean of the laws of its lobes.
+    pure subroutine march_lobes(strips, first, last, material, mu, creepage, points, result, &
+                                stuck, covered, status, field, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last, points
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(tangential_result_t), intent(inout) :: result
+        real(wp), intent(inout) :: stuck, covered
+        type(status_t), intent(inout) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        real(wp), dimension(first:last) :: openness, share
+        type(patch_law_t) :: mean(first:last), law
+        real(wp) :: level, next
+        integer :: i, begin, from, to
+
+        call find_openness(strips%half_length(first:last), openness)
+        level = all_parted
+        do while (level < all_joined)
+            next = next_level(openness, level)
+            begin = first
+            do while (begin <= last)
+                call next_lobe(strips, first, openness, level, begin, from, to, share)
+                call find_law(patch_ellipse(strips, from, to, share(from:to)), material, mu, &
+                              creepage, law, status)
+                if (is_error(status)) return
+                do i = from, to
+                    call add_law(level_weight(level, next)*share(i)*law%weight, law, mean(i))
+                end do
+            end do
+            level = next
+        end do
+        begin = first
+        do i = first + 1, last + 1
+            if (i <= last) then
+                if (same_law(mean(i), mean(begin))) cycle
+            end if
+            call march_strips(mean_law(mean(begin)), strips, begin, i - 1, mu, creepage, points, &
+                              result, stuck, covered, field, per_strip)
+            begin = i
+        end do
+    end subroutine march_lobes
+
+    !> Add a law to a sum of laws.
+    pure subroutine add_law(weight, law, total)
+        real(wp), intent(in) :: weight
+        type(patch_law_t), intent(in) :: law
+        type(patch_law_t), intent(inout) :: total
+
+        total%a = total%a + weight*law%a
+        total%y = total%y + weight*law%y
+        total%l1 = total%l1 + weight*law%l1
+        total%l2 = total%l2 + weight*law%l2
+        total%l3 = total%l3 + weight*law%l3
+        total%k1 = total%k1 + weight*law%k1
+        total%k2 = total%k2 + weight*law%k2
+        total%spin_slope = total%spin_slope + weight*law%spin_slope
+        total%stretch_x = total%stretch_x + weight*law%stretch_x
+        total%stretch_y = total%stretch_y + weight*law%stretch_y
+        total%exponent = total%exponent + weight*law%exponent
+        total%alpha = total%alpha + weight*law%alpha
+        total%weight = total%weight + weight
+    end subroutine add_law
+
+    !> The mean of the laws of a sum.
+    pure type(patch_law_t) function mean_law(total) result(law)
+        type(patch_law_t), intent(in) :: total
+
+        if (total%weight <= 0.0_wp) return
+        call add_law(1.0_wp/total%weight, total, law)
+        law%weight = 1.0_wp
+    end function mean_law
+
+    !> Are two sums of laws the same? Sums of the same laws with the same weights are, and those
+    !> of other laws differ in their ellipses.
+    pure logical function same_law(one, other)
+        type(patch_law_t), intent(in) :: one, other
+
+        same_law = one%weight == other%weight .and. one%a == other%a .and. one%y == other%y &
+                   .and. one%l1 == other%l1
+    end function same_law
+
+    !> March strips under one law and add their forces.
+    pure subroutine march_strips(law, strips, first, last, mu, creepage, points, result, stuck, &
+                                 covered, field, per_strip)
+        type(patch_law_t), intent(in) :: law
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last, points
+        real(wp), intent(in) :: mu
+        type(creepage_t), intent(in) :: creepage
+        type(tangential_result_t), intent(inout) :: result
+        real(wp), intent(inout) :: stuck, covered !! areas, mm^2
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        type(block_t) :: block
+        real(wp) :: bound(most_points), t, thickness
+        integer :: i
+
+        if (law%weight <= 0.0_wp) return
         do i = 1, (points + 1)/2
             t = real(points - 2*i + 1, wp)/points
-            thickness = (1.0_wp - t*t)**exponent
-            bound(i) = thickness*(1.0_wp - alpha*t)
-            bound(points + 1 - i) = thickness*(1.0_wp + alpha*t)
+            thickness = (1.0_wp - t*t)**law%exponent
+            bound(i) = thickness*(1.0_wp - law%alpha*t)
+            bound(points + 1 - i) = thickness*(1.0_wp + law%alpha*t)
         end do
         bound(:points) = bound(:points)*(0.25_wp*pi*points/sum(bound(:points)))
-
-        before = result
-        first_element = 1
-        if (present(field)) first_element = field%n + 1
         do i = first, last, most_lanes
             call fill_block(law, strips, i, min(i + most_lanes - 1, last), mu, creepage, points, &
                             block)
             call march(block, bound(:points), strips, creepage, field)
             call add_block(law, block, points, creepage, result, stuck, covered, per_strip)
         end do
-        power = max(-((result%fx - before%fx)*creepage%cksi &
-                      + (result%fy - before%fy)*creepage%ceta &
-                      + (result%mz - before%mz)*creepage%cphi), 0.0_wp)
-        result%friction_power = result%friction_power + power
-        if (present(field)) call match_power(power, first_element, field)
-        if (present(per_strip)) then
-            associate (share => per_strip%friction_power(first:last))
-                if (sum(share) > 0.0_wp) share = share*(power/sum(share))
-            end associate
-        end if
-    end subroutine solve_patch
+    end subroutine march_strips
 
     !> Scale the slip of a patch so that its elements give the patch's friction power; by a factor
     !> of two at most, for where next to nothing slides the heat is in no element.
@@ -438,9 +566,11 @@ contains
         type(creepage_t), intent(in) :: creepage
         type(block_t), intent(out) :: block
 
-        real(wp) :: softness, hardness, offset
+        real(wp) :: softness, hardness, offset, cksi
         integer :: i, k
 
+        ! At the centroid.
+        cksi = creepage%cksi - law%y*creepage%cphi
         block%n = 0
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
@@ -469,7 +599,7 @@ contains
             softness = softness*sqrt(softness)
             hardness = 1.0_wp/softness
             offset = block%y(k) - law%y
-            block%slope_x(k) = (law%cksi/law%l1 - offset*creepage%cphi*law%spin_slope) &
+            block%slope_x(k) = (cksi/law%l1 - offset*creepage%cphi*law%spin_slope) &
                                *hardness
             block%slope_y0(k) = creepage%ceta/law%l2*hardness
             block%slope_y1(k) = creepage%cphi/law%l3*hardness

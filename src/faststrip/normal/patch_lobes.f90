@@ -1,0 +1,157 @@
+!> The lobes of a contact patch with a neck: which strips hang together, and how firmly.
+!>
+!> Tractions pass hardly through a neck, and freely through what is nearly as long as the rest. How
+!> open a strip is says its length over the longest strip to its left or to its right, whichever is
+!> shorter. Below a level the open strips fall into runs, the lobes; the strips of a neck between
+!> two lobes belong to both, in proportion to the width on the other side. No level is the right
+!> one: what is wanted of the lobes is to be averaged over the levels from `all_parted` to
+!> `all_joined` with the weights of `level_weight`. So lobes join and part gradually, nothing
+!> depends on which strip of a neck is the shortest, and left and right count alike.
+!>
+!> In use: `find_openness`; `level = all_parted`; until the level is `all_joined`, `next_level`
+!> ends the stretch of levels that give the same lobes, and `next_lobe` finds them one by one.
+module faststrip_normal_patch_lobes
+    use faststrip_kinds, only: wp
+    use faststrip_normal_strips, only: contact_strips_t
+    implicit none
+    private
+
+    public :: has_neck, find_openness, next_level, level_weight, next_lobe
+    public :: all_parted, all_joined
+
+    ! Measured: lobes that hang together by less than a tenth carry what they carry apart, by more
+    ! than one half they are one patch. The errors against CONTACT and TANG do not feel the
+    ! bounds; the closer they are, the faster the forces change while a neck grows.
+    real(wp), parameter :: all_parted = 0.1_wp !! openness up to which a strip is a neck
+    real(wp), parameter :: all_joined = 0.5_wp !! openness from which it is none
+
+contains
+
+    !> Is any strip of a patch a neck at any level?
+    pure logical function has_neck(half_length)
+        real(wp), intent(in) :: half_length(:) !! of the strips of one patch, mm
+
+        real(wp) :: longest
+        integer :: i, top
+
+        has_neck = .true.
+        top = maxloc(half_length, dim=1)
+        longest = 0.0_wp
+        do i = 1, top
+            longest = max(longest, half_length(i))
+            if (half_length(i) < all_joined*longest) return
+        end do
+        longest = 0.0_wp
+        do i = size(half_length), top, -1
+            longest = max(longest, half_length(i))
+            if (half_length(i) < all_joined*longest) return
+        end do
+        has_neck = .false.
+    end function has_neck
+
+    !> How open the strips of a patch are, 0 to 1.
+    pure subroutine find_openness(half_length, openness)
+        real(wp), intent(in) :: half_length(:) !! of the strips of one patch, mm
+        real(wp), intent(out) :: openness(:)   !! of each strip; 1 at the ends
+
+        real(wp) :: longest
+        integer :: i, top
+
+        ! Up to the longest strip of all, what is to the left decides, and beyond, to the right.
+        openness = 1.0_wp
+        top = maxloc(half_length, dim=1)
+        longest = 0.0_wp
+        do i = 1, top
+            longest = max(longest, half_length(i))
+            if (longest > 0.0_wp) openness(i) = half_length(i)/longest
+        end do
+        longest = 0.0_wp
+        do i = size(half_length), top, -1
+            longest = max(longest, half_length(i))
+            if (longest > 0.0_wp) openness(i) = half_length(i)/longest
+        end do
+    end subroutine find_openness
+
+    !> Up to which level the lobes are those just above this one.
+    pure real(wp) function next_level(openness, level)
+        real(wp), intent(in) :: openness(:) !! of the strips of a patch
+        real(wp), intent(in) :: level       !! from `all_parted`, below `all_joined`
+
+        next_level = min(minval(openness, mask=openness > level), all_joined)
+    end function next_level
+
+    !> What the levels between two bounds count; all together, one.
+    pure real(wp) function level_weight(from, to)
+        real(wp), intent(in) :: from !! level, >= `all_parted`
+        real(wp), intent(in) :: to   !! level, <= `all_joined`
+
+        level_weight = weight_below(to) - weight_below(from)
+    end function level_weight
+
+    !> What the levels below this one count: rises smoothly from 0 to 1.
+    pure real(wp) function weight_below(level)
+        real(wp), intent(in) :: level
+
+        real(wp) :: t
+
+        t = (level - all_parted)/(all_joined - all_parted)
+        weight_below = t*t*(3.0_wp - 2.0_wp*t)
+    end function weight_below
+
+    !> The next lobe of a patch at the levels just above one: which strips, with what share.
+    pure subroutine next_lobe(strips, first, openness, level, begin, from, to, share)
+        type(contact_strips_t), intent(in) :: strips !! checked strips
+        integer, intent(in) :: first           !! first strip of the patch
+        real(wp), intent(in) :: openness(first:) !! of the strips of the patch
+        real(wp), intent(in) :: level          !! strips as open as that or less are necks
+        integer, intent(inout) :: begin
+            !! first strip that is no neck; then that of the next lobe, or none of the patch
+        integer, intent(out) :: from, to       !! strips, with those of the necks on either side
+        real(wp), intent(inout) :: share(first:) !! set from `from` to `to`: 1, in necks less
+
+        integer :: last
+
+        last = begin
+        do while (last < ubound(openness, 1))
+            if (openness(last + 1) <= level) exit
+            last = last + 1
+        end do
+        from = begin
+        do while (from > first)
+            if (openness(from - 1) > level) exit
+            from = from - 1
+        end do
+        to = last
+        do while (to < ubound(openness, 1))
+            if (openness(to + 1) > level) exit
+            to = to + 1
+        end do
+        share(begin:last) = 1.0_wp
+        call share_neck(strips, begin - 1, from, share(from:begin - 1))
+        call share_neck(strips, last + 1, to, share(last + 1:to))
+        begin = to + 1
+    end subroutine next_lobe
+
+    !> What of the strips of a neck belongs to the lobe on one side.
+    pure subroutine share_neck(strips, near, away, share)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: near, away    ! strip next to the lobe, strip next to the other one
+        real(wp), intent(inout) :: share(min(near, away):)
+
+        real(wp) :: beyond, width
+        integer :: i
+
+        if (size(share) == 0) return
+        beyond = 0.0_wp
+        do i = away, near, sign(1, near - away)
+            width = strips%y_right(i) - strips%y_left(i)
+            share(i) = beyond + 0.5_wp*width
+            beyond = beyond + width
+        end do
+        if (beyond > 0.0_wp) then
+            share = share/beyond
+        else
+            share = 0.5_wp
+        end if
+    end subroutine share_neck
+end module faststrip_normal_patch_lobes
