@@ -156,13 +156,14 @@ contains
         logical, intent(inout) :: changed
 
         integer :: p, n
-        real(wp) :: middle, clearance
+        real(wp) :: middle, clearance, width(max_patches)
 
+        ! Of the strips before anything merges, so that left and right count alike.
+        width(:patches%n) = (patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from) &
+                            /patches%at(:patches%n)%n_strips
         n = min(1, patches%n)
         do p = 2, patches%n
-            clearance = 0.25_wp*min( &
-                        (patches%at(n)%y_to - patches%at(n)%y_from)/patches%at(n)%n_strips, &
-                        (patches%at(p)%y_to - patches%at(p)%y_from)/patches%at(p)%n_strips)
+            clearance = 0.25_wp*min(width(p - 1), width(p))
             if (patches%at(p)%y_from - patches%at(n)%y_to < clearance .and. may_merge) then
                 patches%at(n)%y_to = max(patches%at(n)%y_to, patches%at(p)%y_to)
                 patches%at(n)%too_far_to = patches%at(p)%too_far_to

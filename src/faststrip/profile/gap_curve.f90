@@ -182,8 +182,15 @@ contains
         end do
         curve%n_pieces = m - 1
         i = minloc(curve%h_node(:m), dim=1)
-        curve%y_lowest = curve%y_node(i)
         curve%h_lowest = curve%h_node(i)
+        ! The middle of a flat place, as seen from either side.
+        j = i
+        do while (j < m)
+            if (curve%h_node(j + 1) > curve%h_lowest) exit
+            j = j + 1
+        end do
+        curve%y_lowest = curve%y_node(i)
+        if (j > i) curve%y_lowest = 0.5_wp*(curve%y_node(i) + curve%y_node(j))
     end subroutine cut_into_monotone_pieces
 
     !> Roots of a t^2 + b t + c strictly inside (0, 1), ascending.

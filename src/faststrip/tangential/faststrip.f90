@@ -324,24 +324,28 @@ contains
 
         real(wp), dimension(first:last) :: openness, share
         type(patch_law_t) :: mean(first:last), law
-        real(wp) :: level, next
+        real(wp) :: level, weight
         integer :: i, begin, from, to
 
         call find_openness(strips%half_length(first:last), openness)
         level = all_parted
         do while (level < all_joined)
-            next = next_level(openness, level)
             begin = first
             do while (begin <= last)
                 call next_lobe(strips, first, openness, level, begin, from, to, share)
+                ! A lobe stays the same until one of its strips or of those next to it is a neck.
+                associate (around => openness(max(first, from - 1):min(last, to + 1)))
+                    if (level > all_parted .and. .not. any(around == level)) cycle
+                    weight = level_weight(level, next_level(around, level))
+                end associate
                 call find_law(patch_ellipse(strips, from, to, share(from:to)), material, mu, &
                               creepage, law, status)
                 if (is_error(status)) return
                 do i = from, to
-                    call add_law(level_weight(level, next)*share(i)*law%weight, law, mean(i))
+                    call add_law(weight*share(i)*law%weight, law, mean(i))
                 end do
             end do
-            level = next
+            level = next_level(openness, level)
         end do
         begin = first
         do i = first + 1, last + 1
