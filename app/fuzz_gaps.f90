@@ -15,7 +15,7 @@ module faststrip_app_fuzz_gaps
     private
 
     public :: fuzz_case_t, make_fuzz_case, family_names
-    public :: random_t, start_random, uniform, log_uniform, chance
+    public :: random_t, start_random, uniform, log_uniform, chance, pick, normal
 
     integer, parameter :: family_hertz = 1, family_several = 2, family_merging = 3, &
                           family_small_second = 4, family_kinks = 5, family_flat_top = 6, &
