@@ -81,6 +81,8 @@ module faststrip_app_fuzz_judges
         real(wp) :: badness(n_judges) = -1.0_wp !! over what is allowed; negative: not judged
     end type verdict_t
 
+    integer, parameter :: of_norm(3) = [judge_norm_depth, judge_norm_pmax, judge_norm_area]
+
 contains
 
     !> Add a badness to a judge's; the largest counts.
@@ -130,7 +132,8 @@ contains
     !> - `edge_of_data`: at the end of the data the pressure has no bound;
     !> - `flat_along_x`: a raised curvature bends the strips' sections;
     !> - `under_resolved`, `fewer_strips`: the gap has more detail than the strips, and with
-    !>   another load or another grid other detail is met.
+    !>   another load or another grid other detail is met;
+    !> - `conformal`, `more_strips`: nothing; the half-space and the gap are the same for all.
     pure real(wp) function allowance(word, judge)
         character(len=*), intent(in) :: word !! the status, `status_word`
         integer, intent(in) :: judge
@@ -143,14 +146,16 @@ contains
         select case (word)
         case ('fallback_used')
             if (judge == judge_tip) allowance = 1000.0_wp
-            if (judge == judge_middle) allowance = 3.0_wp
+            if (judge == judge_middle .or. judge == judge_monotone) allowance = 3.0_wp
+            if (any(judge == of_norm)) allowance = 3.0_wp
             if (judge == judge_outside) allowance = 10.0_wp
         case ('overlap_left')
             if (judge == judge_outside) allowance = free
         case ('edge_of_data')
             if (judge == judge_norm_pmax) allowance = free
         case ('flat_along_x', 'under_resolved', 'fewer_strips')
-            if (judge == judge_middle) allowance = 3.0_wp
+            if (judge == judge_middle .or. judge == judge_monotone) allowance = 3.0_wp
+            if (any(judge == of_norm)) allowance = 3.0_wp
         end select
     end function allowance
 end module faststrip_app_fuzz_judges

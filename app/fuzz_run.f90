@@ -4,11 +4,12 @@ module faststrip_app_fuzz_run
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, st_no_finite_patch
+    use faststrip_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
+    use faststrip_normal_limitations, only: add_limitation
     use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
@@ -191,6 +192,8 @@ contains
             call lattice_solve(room%lattice, curve, normal_compliance(material), case%load, &
                                case%strips, strips, result%penetration, verdict%status)
             if (is_error(verdict%status)) return
+            ! As its answers are always named.
+            call add_limitation(verdict%status, st_fallback_used, 'fixed lattice')
             result%load = case%load
             last = 0
             do p = 1, strips%n_patches

@@ -32,7 +32,7 @@ module faststrip_app_fuzz_solution_judges
     real(wp), parameter :: largest_estimate = 0.1_wp
     real(wp), parameter :: dip_tolerance = 0.02_wp  ! of D - h_lowest
 
-    integer, parameter :: most_strips_judged = 24, scan_places = 400, places_in_interval = 3
+    integer, parameter :: most_strips_judged = 24, scan_places = 1000, places_in_interval = 3
 
 contains
 
