@@ -1,7 +1,7 @@
 !> Kalker's method on a grid as a judge: another discretisation of another kind.
 !>
-!> The grid has some 25 elements along the contact and 40 across each patch, and half as many before:
-!> the difference is NORM's own estimate. What may differ are both estimates, with a margin,
+!> The grid has some 25 elements along the contact and 40 across each patch, and half as many
+!> before: the difference is NORM's own estimate. What may differ are both estimates, with a margin,
 !> and a floor for what the elements resolve.
 module faststrip_app_fuzz_norm_judge
     use faststrip_kinds, only: wp

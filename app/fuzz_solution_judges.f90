@@ -259,13 +259,15 @@ contains
     !> The curve against its points: it passes through them, and between two of them it dips by no
     !> more than twice what the smaller of the bends there makes, or the bend at a point that is
     !> lower than its neighbours: that of the parabola through the three.
-    pure subroutine judge_gap_curve(gap, curve, penetration, verdict)
+    subroutine judge_gap_curve(gap, curve, penetration, verdict)
         type(gap_t), intent(in) :: gap
         type(gap_curve_t), intent(in) :: curve    !! of the gap
         real(wp), intent(in) :: penetration       !! from h = 0, mm
         type(verdict_t), intent(inout) :: verdict
 
-        real(wp) :: depth, bend(size(gap%y)), floor, lowest, h, inv2r, y, size_of_h
+        ! Below this part of the largest the solver may raise the longitudinal term.
+        real(wp), parameter :: flattest_ratio = 0.03_wp
+        real(wp) :: depth, bend(size(gap%y)), floor, lowest, h, inv2r, y, size_of_h, largest_term
         integer :: i, j, n
 
         n = size(gap%y)
@@ -278,6 +280,7 @@ contains
         end do
         bend(1) = bend(2)
         bend(n) = bend(n - 1)
+        largest_term = maxval(abs(gap%inv2r))
         ! The depth that the points allow.
         lowest = huge(1.0_wp)
         do i = 1, n - 1
@@ -292,10 +295,12 @@ contains
             call gap_at(curve, gap%y(i), h, inv2r)
             call report_badness(verdict, judge_curve, &
                                 abs(h - gap%h(i))/(rounding*depth + 1.0e-12_wp*size_of_h))
+            call hold_term(inv2r, gap%inv2r(i), gap%inv2r(i))
             floor = floor_of(i)
             do j = 1, places_in_interval
                 y = gap%y(i) + (gap%y(i + 1) - gap%y(i))*real(j, wp)/(places_in_interval + 1)
                 call gap_at(curve, y, h, inv2r)
+                call hold_term(inv2r, minval(gap%inv2r(i:i + 1)), maxval(gap%inv2r(i:i + 1)))
                 if (h > penetration) cycle
                 call report_badness(verdict, judge_curve, &
                                     (floor - h)/(dip_tolerance*depth + 1.0e-12_wp*size_of_h))
@@ -315,6 +320,19 @@ contains
             if (is_lowest(i + 1)) allowed = max(allowed, bend(i + 1))
             floor_of = min(gap%h(i), gap%h(i + 1)) - 0.25_wp*allowed*(gap%y(i + 1) - gap%y(i))**2
         end function floor_of
+
+        !> The longitudinal term stays between those of two points; where these are far below the
+        !> largest it may be raised.
+        subroutine hold_term(inv2r, lowest_term, highest_term)
+            real(wp), intent(in) :: inv2r, lowest_term, highest_term
+
+            real(wp) :: raised
+
+            raised = max(highest_term, merge(flattest_ratio*largest_term, highest_term, &
+                                             lowest_term < flattest_ratio*largest_term))
+            call report_badness(verdict, judge_curve, &
+                                max(lowest_term - inv2r, inv2r - raised)/(rounding*largest_term))
+        end subroutine hold_term
 
         !> Is a point lower than both its neighbours?
         pure logical function is_lowest(i)
