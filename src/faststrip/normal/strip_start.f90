@@ -27,12 +27,16 @@ contains
         real(wp), intent(out) :: penetration        !! above the lowest height, mm
 
         real(wp), parameter :: factor = 4.0_wp, close_enough = 1.05_wp
+        ! The level tried first, in a length of the case's own: 0.01 mm at 100 kN on steel. Where
+        ! the search starts decides which of the levels within 5 % it ends with.
+        real(wp), parameter :: first_level = 0.02_wp
         real(wp) :: low, high, level, y_from(max_patches), y_to(max_patches)
         type(hertz_t) :: hertz
         logical :: wider
         integer :: i
 
-        high = 1.0e-2_wp
+        high = goal%penetration
+        if (goal%by_load) high = first_level*sqrt(compliance*goal%load)
         do i = 1, 100
             call fit_ellipse(curve, compliance, goal, high, y_from, y_to, patches%n, hertz, wider)
             if (.not. wider) exit
