@@ -163,7 +163,7 @@ contains
             case (family_corner)
                 call add_corners(random, base, case%gap)
             case (family_offset)
-                h = h + uniform(random, -10.0_wp, 10.0_wp)
+                h = h + uniform(random, 0.0_wp, 10.0_wp)
                 y = y + log_uniform(random, 10.0_wp, 1.0e4_wp)*merge(1.0_wp, -1.0_wp, &
                                                                     chance(random, 0.5_wp))
             case (family_metres)

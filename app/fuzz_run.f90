@@ -4,7 +4,8 @@ module faststrip_app_fuzz_run
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used
+    use faststrip_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used, &
+                                st_out_of_range
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, certify_strips
@@ -157,9 +158,7 @@ contains
         if (is_error(verdict%status)) then
             call report_badness(verdict, judge_answer, &
                                 merge(0.0_wp, huge(1.0_wp), &
-                                      verdict%status%code == st_no_finite_patch &
-                                      .and. verdict%status%message /= '' &
-                                      .and. may_have_no_patch(case)))
+                                      may_be_refused(case, verdict%status)))
             return
         end if
         call report_badness(verdict, judge_answer, 0.0_wp)
@@ -169,12 +168,21 @@ contains
                          verdict%result)
     end subroutine solve_case
 
-    !> Is the longitudinal term somewhere not positive?
-    pure logical function may_have_no_patch(case)
+    !> Is there a reason for an error: a longitudinal term that is not positive somewhere, or
+    !> heights below zero, which may leave no positive penetration?
+    pure logical function may_be_refused(case, status)
         type(fuzz_case_t), intent(in) :: case
+        type(status_t), intent(in) :: status
 
-        may_have_no_patch = any(case%gap%inv2r <= 0.0_wp)
-    end function may_have_no_patch
+        may_be_refused = .false.
+        if (status%message == '') return
+        select case (status%code)
+        case (st_no_finite_patch)
+            may_be_refused = any(case%gap%inv2r <= 0.0_wp)
+        case (st_out_of_range)
+            may_be_refused = any(case%gap%h < 0.0_wp)
+        end select
+    end function may_be_refused
 
     subroutine solve_by_lattice(case, material, room, verdict)
         type(fuzz_case_t), intent(in) :: case
