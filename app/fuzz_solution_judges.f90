@@ -142,26 +142,28 @@ contains
     pure real(wp) function patch_area(left, right, half_length) result(area)
         real(wp), intent(in) :: left(:), right(:), half_length(:)
 
-        real(wp) :: before, here, y, last_y
+        real(wp) :: before, y, last_y
         integer :: k
 
         area = 0.0_wp
         before = 0.0_wp
         last_y = left(1)
-        do k = 1, size(left) + 1
-            if (k <= size(left)) then
-                y = 0.5_wp*(left(k) + right(k))
-                here = half_length(k)
-            else
-                y = right(k - 1)
-                here = 0.0_wp
-            end if
-            ! int sqrt(q) of linear q: (2/3) (q2^1.5 - q1^1.5)/(q2 - q1).
-            area = area + 2.0_wp*(y - last_y)*(2.0_wp/3.0_wp) &
-                   *(here**2 + here*before + before**2)/(here + before)
-            before = here
+        do k = 1, size(left)
+            y = 0.5_wp*(left(k) + right(k))
+            area = area + between(y - last_y, before, half_length(k))
+            before = half_length(k)
             last_y = y
         end do
+        area = area + between(right(size(right)) - last_y, before, 0.0_wp)
+
+    contains
+
+        !> int 2 sqrt(q) dy of linear q = x^2: (4/3) (x2^3 - x1^3)/(x2^2 - x1^2) dy.
+        pure real(wp) function between(width, x1, x2)
+            real(wp), intent(in) :: width, x1, x2
+
+            between = 4.0_wp/3.0_wp*width*(x1**2 + x1*x2 + x2**2)/(x1 + x2)
+        end function between
     end function patch_area
 
     !> What curves through lengths that do not follow a line may add or leave out: a sixth of the
