@@ -19,8 +19,8 @@ from faststrip_plots.tables import InputError, read_table
 
 FAST_MODES = "reference/contact/s1002_uic60_fast_modes_B.csv"
 HEADER = (
-    "method", "results", "penetration %", "area %", "pmax %", "Fx % µN", "Fy % µN", "Mz % µNc",
-    "normal µs", "tangential µs",
+    "method", "results", "penetration %", "area %", "pmax %", "Fx % of mu N", "Fy % of mu N",
+    "Mz % of mu N c", "normal µs", "tangential µs",
 )
 # error columns of CONTACT's fast modes, in the order of QUANTITIES
 PEER_ERRORS = (
@@ -65,8 +65,8 @@ def report(sweep, reference, options):
         f" reference {options.reference}, µ = {options.mu:g}.",
         "Each cell: mean / largest absolute error over the shifts with a result. Penetration and"
         " pmax in percent of CONTACT's on its 0.1 mm grid; area in percent, Fx and Fy in percent of"
-        " µN, Mz in percent of µNc with c = sqrt(area/π) of CONTACT's patch, against CONTACT's"
-        " values extrapolated in the grid size (columns `*_extrap`; on the 0.1 mm grid itself the"
+        " mu N, Mz in percent of mu N c with c = sqrt(area/π) of CONTACT's patch, against"
+        " CONTACT's values extrapolated in the grid size (columns `*_extrap`; on the 0.1 mm grid itself the"
         " area is 0.3 % larger, for elements count whole). Times: median microseconds per contact.",
         table(HEADER, [method_row(sweep, m, reference, options.mu) for m in sweep.methods]),
     ]

@@ -241,11 +241,12 @@ def draw_tangential(path, rows, stamp):
         force = select(own, method=method, quantity="force")
         image = draw_map(place, Panel(method, force, (1e-6, 1.0)), "creepage, spin in rad/mm",
                          "friction $\\mu$")
-        colour_bar(parts[0], image, place, "of $\\mu N$")
+        colour_bar(parts[0], image, place, "of $\\mu\\cdot N$")
     for place in axes.flat[len(methods):]:
         place.set_visible(False)
     bars = parts[1].subplots()
-    quantities = {"excess": "force above $\\mu N$", "step": "change by $10^{-6}$ more creepage",
+    quantities = {"excess": "force above $\\mu\\cdot N$",
+                  "step": "change by $10^{-6}$ more creepage",
                   "oddness": "left by opposite creepages", "negative_power": "friction power below zero"}
     top = 10.0
     for k, (quantity, label) in enumerate(quantities.items()):
@@ -262,12 +263,12 @@ def draw_tangential(path, rows, stamp):
     bars.set_ylim(LEAST / 3.0, top)
     bars.set_xticks(np.arange(len(methods)), methods)
     bars.set_xlim(-0.5, len(methods) - 0.5)
-    bars.set_ylabel("largest, of $\\mu N$")
+    bars.set_ylabel("largest, of $\\mu\\cdot N$")
     style.title(bars, f"Rules kept? (zero is drawn at {short(LEAST)})")
     bars.legend(fontsize=style.SMALL, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     style.save(figure, path, stamp,
-               "maps: size of the force over µN (over N without friction), largest of all"
-               " directions and Poisson's ratios")
+               "maps: size of the force over $\\mu\\cdot N$ (over $N$ without friction), largest"
+               " of all directions and Poisson's ratios")
 
 
 # --------------------------------------------------------------------------------- steadiness
@@ -302,7 +303,8 @@ def draw_steadiness(path, rows, scalar, stamp):
     steps.set_ylabel("largest jump, relative")
     style.title(steps, "Jumps while the load grows")
     draw_digits(digits, rows, scalar)
-    style.save(figure, path, stamp, "forces relative to µN, moment to µN√(area/π)")
+    style.save(figure, path, stamp,
+               "forces relative to $\\mu\\cdot N$, moment to $\\mu\\cdot N\\sqrt{area/\\pi}$")
 
 
 def draw_digits(axes, rows, scalar):

@@ -90,8 +90,9 @@ def curves_figure(errors, folder):
     bound = value["mu"] * value["N"]
     figure = style.new_figure(11.0, 9.4)
     panels = figure.subplots(3, 3, sharex=True)
-    rows = (("long", "Fx", "$-F_x/(\\mu N)$", 1.0), ("spin", "Fy", "$-F_y/(\\mu N)$", 1.0),
-            ("spin", "Mz", "$-M_z/(\\mu N c)$", 6.0))
+    rows = (("long", "Fx", "$-F_x/(\\mu\\cdot N)$", 1.0),
+            ("spin", "Fy", "$-F_y/(\\mu\\cdot N)$", 1.0),
+            ("spin", "Mz", "$-M_z/(\\mu\\cdot N c)$", 6.0))
     for line, (group, quantity, label, arm) in zip(panels, rows):
         for axes, ratio in zip(line, RATIOS):
             chosen = np.flatnonzero((kind == group) & np.isclose(value["a_over_b"], ratio))
@@ -125,8 +126,8 @@ def shifts_figure(errors, folder):
     figure = style.new_figure(9.6, 8.4)
     panels = figure.subplots(3, 1, sharex=True)
     for axes, name, label in zip(panels, ("Fx_err", "Fy_err", "Mz_err"),
-                                 ("$F_x$, % of $\\mu N$", "$F_y$, % of $\\mu N$",
-                                  "$M_z$, % of $\\mu N c$")):
+                                 ("$F_x$, % of $\\mu\\cdot N$", "$F_y$, % of $\\mu\\cdot N$",
+                                  "$M_z$, % of $\\mu\\cdot N c$")):
         for method, look in METHODS.items():
             case, error = errors.select("s1002_uic60_B", method)
             if len(case) != len(shift):
@@ -170,7 +171,7 @@ def trade_figure(errors, path):
         axes.set_xticks((0.5, 1.0, 2.0, 5.0, 10.0))
         axes.set_xlim(0.5, 10.0)
         style.title(axes, heading)
-    figure.axes[0].set_ylabel("mean error of the force, % of $\\mu N$")
+    figure.axes[0].set_ylabel("mean error of the force, % of $\\mu\\cdot N$")
     legend(figure, figure.axes[0])
     return figure
 

@@ -7,7 +7,7 @@ import sys
 
 from faststrip_plots import command, paper_figures, style
 from faststrip_plots.curves import read_curves
-from faststrip_plots.results import read_reference, read_sweep
+from faststrip_plots.results import read_reference, read_sweep, read_sweeps
 from faststrip_plots.tables import InputError
 
 LIST = "figures.csv"
@@ -19,8 +19,8 @@ def main(arguments=None):
                         help="what `faststrip table --curves` wrote")
     parser.add_argument("--fine", default="out/paper/sweep_fine.csv", metavar="CSV",
                         help="a sweep in fine steps (example/s1002_uic60_fine.nml)")
-    parser.add_argument("--sweep", default="out/paper/sweep_A.csv", metavar="CSV",
-                        help="the sweep of Table 2 (example/s1002_uic60_A.nml)")
+    parser.add_argument("--sweep", default=["out/paper/sweep_A.csv"], metavar="CSV", nargs="+",
+                        help="sweeps of Table 2 (example/s1002_uic60_A.nml), by more methods each")
     parser.add_argument("--reference", default="reference/contact/s1002_uic60_A.csv",
                         metavar="CSV", help="the same by full CONTACT; A has the paper's signs")
     parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
@@ -30,9 +30,10 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     curves, stamp = read_curves(options.curves)
     fine = read_sweep(options.fine)
-    sweep = read_sweep(options.sweep)
+    sweep = read_sweeps(options.sweep)
     reference = read_reference(options.reference)
-    signs = paper_figures.check_creepages(options.sweep, options.reference)
+    for file in options.sweep:
+        signs = paper_figures.check_creepages(file, options.reference)
     for each in (fine, sweep):
         command.report_failures(each)
 

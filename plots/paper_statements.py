@@ -11,7 +11,7 @@ from collections import Counter
 
 from faststrip_plots import command, paper_figures, statements
 from faststrip_plots.curves import read_curves
-from faststrip_plots.results import read_reference, read_strips, read_sweep
+from faststrip_plots.results import read_reference, read_strips, read_sweeps
 from faststrip_plots.tables import InputError, read_table
 
 FOLDER = "out/paper"
@@ -19,12 +19,13 @@ INPUTS = {
     "curves": ("curves.csv", "what `faststrip table --curves` wrote"),
     "audit": ("audit.csv", "what `faststrip table --audit` wrote"),
     "errata": ("errata.csv", "what `faststrip table --errata` wrote"),
-    "sweep-a": ("sweep_A.csv", "the sweep of Table 2, signs as printed"),
-    "sweep-b": ("sweep_B.csv", "the sweep of Table 2, signs of the motion"),
-    "fine": ("sweep_fine.csv", "a sweep in fine steps"),
+    "sweep-a": ("sweep_A.csv", "sweeps of Table 2, signs as printed, by more methods each"),
+    "sweep-b": ("sweep_B.csv", "sweeps of Table 2, signs of the motion"),
+    "fine": ("sweep_fine.csv", "sweeps in fine steps"),
     "bench-integral": ("bench_integral.csv", "what `faststrip bench integral` wrote"),
     "bench-normal": ("bench_normal.csv", "what `faststrip bench normal` wrote"),
 }
+SWEEPS = ("sweep-a", "sweep-b", "fine")  # of which several files may be given
 SHORT = ("id", "statement", "of", "measured", "criterion", "verdict")
 TABLES = {
     "audit": ("n", "max_rel_err", "rms_rel_err", "residual_max", "misprint", "rel_err_below",
@@ -39,7 +40,9 @@ TABLES = {
 def main(arguments=None):
     parser = command.parser(__doc__)
     for name, (file, words) in INPUTS.items():
-        parser.add_argument(f"--{name}", default=f"{FOLDER}/{file}", metavar="CSV", help=words)
+        several = {"nargs": "+"} if name in SWEEPS else {}
+        default = [f"{FOLDER}/{file}"] if several else f"{FOLDER}/{file}"
+        parser.add_argument(f"--{name}", default=default, metavar="CSV", help=words, **several)
     parser.add_argument("--bench-reference", metavar="CSV",
                         help="what `faststrip bench reference` wrote")
     parser.add_argument("--strips", nargs="*", default=[], metavar="CSV",
@@ -62,25 +65,34 @@ def main(arguments=None):
     write_cells(os.path.join(os.path.dirname(options.output), "tables.csv"),
                 ("file", "title", "caption", "chapter"),
                 [(os.path.basename(short), "The paper's statements, tested",
-                  "Statements in our words; criteria are ours; verdicts follow from the figures.",
+                  "Statements in our words, judged on the paper's own method where they speak of"
+                  " FASTSTRIP; criteria are ours; verdicts follow from the figures. "
+                  + counted(rows) + ".",
                   paper_figures.CHAPTER)])
-    counts = Counter(row.verdict for row in rows)
-    print(f"{len(rows)} rows: " + ", ".join(
-        f"{counts[word]} {word}" for word in (statements.HOLDS, statements.LIMITED,
-                                              statements.FAILS, statements.UNKNOWN)))
+    print(counted(rows))
     print(options.output)
+
+
+def counted(rows):
+    """How many rows have which verdict."""
+    counts = Counter(row.verdict for row in rows)
+    return f"{len(rows)} rows: " + ", ".join(
+        f"{counts[word]} {word}" for word in (statements.HOLDS, statements.LIMITED,
+                                              statements.FAILS, statements.UNKNOWN))
 
 
 def read(options):
     """All files; refuses sweeps whose creepages are not their reference's."""
     paths = vars(options)
     tables = {name: read_table(paths[name.replace("-", "_")], columns)
-              for name, columns in TABLES.items()}
+              for name, columns in TABLES.items() if name not in SWEEPS}
+    tables["fine"] = read_table(options.fine[0], TABLES["fine"])
     sweeps = {}
     for letter in "AB":
-        sweep, reference = paths[f"sweep_{letter.lower()}"], paths[f"reference_{letter.lower()}"]
-        paper_figures.check_creepages(sweep, reference)
-        sweeps[letter] = read_sweep(sweep), read_reference(reference)
+        files, reference = paths[f"sweep_{letter.lower()}"], paths[f"reference_{letter.lower()}"]
+        for file in files:
+            paper_figures.check_creepages(file, reference)
+        sweeps[letter] = read_sweeps(files), read_reference(reference)
     return statements.Data(
         audit=tables["audit"],
         errata=tables["errata"],
@@ -88,7 +100,7 @@ def read(options):
                                            "Phi_rad_per_mm")),
         curves=read_curves(options.curves)[0],
         sweeps=sweeps,
-        fine=read_sweep(options.fine),
+        fine=read_sweeps(options.fine),
         fine_table=tables["fine"],
         contact=read_table(options.reference_a, ("yw_mm", "cpu_norm_s", "cpu_total_s",
                                                  "r_wheel_mm")),

@@ -12,7 +12,7 @@ from faststrip_plots import command
 from faststrip_plots.document import Document, write_text
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
-from faststrip_plots.verdicts import CHAPTERS, judge, read_manifest
+from faststrip_plots.verdicts import CHAPTERS, judge, read_manifest, shown, shown_tolerance
 
 # Pictures and tables of commands that announce none themselves.
 LIST = "reference/report_figures.csv"
@@ -51,8 +51,8 @@ def main(arguments=None):
     write_text(os.path.join(options.folder, "report.html"), document.page())
     failed = [v for v in verdicts if not v.good]
     for verdict in failed:
-        print(f"{verdict.row['id']}: {verdict.word}, {shown(verdict.value)} for"
-              f" {verdict.row['tolerance']} {verdict.remark}".rstrip(), file=sys.stderr)
+        print(f"{verdict.row['id']}: {verdict.word}, {shown(verdict.row, verdict.value)} for"
+              f" {shown_tolerance(verdict.row)} {verdict.remark}".rstrip(), file=sys.stderr)
     print(f"{len(verdicts) - len(failed)} comparisons passed, {len(failed)} failed"
           + (f", {left_out} left out" if left_out else ""))
     if failed:
@@ -143,22 +143,19 @@ def has_rows(path):
 def verdict_cells(verdict):
     row = verdict.row
     return (row["id"], row["quantity"], row["method"] or "–", row["metric"], str(verdict.rows),
-            shown(verdict.value), row["tolerance"],
+            shown(row, verdict.value), shown_tolerance(row),
             verdict.word + (f" ({verdict.remark})" if verdict.remark else ""), row["source"])
-
-
-def shown(value):
-    return "–" if math.isnan(value) else f"{value:.3g}"
 
 
 def verdict_csv(verdicts):
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(("id", "chapter", "value", "tolerance", "rows", "verdict", "remark"))
+    writer.writerow(("id", "chapter", "value", "tolerance", "rows", "verdict", "remark",
+                     "value_shown", "tolerance_shown"))
     for v in verdicts:
         value = "" if math.isnan(v.value) else repr(v.value)
         writer.writerow((v.row["id"], v.row["chapter"], value, v.row["tolerance"], v.rows, v.word,
-                         v.remark))
+                         v.remark, shown(v.row, v.value), shown_tolerance(v.row)))
     return stream.getvalue()
 
 

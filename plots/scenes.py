@@ -18,7 +18,7 @@ from faststrip_plots.tables import InputError, read_table
 REFERENCE = "Kalker"
 COLOURS = ("#c9a227", "#f08519", "#0b3c78", "#2f7d32", "#a8326e")
 MARKERS = ("x", "s", "o", "D", "^")
-PANELS = (("pmax", "largest pressure"), ("forces", "forces, in mu N"))
+PANELS = (("pmax", "largest pressure"), ("forces", "forces, over $\\mu\\cdot N$"))
 LEAST = 1e-3  # %, what is drawn for less
 
 

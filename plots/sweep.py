@@ -59,7 +59,8 @@ def draw(path, sweep, reference, mu, quantities, kinds):
     notes = []
     if "difference" in kinds:
         least = f"{panels.NEAR_ZERO:.0%}"
-        notes.append(f"ratios where CONTACT's value is at least {least} of µN or µNc")
+        notes.append(f"ratios where CONTACT's value is at least {least} of $\\mu\\cdot N$ or"
+                     " $\\mu\\cdot N c$")
     if beyond:
         notes.append("▲▼: beyond the axis")
     style.save(figure, path, [sweep.stamp], "; ".join(notes))

@@ -15,12 +15,13 @@ from faststrip_plots.style import legend_above, new_figure, save, title
 from faststrip_plots.tables import InputError, read_table
 
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
+FORCES = "Fx and Fy, in % of mu N, and Mz, in % of mu N c"
 STAGES = {
     "influence": ("Influence numbers in the strip method", "pressures and penetration against"
                   " the closed evaluation"),
     "normal": ("Normal contact", "penetration, largest pressure and area"),
-    "tangential": ("Tangential contact", "Fx and Fy in µN, Mz in µNc"),
-    "both": ("Both together", "Fx and Fy in µN, Mz in µNc"),
+    "tangential": ("Tangential contact", FORCES),
+    "both": ("Both together", FORCES),
 }
 TARGETS = (0.1, 0.03, 0.01, 0.003, 0.001)
 # families of methods: colour, marker, and the words a name of theirs may begin with
@@ -69,7 +70,8 @@ def main(arguments=None):
     write_rows(os.path.join(options.folder, "tables.csv"), ("file", "title", "caption", "chapter"), [
         ("trade_choice.csv", "Which method to take",
          "The fastest whose mean error, over all contacts and figures of its stage, is within the"
-         " target; in brackets the same for the largest error.", "trade"),
+         " target, with its median wall time; in brackets the same for the largest error. Errors of"
+         f" forces and moment: {FORCES}.", "trade"),
     ])
 
 
@@ -148,6 +150,7 @@ def family(method):
 def draw(points, heading, path, stamp):
     """Mean errors on the left, largest errors on the right."""
     figure = new_figure(11.5, 5.4)
+    point_stage = points[0]["stage"]
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, error, words in zip(panels, ("mean", "max"), ("mean error", "largest error")):
         best = front(points, error)
@@ -165,8 +168,10 @@ def draw(points, heading, path, stamp):
                           fontsize=7.5, color="#333333")
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel("time per contact in µs")
-        axes.set_ylabel("error in %")
+        axes.set_xlabel("wall time per contact in µs, median over the contacts")
+        forces = point_stage in ("tangential", "both")
+        axes.set_ylabel("error in % of $\\mu\\cdot N$; of $M_z$ in % of $\\mu\\cdot N c$" if forces
+                        else "error in %")
         title(axes, f"{heading}: {words}")
         axes.margins(0.14)
     legend_above(figure, *panels)

@@ -5,25 +5,46 @@ from __future__ import annotations
 import base64
 import html
 import os
+import re
 from dataclasses import dataclass, field
 
 from .tables import InputError
+
+LONG = 48  # letters: a longer cell is a text of its own
+SHORT = 12  # letters: a shorter one is never broken
+NUMBER = 24  # letters: with more a number has a text behind it
+MANY = 12  # columns: more are printed small
 
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1c1c1c; max-width: 68rem;
        margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.9rem; } h2 { margin-top: 3rem; border-bottom: 1px solid #ccc; }
-table { border-collapse: collapse; font-size: .86rem; margin: 1rem 0; display: block;
-        overflow-x: auto; }
-th, td { padding: .25rem .7rem; border-bottom: 1px solid #e2e2e2; text-align: right;
+div.table { overflow-x: auto; margin: 1rem 0; }
+table { border-collapse: collapse; font-size: .86rem; }
+th, td { padding: .25rem .6rem; border-bottom: 1px solid #e2e2e2; text-align: right;
          white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; }
-th { border-bottom: 2px solid #888; }
-td.wrap { white-space: normal; text-align: left; min-width: 16rem; }
+th { border-bottom: 2px solid #888; vertical-align: bottom; white-space: normal; }
+th.left, td.left { text-align: left; }
+td.text { white-space: normal; text-align: left; }
+td.wrap { white-space: normal; text-align: left; min-width: 13rem; }
 tr.bad td { background: #fdeaea; font-weight: bold; }
 figure { margin: 1.6rem 0; } figure img { max-width: 100%; border: 1px solid #e2e2e2; }
 figcaption { font-size: .9rem; color: #444; }
 nav a { margin-right: 1.2rem; }
+@page { size: A4; margin: 12mm; }
+@media print {
+  body { max-width: none; margin: 0; padding: 0; font-size: 10pt; }
+  h1, h2, h3 { break-after: avoid; } h2 { margin-top: 1.5rem; }
+  div.table { overflow: visible; }
+  table { width: 100%; font-size: 7.5pt; }
+  table.many { font-size: 5.5pt; }
+  th, td { padding: .1rem .25rem; }
+  td.text, td.wrap { min-width: 0; overflow-wrap: anywhere; }
+  table.many th, table.many td { white-space: normal; overflow-wrap: anywhere; }
+  tr, figure { break-inside: avoid; }
+  thead { display: table-header-group; }
+}
 """
 
 
@@ -128,15 +149,41 @@ def _markdown_table(header, rows):
 
 
 def _html_table(header, rows, bad):
-    lines = ["<table><tr>" + "".join(f"<th>{html.escape(c)}</th>" for c in header) + "</tr>"]
+    """A table that scrolls in its own box on a screen and fits the paper when printed."""
+    many = ' class="many"' if len(header) > MANY else ""
+    left = [k > 0 and not all(_is_number(row[k]) for row in rows) for k in range(len(header))]
+    lines = [f'<div class="table" tabindex="0"><table{many}><thead><tr>' + "".join(
+        f"<th{' class=left' if left[k] else ''}>{_breakable(cell)}</th>"
+        for k, cell in enumerate(header)) + "</tr></thead><tbody>"]
     for number, row in enumerate(rows):
         mark = ' class="bad"' if number in bad else ""
-        cells = "".join(
-            f'<td{" class=wrap" if len(cell) > 48 else ""}>{html.escape(cell)}</td>'
-            for cell in row
-        )
+        cells = "".join(f"<td{_look(cell, left[k])}>{_breakable(cell)}</td>"
+                        for k, cell in enumerate(row))
         lines.append(f"<tr{mark}>{cells}</tr>")
-    return "\n".join(lines + ["</table>"])
+    return "\n".join(lines + ["</tbody></table></div>"])
+
+
+def _is_number(cell):
+    """A number, alone or with its unit, or none."""
+    return cell in ("", "–") or (len(cell) <= NUMBER
+                                 and re.match("[-+>≤≥ ]*[0-9.]", cell) is not None)
+
+
+def _look(cell, left):
+    """Class of a cell: short words and numbers, with their units, stay on one line."""
+    if len(cell) > LONG:
+        return ' class="wrap"'
+    if len(cell) > SHORT and not _is_number(cell):
+        return ' class="text"'
+    return ' class="left"' if left else ""
+
+
+def _breakable(text):
+    """Names and paths may break after their joints, numbers nowhere."""
+    if len(text) <= SHORT or _is_number(text):
+        return html.escape(text)
+    parts = re.split(r"(?<=[_;=*/])(?=\w)|(?<=\.)(?=[A-Za-z])", text)
+    return "<wbr>".join(html.escape(part) for part in parts)
 
 
 def _encoded(path):

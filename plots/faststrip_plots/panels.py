@@ -20,6 +20,8 @@ from .tables import InputError
 
 SHIFT_LABEL = "lateral shift of the wheel, mm"
 NEAR_ZERO = 0.05  # of mu N (or mu N c): below it a ratio to the reference says nothing
+# what errors of forces and moments are a part of, in pictures: plain letters read as micronewton
+BASES = {"mu N": r"$\mu\cdot N$", "mu N c": r"$\mu\cdot N c$"}
 NORMAL_RATIOS = (0.4, 1.6)
 FORCE_RATIOS = (0.0, 2.0)
 PALE = "#dfe8f3"  # the body of strips and wheel
@@ -90,7 +92,8 @@ def draw_difference(axes, sweep, reference, name, mu):
         error[pairs.rows] = percent_errors(pairs, reference, name, mu)
         _line(axes, method.yw, error, look)
     axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
-    unit = {"value": "%", "mu N": "% of µN", "mu N c": "% of µNc"}[QUANTITIES[name].base]
+    base = QUANTITIES[name].base
+    unit = f"% of {BASES[base]}" if base in BASES else "%"
     axes.set_ylabel(f"{QUANTITIES[name].symbol} less CONTACT's, {unit}")
     style.title(axes, QUANTITIES[name].name.capitalize() + ": difference")
 

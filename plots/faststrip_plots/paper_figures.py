@@ -170,7 +170,7 @@ def broken(x, y):
 
 
 def normal_picture(sweep, reference, mu):
-    """Figs 17 to 20: approach, area and largest pressure, and the last over NORM's."""
+    """Figs 17 to 20: approach, area and largest pressure, and the last over CONTACT's."""
     figure = style.new_figure(WIDTH, 7.0)
     grid = figure.subplots(2, 2, sharex=True)
     for axes, number, name in zip(grid.flat, (17, 18, 19), ("penetration", "area", "pmax")):
@@ -178,7 +178,7 @@ def normal_picture(sweep, reference, mu):
         words = "approach (“shift”)" if name == "penetration" else QUANTITIES[name].name
         style.title(axes, f"Fig. {number} redone: {words}")
     beyond = panels.draw_ratio(grid[1, 1], sweep, reference, "pmax", mu)
-    style.title(grid[1, 1], "Fig. 20 redone: largest pressure over NORM's")
+    style.title(grid[1, 1], "Fig. 20 redone: $p_\\mathrm{max}$ over CONTACT's")
     for axes in grid[1]:
         axes.set_xlabel(panels.SHIFT_LABEL)
     figure.align_ylabels(grid)
@@ -187,7 +187,7 @@ def normal_picture(sweep, reference, mu):
         "The 20 contacts of Table 2: approach of the bodies, contact area and largest pressure, and"
         f" its ratio to CONTACT's. {_normal_errors(sweep, reference, mu)}"
     )
-    return Picture("fig17_20", "Figs 17 to 20: normal contact against NORM", caption, figure,
+    return Picture("fig17_20", "Figs 17 to 20: normal contact against CONTACT", caption, figure,
                    [sweep.stamp], "▲▼: beyond the axis" if beyond else "")
 
 
@@ -214,7 +214,7 @@ def force_pictures(sweep, reference, mu, sign_set):
         beyond = panels.draw_ratio(ratio, sweep, reference, name, mu, LEAST)
         symbol = PAPER_SYMBOLS[name]
         style.title(value, f"Fig. {left} redone: {symbol}")
-        style.title(ratio, f"Fig. {right} redone: {symbol} over TANG's")
+        style.title(ratio, f"Fig. {right} redone: {symbol} over CONTACT's")
         for axes in (value, ratio):
             axes.set_xlabel(panels.SHIFT_LABEL)
         ratio.set_xlim(value.get_xlim())
@@ -223,7 +223,7 @@ def force_pictures(sweep, reference, mu, sign_set):
         ratio.set_ylabel(f"{symbol} over CONTACT's {symbol}")
         _legend_in_rows(figure, value)
         least = f"{100.0 * LEAST:g} %"
-        base = "µNc" if quantity.base == "mu N c" else "µN"
+        base = panels.BASES[quantity.base]
         notes = [f"ratios where CONTACT's value is at least {least} of {base}"]
         if beyond:
             notes.append("▲▼: beyond the axis")
@@ -248,7 +248,7 @@ def fit_ratios(axes):
 
 
 def _force_errors(sweep, reference, name, mu):
-    base = {"mu N": "µN", "mu N c": "µNc"}[QUANTITIES[name].base]
+    base = QUANTITIES[name].base
     parts = []
     for method in sweep.methods:
         pairs = compare(sweep, method, reference)

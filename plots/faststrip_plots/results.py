@@ -142,6 +142,17 @@ def read_sweep(path: str) -> Sweep:
     return Sweep(path, methods, revision(table))
 
 
+def read_sweeps(paths) -> Sweep:
+    """Several sweep files as one: each method counts from the first file that has it."""
+    sweeps = [read_sweep(path) for path in paths]
+    found = {}
+    for sweep in sweeps:
+        for method in sweep.methods:
+            found.setdefault(method.key, method)
+    stamps = dict.fromkeys(sweep.stamp for sweep in sweeps if sweep.stamp)
+    return Sweep(", ".join(paths), list(found.values()), "; ".join(stamps) or None)
+
+
 class Reference:
     """Full CONTACT's figures, by ascending shift."""
 

@@ -13,7 +13,10 @@ Columns of the manifest:
   (of the reference), or `of:` with factors joined by `*`, each a number, a column of the value
   file or `c`, the square root of area/pi: `mean_of:0.3*N_N*c`;
 - `tolerance`: `0.01`, the most that is accepted, or `>0.95`, the least;
-- `figure`, `source`: a picture that shows it, and where the reference comes from.
+- `figure`, `source`: a picture that shows it, and where the reference comes from;
+- `unit`, which may be left out: the unit of value and tolerance as they are printed. Of `rel` and
+  `of:` it begins with `%` (and is `%` unless given), and what is printed is 100 times the number;
+  of `value` and `abs` it is that of the quantity, by default the one that ends the column's name.
 """
 
 from __future__ import annotations
@@ -32,6 +35,9 @@ COLUMNS = (
 )
 CHAPTERS = ("verification", "validation")
 KEY_TOLERANCE = 1e-6
+# by the end of a column's name
+UNITS = {"mm": "mm", "mm2": "mm2", "MPa": "MPa", "N": "N", "Nmm": "N mm", "rad": "rad",
+         "rad_per_mm": "rad/mm", "pct": "%", "us": "us", "ns": "ns", "s": "s"}
 
 _WAYS = {
     "mean": np.mean,
@@ -64,6 +70,9 @@ def read_manifest(path: str) -> list[dict]:
         {name: table.words(name)[k] for name in COLUMNS} | {"at": f"{path}:{line}"}
         for k, line in enumerate(table.lines)
     ]
+    units = table.words("unit") if "unit" in table.columns else [""] * len(rows)
+    for row, unit in zip(rows, units):
+        row["unit"] = unit
     seen = set()
     for row in rows:
         if not row["id"] or row["id"] in seen:
@@ -73,7 +82,36 @@ def read_manifest(path: str) -> list[dict]:
             raise InputError(f"neither verification nor validation: {row['chapter']} ({row['at']})")
         _bound(row)
         _way(row)
+        row["unit"] = row["unit"] or _usual_unit(row)
+        if _is_fraction(row) and not row["unit"].startswith("%"):
+            raise InputError(f"a unit of {row['metric']} begins with %: {row['unit']}"
+                             f" ({row['at']})")
     return rows
+
+
+def shown(row: dict, value: float) -> str:
+    """A value of a row's metric with its unit; a dash if there is none."""
+    if math.isnan(value):
+        return "–"
+    return f"{100.0 * value if _is_fraction(row) else value:.3g} {row['unit']}".rstrip()
+
+
+def shown_tolerance(row: dict) -> str:
+    """The tolerance of a row with its side and unit."""
+    at_least, bound = _bound(row)
+    return f"{'≥' if at_least else '≤'} {shown(row, bound)}"
+
+
+def _is_fraction(row):
+    return _way(row)[1] == "rel" or _way(row)[1].startswith("of:")
+
+
+def _usual_unit(row):
+    if _is_fraction(row):
+        return "%"
+    parts = row["quantity"].split("_")
+    ends = ("_".join(parts[k:]) for k in range(1, len(parts)))
+    return next((UNITS[end] for end in ends if end in UNITS), "")
 
 
 def judge(row: dict, folder: str) -> Verdict:
