@@ -1,6 +1,7 @@
 !> `faststrip bench normal`: times of the strip solver.
 !>
-!> All are times of the processor, medians of many runs, so that a machine that also does other
+!> All are times of the processor, of many runs the median (`us` is an older name of it), the 95th
+!> percentile and the worst; parts are medians alone. So a machine that also does other
 !> work gives nearly the same; a linear algebra library must not share a solution among threads
 !> (OPENBLAS_NUM_THREADS=1), or the time of all of them counts.
 module faststrip_app_bench_normal
@@ -26,7 +27,8 @@ module faststrip_app_bench_normal
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_app_clock, only: microseconds, cpu_microseconds, median
+    use faststrip_app_clock, only: microseconds, cpu_microseconds, median, spread_of, spread_text, &
+                                   spread_names, cpu_columns
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
@@ -62,7 +64,7 @@ module faststrip_app_bench_normal
 
     !> What was measured of one contact.
     type :: times_t
-        real(wp) :: us = 0.0_wp         ! of a solution
+        real(wp) :: us(size(spread_names)) = 0.0_wp ! of a solution, see `spread_of`
         real(wp) :: gap_us = 0.0_wp     ! of handing over the gap
         real(wp) :: iterations = 0.0_wp ! steps
         real(wp) :: factorings = 0.0_wp ! those of them with a Jacobian
@@ -89,10 +91,11 @@ contains
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_header(writer, [character(len=12) :: 'start', 'strips', 'us', 'iterations', &
+        call put_header(writer, [character(len=13) :: 'start', 'strips', 'us', 'iterations', &
                                  'ns_per_entry', 'fastsim_us', 'ratio', 'flags', 'compiler', &
                                  'cpu', 'gap_us', 'case', 'runs', &
-                                 'factorings', 'ns_per_value', 'entries_us', 'algebra_us'])
+                                 'factorings', 'ns_per_value', 'entries_us', 'algebra_us', &
+                                 cpu_columns])
         do i = 1, size(strip_counts)
             if (strip_counts(i) > most_strips) exit
             call measure_strips(bench, strip_counts(i), 1.0e6_wp*seconds, writer)
@@ -158,7 +161,7 @@ contains
         real(wp) :: us(size(bench%cases), size(starts))
         real(wp) :: fastsim(size(bench%cases))
         integer(int64) :: begin, now
-        integer :: i, k, start, counts(size(starts)), n_fastsim
+        integer :: i, k, start, figure, counts(size(starts)), n_fastsim
         logical :: solved
 
         counts = 0
@@ -181,7 +184,7 @@ contains
                 call measure_start(bench, i, start, n, share, times, solved)
                 if (.not. solved) cycle
                 counts(start) = counts(start) + 1
-                us(counts(start), start) = times%us
+                us(counts(start), start) = times%us(1)
                 if (entry_ns == 0.0_wp) then
                     entry_ns = entry_time(bench%strips, .true.)
                     value_ns = entry_time(bench%strips, .false.)
@@ -189,11 +192,11 @@ contains
                 end if
                 call put_cell(writer, trim(starts(start)))
                 call put_cell(writer, n)
-                call put_cell(writer, times%us)
+                call put_cell(writer, times%us(1))
                 call put_cell(writer, times%iterations)
                 call put_cell(writer, entry_ns)
                 call put_cell(writer, fastsim_us)
-                call put_cell(writer, times%us/fastsim_us)
+                call put_cell(writer, times%us(1)/fastsim_us)
                 call put_cell(writer, compiler_flags())
                 call put_cell(writer, compiler_name())
                 call put_cell(writer, cpu_name())
@@ -204,6 +207,9 @@ contains
                 call put_cell(writer, value_ns)
                 call put_cell(writer, 1.0e-3_wp*(value_ns*times%values + entry_ns*times%gradients))
                 call put_cell(writer, 1.0e-3_wp*operation_ns*times%operations)
+                do figure = 1, size(times%us)
+                    call put_cell(writer, times%us(figure))
+                end do
                 call end_row(writer)
             end do
             call system_clock(now)
@@ -212,7 +218,8 @@ contains
         call tell(n, us, counts, median(fastsim(:n_fastsim)))
     end subroutine measure_strips
 
-    !> Say the medians, which also shows that the work goes on.
+    !> Say median, 95th percentile and worst over the contacts, which also shows that the work goes
+    !> on.
     subroutine tell(n, us, counts, fastsim_us)
         integer, intent(in) :: n, counts(:)
         real(wp), intent(in) :: us(:, :), fastsim_us
@@ -220,10 +227,11 @@ contains
         character(len=:), allocatable :: text
         integer :: start
 
-        text = integer_text(n) // ' strips, ' // integer_text(counts(cold)) // ' contacts:'
+        text = integer_text(n) // ' strips, ' // integer_text(counts(cold)) // &
+               ' contacts, processor us, median/95th percentile/worst of them:'
         do start = 1, size(starts)
             text = text // ' ' // trim(starts(start)) // ' ' &
-                   // trim(number_text(median(us(:counts(start), start)))) // ' us,'
+                   // spread_text(us(:counts(start), start)) // ','
         end do
         call note(text // ' FASTSIM ' // trim(number_text(fastsim_us)) // ' us')
     end subroutine tell
@@ -287,7 +295,7 @@ contains
             if (microseconds(begin, now) > budget_us .and. &
                 (run >= fewest_runs .or. us(run) > budget_us)) exit
         end do
-        times%us = median(us(:times%runs))
+        times%us = spread_of(us(:times%runs))
         times%gap_us = median(gap_us(:times%runs))
         times%iterations = median(iterations(:times%runs))
         times%factorings = median(factorings(:times%runs))

@@ -1,11 +1,12 @@
 !> `faststrip bench reference`: times of Kalker's variational method.
 !>
-!> All are times of the processor, medians of many runs. What a start costs elsewhere, the strips'
+!> All are times of the processor: of many runs the median (`us` is an older name of it), the 95th
+!> percentile and the worst. What a start costs elsewhere, the strips'
 !> solution, is not counted; a coarser grid is.
 module faststrip_app_bench_reference
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, number_text
+    use faststrip_status, only: status_t, is_error
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_material, only: material_t, normal_compliance
@@ -16,7 +17,8 @@ module faststrip_app_bench_reference
                                             set_norm_gap, norm_solve
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_bench_reference_tang, only: measure_tang
-    use faststrip_app_clock, only: microseconds, cpu_microseconds, median
+    use faststrip_app_clock, only: microseconds, cpu_microseconds, median, spread_of, spread_text, &
+                                   spread_names, cpu_columns
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
@@ -53,7 +55,7 @@ module faststrip_app_bench_reference
 
     !> What was measured of one contact.
     type :: times_t
-        real(wp) :: us = 0.0_wp
+        real(wp) :: us(size(spread_names)) = 0.0_wp ! median, 95th percentile, worst
         real(wp) :: iterations = 0.0_wp   ! on all grids
         real(wp) :: convolutions = 0.0_wp ! on all grids
         integer :: elements = 0           ! in contact
@@ -87,9 +89,9 @@ contains
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_header(writer, [character(len=12) :: 'method', 'start', 'tolerance', 'elements', &
+        call put_header(writer, [character(len=13) :: 'method', 'start', 'tolerance', 'elements', &
                                  'us', 'iterations', 'convolutions', 'dx_mm', 'grid', 'flags', &
-                                 'compiler', 'cpu', 'case', 'runs'])
+                                 'compiler', 'cpu', 'case', 'runs', cpu_columns])
         do i = 1, size(sizes)
             if (sizes(i) > most_elements) exit
             call measure_size(bench, sizes(i), 1.0e6_wp*seconds, writer)
@@ -109,7 +111,7 @@ contains
         type(times_t) :: times
         real(wp) :: us(size(bench%cases), size(starts)), share, dx
         integer(int64) :: begin, now
-        integer :: i, k, start, t, counts(size(starts))
+        integer :: i, k, start, t, figure, counts(size(starts))
         logical :: solved
 
         counts = 0
@@ -126,13 +128,13 @@ contains
                     if (.not. solved) cycle
                     if (t == 1) then
                         counts(start) = counts(start) + 1
-                        us(counts(start), start) = times%us
+                        us(counts(start), start) = times%us(1)
                     end if
                     call put_cell(writer, 'norm')
                     call put_cell(writer, trim(starts(start)))
                     call put_cell(writer, tolerances(t))
                     call put_cell(writer, times%elements)
-                    call put_cell(writer, times%us)
+                    call put_cell(writer, times%us(1))
                     call put_cell(writer, times%iterations)
                     call put_cell(writer, times%convolutions)
                     call put_cell(writer, dx)
@@ -142,6 +144,9 @@ contains
                     call put_cell(writer, cpu_name())
                     call put_cell(writer, bench%cases(i)%name)
                     call put_cell(writer, times%runs)
+                    do figure = 1, size(times%us)
+                        call put_cell(writer, times%us(figure))
+                    end do
                     call end_row(writer)
                 end do
             end do
@@ -151,7 +156,8 @@ contains
         call tell(elements, us, counts)
     end subroutine measure_size
 
-    !> Say the medians, which also shows that the work goes on.
+    !> Say median, 95th percentile and worst over the contacts, which also shows that the work goes
+    !> on.
     subroutine tell(elements, us, counts)
         integer, intent(in) :: elements, counts(:)
         real(wp), intent(in) :: us(:, :)
@@ -160,10 +166,10 @@ contains
         integer :: start
 
         text = 'norm, ' // integer_text(elements) // ' elements, ' // integer_text(counts(cold)) &
-               // ' contacts, ms:'
+               // ' contacts, processor ms, median/95th percentile/worst of them:'
         do start = 1, size(starts)
             text = text // ' ' // trim(starts(start)) // ' ' &
-                   // trim(number_text(1.0e-3_wp*median(us(:counts(start), start))))
+                   // spread_text(1.0e-3_wp*us(:counts(start), start))
         end do
         call note(text)
     end subroutine tell
@@ -213,7 +219,7 @@ contains
             call system_clock(now)
             if (microseconds(begin, now) > budget_us .and. run >= fewest_runs) exit
         end do
-        times%us = median(us(:times%runs))
+        times%us = spread_of(us(:times%runs))
         times%iterations = median(iterations(:times%runs))
         times%convolutions = median(convolutions(:times%runs))
         times%elements = nint(result%area/dx**2)

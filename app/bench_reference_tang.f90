@@ -5,7 +5,7 @@
 module faststrip_app_bench_reference_tang
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, number_text
+    use faststrip_status, only: status_t, is_error
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, put_cell, end_row
     use faststrip_creepage, only: creepage_t
@@ -17,7 +17,8 @@ module faststrip_app_bench_reference_tang
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve, &
                                                 edges_of_norm
     use faststrip_app_bench_cases, only: bench_case_t
-    use faststrip_app_clock, only: microseconds, cpu_microseconds, median
+    use faststrip_app_clock, only: microseconds, cpu_microseconds, median, spread_of, spread_text, &
+                                   spread_names
     use faststrip_app_console, only: fail_on_error, note
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
@@ -60,7 +61,8 @@ contains
             if (microseconds(begin, now) > budget_us) exit
         end do
         call note('tang, ' // integer_text(elements) // ' elements, ' // integer_text(solved) &
-                  // ' contacts, ms:' // times_text())
+                  // ' contacts, processor ms, median/95th percentile/worst of them:' &
+                  // times_text())
 
     contains
 
@@ -70,7 +72,7 @@ contains
             text = ''
             do start = 1, size(starts)
                 text = text // ' ' // trim(starts(start)) // ' ' &
-                       // trim(number_text(1.0e-3_wp*median(us(:solved, start))))
+                       // spread_text(1.0e-3_wp*us(:solved, start))
             end do
         end function times_text
     end subroutine measure_tang
@@ -87,7 +89,8 @@ contains
         type(normal_result_t) :: normal
         type(status_t) :: status
         real(wp), dimension(0:most_runs) :: times, products
-        integer :: start, runs, elements
+        real(wp) :: figures(size(spread_names))
+        integer :: start, figure, runs, elements
 
         call reserve_norm(norm, size(case%gap%y), status)
         call fail_on_error(status)
@@ -99,7 +102,8 @@ contains
         options%edges = edges_of_norm
         do start = 1, size(starts)
             call run_again(runs)
-            us(start) = median(times(1:runs))
+            figures = spread_of(times(1:runs))
+            us(start) = figures(1)
             call put_cell(writer, 'tang')
             call put_cell(writer, trim(starts(start)))
             call put_cell(writer, options%tolerance)
@@ -114,6 +118,9 @@ contains
             call put_cell(writer, cpu_name())
             call put_cell(writer, case%name)
             call put_cell(writer, runs)
+            do figure = 1, size(figures)
+                call put_cell(writer, figures(figure))
+            end do
             call end_row(writer)
         end do
 

@@ -1,4 +1,7 @@
 !> `faststrip bench tangential`: what the tangential methods cost, side by side in one run.
+!>
+!> All are times of the processor: of many rounds the median (`us` is an older name of it), the 95th
+!> percentile and the worst; `us_with_field` is a median.
 module faststrip_app_bench_tangential
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, number_text
@@ -8,7 +11,8 @@ module faststrip_app_bench_tangential
     use faststrip_normal_strip, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_app_clock, only: cpu_microseconds, median
+    use faststrip_app_clock, only: cpu_microseconds, median, spread_of, spread_text, spread_names, &
+                                   cpu_columns
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_app_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_methods, only: gives_elements, tangential_method
@@ -35,7 +39,8 @@ module faststrip_app_bench_tangential
 
     !> Times of all methods on one contact, us.
     type :: times_t
-        real(wp) :: forces(size(tangential_methods)) = 0.0_wp ! forces only
+        ! Forces only: median, 95th percentile, worst.
+        real(wp) :: forces(size(spread_names), size(tangential_methods)) = 0.0_wp
         real(wp) :: field(size(tangential_methods)) = 0.0_wp  ! with the elements
         integer :: elements = 0
     end type times_t
@@ -62,7 +67,7 @@ contains
         call put_origin(writer)
         call put_header(writer, [character(len=16) :: 'method', 'strips', 'points', 'case', &
                                  'elements', 'us', 'ns_per_element', 'ratio', 'us_with_field', &
-                                 'flags', 'compiler', 'cpu'])
+                                 'flags', 'compiler', 'cpu', cpu_columns])
         do k = 1, size(sizes)
             do i = 1, size(cases)
                 call measure_case(cases(i), sizes(k), rounds, times(i))
@@ -120,7 +125,7 @@ contains
             end do
         end do
         do m = 1, size(tangential_methods)
-            times%forces(m) = median(forces(:, m))
+            times%forces(:, m) = spread_of(forces(:, m))
             times%field(m) = median(with_field(:, m))
         end do
 
@@ -154,7 +159,7 @@ contains
         integer, intent(in) :: n
         type(times_t), intent(in) :: times
 
-        integer :: m, elements
+        integer :: m, figure, elements
 
         do m = 1, size(tangential_methods)
             elements = merge(times%elements, 1, has_elements(tangential_methods(m)))
@@ -163,9 +168,9 @@ contains
             call put_cell(writer, n)
             call put_cell(writer, name)
             call put_cell(writer, elements)
-            call put_cell(writer, times%forces(m))
-            call put_cell(writer, 1.0e3_wp*times%forces(m)/elements)
-            call put_cell(writer, times%forces(m)/times%forces(measured()))
+            call put_cell(writer, times%forces(1, m))
+            call put_cell(writer, 1.0e3_wp*times%forces(1, m)/elements)
+            call put_cell(writer, times%forces(1, m)/times%forces(1, measured()))
             if (has_elements(tangential_methods(m))) then
                 call put_cell(writer, times%field(m))
             else
@@ -174,11 +179,14 @@ contains
             call put_cell(writer, compiler_flags())
             call put_cell(writer, compiler_name())
             call put_cell(writer, cpu_name())
+            do figure = 1, size(times%forces, 1)
+                call put_cell(writer, times%forces(figure, m))
+            end do
             call end_row(writer)
         end do
     end subroutine put_times
 
-    !> Say the medians over the contacts.
+    !> Say median, 95th percentile and worst over the contacts, of the rest the medians.
     subroutine tell(n, times)
         integer, intent(in) :: n
         type(times_t), intent(in) :: times(:)
@@ -187,20 +195,21 @@ contains
         character(len=word_length) :: name
         integer :: m, i
 
-        call note(integer_text(n) // ' strips of ' // integer_text(n) // ' points; us, ns per ' &
-                  // 'element, ratio to ' // measure // ', us with the field:')
+        call note(integer_text(n) // ' strips of ' // integer_text(n) // ' points; processor us, ' &
+                  // 'median/95th percentile/worst, ns per element, ratio to ' // measure &
+                  // ', us with the field:')
         do m = 1, size(tangential_methods)
             do i = 1, size(times)
-                us(i) = times(i)%forces(m)
+                us(i) = times(i)%forces(1, m)
                 ns(i) = 1.0e3_wp*us(i)/times(i)%elements
-                ratio(i) = us(i)/times(i)%forces(measured())
+                ratio(i) = us(i)/times(i)%forces(1, measured())
                 field(i) = times(i)%field(m)
             end do
             name = tangential_methods(m)
             if (.not. has_elements(name)) then
-                call note('  ' // name // trim(number_text(median(us))))
+                call note('  ' // name // spread_text(us))
             else
-                call note('  ' // name // trim(number_text(median(us))) // '  ' &
+                call note('  ' // name // spread_text(us) // '  ' &
                           // trim(number_text(median(ns))) // '  ' &
                           // trim(number_text(median(ratio))) // '  ' &
                           // trim(number_text(median(field))))

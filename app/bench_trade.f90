@@ -4,6 +4,8 @@
 !> method, so that whoever reads them can take means, largest values and fronts as wanted. A
 !> method of stage `normal` is judged by penetration, largest pressure and area, one of stage
 !> `tangential` or `both` by forces and moment, in units of mu N and mu N c, c = sqrt(area/pi).
+!> Times are those of the clock on the wall: of some runs of a contact the median (`us` is an older
+!> name of it), the 95th percentile and the worst.
 module faststrip_app_bench_trade
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, is_error, status_word
@@ -12,7 +14,7 @@ module faststrip_app_bench_trade
                              cell_integer, cell_number, open_csv, put_comment, put_header, &
                              put_cell, end_row, close_csv
     use faststrip_app_bench_trade_influence, only: trade_influence
-    use faststrip_app_clock, only: median
+    use faststrip_app_clock, only: spread_of, spread_names, wall_columns
     use faststrip_app_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_app_methods, only: methods_t, check_methods
     use faststrip_app_solver, only: solver_t, outcome_t, demand_t, make_solver, solve
@@ -63,12 +65,13 @@ contains
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_comment(writer, 'errors: relative, of forces in mu N, of the moment in mu N c; ' &
-                         // 'times: medians of the stage')
+        call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
+                         // 'mu N c; times: of the stage, on the wall')
         call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
                                   'normal', 'tangential', 'status', 'us'], &
                                  [character(len=15) :: 'err_' // figure_names], &
-                                 [character(len=15) :: 'misfit', 'saturation', 'spin_share']])
+                                 [character(len=15) :: 'misfit', 'saturation', 'spin_share'], &
+                                 [character(len=15) :: wall_columns]])
         call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
@@ -106,7 +109,7 @@ contains
         type(solver_t) :: solver
         type(outcome_t) :: outcome
         type(status_t) :: status
-        real(wp) :: us(most_repeats), spent, errors(n_figures)
+        real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names))
         integer :: i, run, runs, figure
         logical :: counts
 
@@ -135,7 +138,8 @@ contains
                 if (runs == 0) then
                     call put_cell(writer, '')
                 else
-                    call put_cell(writer, median(us(:runs)))
+                    times = spread_of(us(:runs))
+                    call put_cell(writer, times(1))
                 end if
                 errors = relative_errors(case, outcome)
                 do figure = 1, n_figures
@@ -150,6 +154,13 @@ contains
                 call put_cell(writer, case%indicators%misfit)
                 call put_cell(writer, case%indicators%saturation)
                 call put_cell(writer, case%indicators%spin_share)
+                do figure = 1, size(times)
+                    if (runs == 0) then
+                        call put_cell(writer, '')
+                    else
+                        call put_cell(writer, times(figure))
+                    end if
+                end do
                 call end_row(writer)
             end associate
         end do

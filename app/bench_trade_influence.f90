@@ -22,7 +22,7 @@ module faststrip_app_bench_trade_influence
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_profile_gap_curve, only: gap_at
     use faststrip_app_bench_polynomials, only: power_of_ten_influence
-    use faststrip_app_clock, only: microseconds, median
+    use faststrip_app_clock, only: microseconds, spread_of, spread_names
     use faststrip_app_console, only: fail_on_error
     use faststrip_app_trade_cases, only: trade_case_t, n_figures
     implicit none
@@ -56,7 +56,8 @@ contains
 
         type(table_row_t) :: rows(0:strips_across - 1, size(refit_degrees))
         type(lattice_t) :: lattice
-        real(wp) :: p0(strips_across, n_methods), depth(n_methods), us(n_methods)
+        real(wp) :: p0(strips_across, n_methods), depth(n_methods)
+        real(wp) :: us(size(spread_names), n_methods)
         type(status_t) :: status(n_methods)
         integer :: i, m, k
 
@@ -64,7 +65,7 @@ contains
         do i = 1, size(cases)
             call make_lattice(cases(i), lattice)
             do m = 1, n_methods
-                call solve_lattice(lattice, m, rows, p0(:, m), depth(m), us(m), status(m))
+                call solve_lattice(lattice, m, rows, p0(:, m), depth(m), us(:, m), status(m))
             end do
             do m = 1, n_methods
                 call put_cell(writer, cases(i)%set)
@@ -79,7 +80,7 @@ contains
                         call put_cell(writer, '')
                     end do
                 else
-                    call put_cell(writer, us(m))
+                    call put_cell(writer, us(1, m))
                     call put_cell(writer, depth(m)/depth(closed) - 1.0_wp)
                     call put_cell(writer, maxval(abs(p0(:, m) - p0(:, closed))) &
                                   /maxval(p0(:, closed)))
@@ -90,6 +91,13 @@ contains
                 call put_cell(writer, cases(i)%indicators%misfit)
                 call put_cell(writer, cases(i)%indicators%saturation)
                 call put_cell(writer, cases(i)%indicators%spin_share)
+                do k = 1, size(us, 1)
+                    if (is_error(status(m))) then
+                        call put_cell(writer, '')
+                    else
+                        call put_cell(writer, us(k, m))
+                    end if
+                end do
                 call end_row(writer)
             end do
         end do
@@ -166,7 +174,8 @@ contains
         type(lattice_t), intent(in) :: lattice
         integer, intent(in) :: method
         type(table_row_t), intent(in) :: rows(0:, :)
-        real(wp), intent(out) :: p0(:), depth, us
+        real(wp), intent(out) :: p0(:), depth
+        real(wp), intent(out) :: us(:) !! of some runs, as `spread_of` has them
         type(status_t), intent(out) :: status
 
         integer, parameter :: n = strips_across, runs = 5
@@ -182,7 +191,7 @@ contains
             call fill(lattice, method, rows, matrix, status)
             call system_clock(after)
             times(run) = microseconds(before, after)
-            us = median(times(:run))
+            us = spread_of(times(:run))
         end do
         if (is_error(status)) return
         matrix(:n, n + 1) = -1.0_wp

@@ -117,6 +117,13 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((self.folder / "kept.csv").read_bytes(), kept, words)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before, words)
 
+    def assert_spread(self, row, prefix):
+        """Median, 95th percentile and worst of a time ascend; `us` is the median's older name."""
+        figures = [float(row[f"{prefix}_{name}"]) for name in ("median", "p95", "worst")]
+        self.assertEqual(figures, sorted(figures))
+        self.assertGreater(figures[0], 0.0)
+        self.assertEqual(row["us"], row[f"{prefix}_median"])
+
     def assert_close(self, value, wanted, relative=0.0, absolute=0.0, what=None):
         self.assertLessEqual(abs(value - wanted), relative * abs(wanted) + absolute,
                              (what, value, wanted))

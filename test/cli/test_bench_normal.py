@@ -31,7 +31,8 @@ class Bench(ProgramTest):
         rows, said = self.bench("normal", "--most-strips", "9", "--seconds", "0.2")
         self.assertEqual(list(rows[0]), (
             "start,strips,us,iterations,ns_per_entry,fastsim_us,ratio,flags,compiler,cpu,gap_us,"
-            "case,runs,factorings,ns_per_value,entries_us,algebra_us").split(","))
+            "case,runs,factorings,ns_per_value,entries_us,algebra_us,cpu_us_median,cpu_us_p95,"
+            "cpu_us_worst").split(","))
         for strips in (5, 7, 9):
             self.assertIn(f"{strips} strips, ", said)
             own = [row for row in rows if int(row["strips"]) == strips]
@@ -49,6 +50,7 @@ class Bench(ProgramTest):
             # An entry costs tens of nanoseconds: a factor of a hundred is a wrong unit.
             self.assertTrue(1.0 < float(row["ns_per_entry"]) < 1e4, row["ns_per_entry"])
             self.assertGreaterEqual(int(row["runs"]), 1)
+            self.assert_spread(row, "cpu_us")
             self.assertTrue(1.0 < float(row["ns_per_value"]) < 1e4, row["ns_per_value"])
             # A load that changes a little needs no new Jacobian.
             factorings = float(row["factorings"])
@@ -58,11 +60,17 @@ class Bench(ProgramTest):
             for name in ("entries_us", "algebra_us"):
                 self.assertTrue(0.0 < float(row[name]) < 3.0 * float(row["us"]), name)
 
+        # Hundreds of runs that all take the same time are one run written three times.
+        many = [row for row in rows if int(row["runs"]) >= 5]
+        self.assertTrue(many)
+        self.assertTrue(any(float(row["cpu_us_worst"]) > float(row["cpu_us_median"])
+                            for row in many))
+
     def test_reference(self):
         rows, said = self.bench("reference", "--most-elements", "1000", "--seconds", "0.2")
         self.assertEqual(list(rows[0]), (
             "method,start,tolerance,elements,us,iterations,convolutions,dx_mm,grid,flags,compiler,"
-            "cpu,case,runs").split(","))
+            "cpu,case,runs,cpu_us_median,cpu_us_p95,cpu_us_worst").split(","))
         for elements in (500, 1000):
             self.assertIn(f"{elements} elements, ", said)
         starts = {"new_plans", "cold", "coarse", "strips", "warm_load"}
@@ -83,6 +91,7 @@ class Bench(ProgramTest):
         self.assertLess(float(first["warm_creepage"]["iterations"]),
                         float(first["cold"]["iterations"]))
         for row in rows:
+            self.assert_spread(row, "cpu_us")
             self.assertGreater(float(row["us"]), 0.0)
             self.assertGreaterEqual(float(row["convolutions"]), float(row["iterations"]))
             self.assertGreater(int(row["grid"]), int(row["elements"]))

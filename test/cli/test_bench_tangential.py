@@ -20,17 +20,18 @@ class Bench(ProgramTest):
         for shift in ("-5", "2"):
             name = f"shift_{shift}.csv"
             self.write(f"contacts/gaps/{name}", (GAPS / name).read_text(encoding="utf-8"))
-        done = self.run_program("bench", "tangential", "--contacts", "contacts", "--rounds", "1",
+        done = self.run_program("bench", "tangential", "--contacts", "contacts", "--rounds", "3",
                                 "-o", "out.csv")
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         rows = self.read("out.csv")
         self.assertEqual(list(rows[0]), (
             "method,strips,points,case,elements,us,ns_per_element,ratio,us_with_field,flags,"
-            "compiler,cpu").split(","))
+            "compiler,cpu,cpu_us_median,cpu_us_p95,cpu_us_worst").split(","))
         self.assertEqual([row["method"] for row in rows], METHODS * 8)
         for row in rows:
             us, elements = float(row["us"]), int(row["elements"])
             self.assertGreater(us, 0.0)
+            self.assert_spread(row, "cpu_us")
             self.assert_close(float(row["ns_per_element"]), 1e3 * us / elements, 1e-12)
             self.assertEqual(row["us_with_field"] == "", row["method"] in LAWS)
             self.assertEqual(elements == 1, row["method"] in LAWS)

@@ -41,6 +41,8 @@ class Trade(ProgramTest):
         self.assertLess(max(map(abs, numbers(hertz, "err_Fx"))), 0.1)
         self.assertEqual({row["err_pmax"] for row in hertz}, {""})
         self.assertGreater(min(numbers(rows, "us")), 0.0)
+        for row in rows + influence:
+            self.assert_spread(row, "wall_us")
 
     def test_exact_on_ellipses(self):
         rows = self.trade("both,Hertz,always,hertz,fastsim,,,,,\n")
