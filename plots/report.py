@@ -11,11 +11,13 @@ import sys
 from faststrip_plots import command
 from faststrip_plots.document import Document, write_text
 from faststrip_plots.results import revision
+from faststrip_plots.stamps import History, stamp_of, stored_files
 from faststrip_plots.tables import InputError, read_table
 from faststrip_plots.verdicts import CHAPTERS, judge, read_manifest, shown, shown_tolerance
 
 # Pictures and tables of commands that announce none themselves.
 LIST = "reference/report_figures.csv"
+STORED = "reference/stored.csv"
 
 # Chapters after the verdicts, with what introduces them; pictures and tables say where they go.
 CHAPTER_TEXTS = {
@@ -102,6 +104,7 @@ def build(verdicts, left_out, folder):
             add_table(document, entry["path"])
         for entry in own_pictures:
             document.figure(entry["path"], entry["title"], entry["caption"])
+    add_stored(document)
     add_runs(document, folder)
     return document
 
@@ -227,6 +230,22 @@ def short(text):
     if not math.isfinite(value) or text.lstrip("+-").isdigit():
         return text
     return f"{value:.4g}"
+
+
+def add_stored(document, root="."):
+    """How old the results are that were not made for this report."""
+    path = os.path.join(root, STORED)
+    if not os.path.exists(path):
+        return
+    history = History(root)
+    document.heading("Stored results")
+    document.paragraph(
+        "Not made for this report but stored with the program, which made them (`./run stored`): the"
+        " revision that did, its date and how many commits have followed."
+        + ("" if history.known else " There is no git history here: what the stamps say."))
+    document.table(("file", "age"), [
+        (file, history.age(stamp_of(os.path.join(root, file)))) for file in stored_files(path)
+    ])
 
 
 def add_runs(document, folder):

@@ -42,6 +42,8 @@ FEWEST = 5  # contacts in a bin
 
 TARGETS = {"forces": "both", "pmax": "normal", "penetration": "normal"}
 TOLERANCES = (0.1, 0.05, 0.03, 0.02, 0.01, 0.005)
+# What the tolerance of a target is a part of.
+UNITS = {"forces": "of mu N", "pmax": "of the value", "penetration": "of the value"}
 DATA_COLUMNS = ("set", "case", "stage", "method", "us", "forces", "pmax", "penetration", "misfit",
                 "saturation", "spin_share")
 
@@ -49,6 +51,12 @@ DATA_COLUMNS = ("set", "case", "stage", "method", "us", "forces", "pmax", "penet
 def rows_of(path):
     with open(path, encoding="utf-8") as stream:
         return list(csv.DictReader(line for line in stream if not line.startswith("#")))
+
+
+def origin(path):
+    """The comments that say which program measured, and on what."""
+    with open(path, encoding="utf-8") as stream:
+        return [line for line in stream if line.startswith(("# faststrip ", "# compiler "))]
 
 
 def choices():
@@ -220,15 +228,16 @@ def validation(contacts, tables):
                 if predicted <= tolerance:
                     promised += 1
                     met += good
-            rows.append((target, f"{tolerance:g}", total, promised,
+            rows.append((target, f"{tolerance:g}", UNITS[target], total, promised,
                          f"{met / promised:.3f}" if promised else "", f"{met_all / total:.3f}",
                          f"{most / spent:.2f}"))
     stream = io.StringIO()
     stream.write("# How choosing methods does on contacts it was not calibrated on; written by\n"
                  "# tools/choice_table.py from reference/choice.csv. speedup: time of always taking"
                  " the slowest choice\n")
+    stream.writelines(origin(DATA))
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(("target", "tolerance", "contacts", "promised", "met_of_promised",
+    writer.writerow(("target", "tolerance", "unit", "contacts", "promised", "met_of_promised",
                      "met_of_all", "speedup"))
     writer.writerows(rows)
     return stream.getvalue()

@@ -143,7 +143,7 @@ def legend_above(figure, *axes) -> None:
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
     """Stamp the revisions the figure was made from into its corner and write it as PNG.
 
-    A `note` goes into the other corner. With `vector`, or FASTSTRIP_SVG in the environment, the
+    They also stand in the file's description. A `note` goes into the other corner. With `vector`, or FASTSTRIP_SVG in the environment, the
     same is also written as SVG, under the same name with that ending.
     """
     known = list(dict.fromkeys(stamp for stamp in stamps if stamp))
@@ -152,7 +152,7 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
     figure.text(0.01, 0.01, note, ha="left", va="bottom", fontsize=SMALL, color=GREY)
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-        figure.savefig(path, dpi=DPI, format="png")
+        figure.savefig(path, dpi=DPI, format="png", metadata={"Description": f"{text};"})
         if vector or os.environ.get("FASTSTRIP_SVG"):
             figure.set_layout_engine("none")  # what was placed for the PNG stays where it is
             # neither date nor random names: the same data give the same file

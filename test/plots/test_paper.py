@@ -13,6 +13,7 @@ from plot_samples import (
 )
 
 from faststrip_plots import paper_figures, statements, style
+from faststrip_plots.results import read_reference, read_sweep
 from faststrip_plots.statements import FAILS, HOLDS, LIMITED, UNKNOWN, Limits
 
 SHIFTS = (-2.0, -1.0, 0.0, 1.0, 2.0)
@@ -152,6 +153,8 @@ class Pictures(unittest.TestCase):
             self.assertIn("1.5 % at most", captions["fig07_08.png"])
             self.assertIn("Hertz 10 %, 10 %, 10 %", captions["fig17_20.png"])
             self.assertIn("sign set A", captions["fig21_25.png"])
+            self.assertIn("in percent of mu N:", captions["fig21_25.png"])
+            self.assertIn("in percent of mu N c:", captions["fig23_24.png"])
             self.assertIn("strips + FASTSTRIP 0.1 %", captions["fig22_26.png"])
             self.assertIn("Hertz + FASTSIM 10 %", captions["fig22_26.png"])
 
@@ -183,6 +186,26 @@ class Pictures(unittest.TestCase):
             paper_figures.fit_ratios(axes)
             self.assertEqual(axes.get_ylim(), (1.0 - span, 1.0 + span))
             style.plt.close(axes.figure)
+
+
+    def test_what_is_compared_with_is_called_what_it_is(self):
+        """Reference symbols, axes and titles name CONTACT; NORM and TANG are this project's."""
+        with Folder(FILES) as folder:
+            path = str(folder.path / "out/paper/sweep_A.csv")
+            found = read_sweep(path)
+            contact = read_reference(str(folder.path / "reference/contact/s1002_uic60_A.csv"))
+            pictures = [paper_figures.normal_picture(found, contact, 0.3),
+                        *paper_figures.force_pictures(found, contact, 0.3, "A")]
+        for picture in pictures:
+            ratios = [axes for axes in picture.figure.axes if "over" in axes.get_ylabel()]
+            self.assertEqual(len(ratios), 1)
+            for axes in picture.figure.axes:
+                words = axes.get_title(loc="left") + picture.title + picture.caption
+                self.assertNotIn("NORM", words)
+                self.assertNotIn("TANG", words)
+            self.assertIn("over CONTACT's", ratios[0].get_title(loc="left"))
+            self.assertIn("over CONTACT's", ratios[0].get_ylabel())
+            style.plt.close(picture.figure)
 
 
 class BadInput(unittest.TestCase):

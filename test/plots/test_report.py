@@ -13,7 +13,9 @@ sys.path.insert(0, str(ROOT / "plots"))
 
 from faststrip_plots.document import Document  # noqa: E402
 from faststrip_plots.tables import InputError  # noqa: E402
-from faststrip_plots.verdicts import COLUMNS, judge, read_manifest  # noqa: E402
+from faststrip_plots.verdicts import (  # noqa: E402
+    COLUMNS, judge, read_manifest, shown, shown_tolerance,
+)
 
 VALUES = "case,method,q,N_N,area_mm2\n1,a,1.0,10,3.141592653589793\n2,a,2.2,10,12.566370614359172\n3,b,,10,1\n"
 TRUTH = "case,r\n1.0,1.1\n2,2\n"
@@ -28,6 +30,9 @@ class Verdicts(unittest.TestCase):
         (self.folder / "t.csv").write_text(TRUTH, encoding="utf-8")
 
     def judged(self, **change):
+        return judge(self.row(**change), str(self.folder))
+
+    def row(self, **change):
         row = dict.fromkeys(COLUMNS, "") | {
             "id": "x", "chapter": "verification", "method": "method=a", "quantity": "q",
             "value_file": "v.csv", "reference_file": f"{self.folder}/t.csv#r@case",
@@ -35,10 +40,10 @@ class Verdicts(unittest.TestCase):
         } | change
         path = self.folder / "m.csv"
         with path.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.DictWriter(stream, COLUMNS)
+            writer = csv.DictWriter(stream, list(row))
             writer.writeheader()
             writer.writerow(row)
-        return judge(read_manifest(str(path))[0], str(self.folder))
+        return read_manifest(str(path))[0]
 
     def test_metrics(self):
         for metric, wanted in (
@@ -74,6 +79,29 @@ class Verdicts(unittest.TestCase):
                 continue
             with self.assertRaisesRegex(InputError, says):
                 self.judged(**change)
+
+    def test_values_and_tolerances_have_units(self):
+        for change, tolerance, value in (
+            ({}, "≤ 11 %", "10 %"),
+            ({"unit": "% of CONTACT's"}, "≤ 11 % of CONTACT's", "10 % of CONTACT's"),
+            ({"metric": "max_of:0.5*N_N", "unit": "% of mu N"}, "≤ 11 % of mu N", "4 % of mu N"),
+            ({"metric": "max_abs", "unit": "relative", "tolerance": ">1e-15"},
+             "≥ 1e-15 relative", "0.2 relative"),
+            ({"metric": "max_abs", "quantity": "area_mm2", "reference_file": ""}, "≤ 0.11 mm2",
+             "12.6 mm2"),
+            ({"metric": "max_abs", "unit": ""}, "≤ 0.11", "0.2"),
+        ):
+            row = self.row(**change)
+            self.assertEqual(shown_tolerance(row), tolerance)
+            self.assertEqual(shown(row, self.judged(**change).value), value)
+        with self.assertRaisesRegex(InputError, "a unit of max_rel begins with %: mm"):
+            self.row(unit="mm")
+
+    def test_every_tolerance_of_the_project_has_a_unit(self):
+        for row in read_manifest(str(ROOT / "reference" / "comparisons.csv")):
+            self.assertRegex(shown_tolerance(row), r"^[≤≥] [-+.e0-9]+ [%a-z]", row["id"])
+            if row["quantity"][:2].lower() in ("fx", "fy", "mz"):
+                self.assertIn("% of mu N", shown_tolerance(row), row["id"])
 
     def test_a_reference_row_has_to_be_there_once(self):
         (self.folder / "t.csv").write_text("case,r\n1,1\n1,1\n2,2\n", encoding="utf-8")
@@ -112,3 +140,59 @@ class Documents(unittest.TestCase):
         self.assertIn("1 &lt; 2", page)
         self.assertIn('<tr class="bad"><td>z</td><td>2</td></tr>', page)
         self.assertIn("data:image/png;base64,iVBORw==", page)
+
+    def test_tables_scroll_in_a_box_of_their_own_and_fit_the_paper(self):
+        text = Document("T")
+        text.table(("name", "value"), [("normal=strip;tangential=faststrip", "1.2e-05 relative")])
+        text.table([f"column_{k}_with_a_long_name" for k in range(20)], [["0.12345"] * 20])
+        page = text.page()
+        self.assertEqual(page.count('<div class="table" tabindex="0"><table'), 2)
+        self.assertEqual(page.count("</table></div>"), 2)
+        self.assertIn("normal=<wbr>strip;<wbr>tangential=<wbr>faststrip", page)
+        self.assertIn("<td>1.2e-05 relative</td>", page)
+        self.assertEqual(page.count('<table class="many">'), 1)
+        self.assertIn("div.table { overflow-x: auto", page)
+        paper = page[page.index("@media print"):]
+        for rule in ("div.table { overflow: visible; }", "table { width: 100%",
+                     "overflow-wrap: anywhere"):
+            self.assertIn(rule, paper)
+
+    def test_no_letters_that_read_as_micronewton(self):
+        for path in [*(ROOT / "plots").rglob("*.py"), *(ROOT / "app").glob("*.f90"),
+                     *(ROOT / "reference").glob("*.csv"), ROOT / "README.md",
+                     ROOT / "reference" / "README.md"]:
+            for line in path.read_text(encoding="utf-8").splitlines():
+                self.assertNotRegex(line, "[\u00b5\u03bc] ?N|\\buN\\b|\\\\mu *N", path.name)
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        with open(ROOT / "reference" / "report_runs.csv", encoding="utf-8") as stream:
+            self.rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+
+    def test_every_file_is_made_before_it_is_read(self):
+        for mode in ("full", "quick"):
+            made = set()
+            for row in self.rows:
+                if row["when"] not in ("always", mode):
+                    continue
+                words = row["words"].split()
+                outputs = {words[k + 1] for k, word in enumerate(words)
+                           if word in ("-o", "--strips") and row["program"] == "faststrip"
+                           or word in ("-o", "--curves") and words[0] in ("table", "tools/single")}
+                for word in words:
+                    if word.startswith("{data}/") and word not in outputs and "*" not in word:
+                        if row["id"] != "single":
+                            self.assertIn(word, made, row["id"])
+                made |= outputs | ({words[-1]} if row["id"] == "single" else set())
+
+    def test_the_papers_own_methods_are_run_for_its_statements(self):
+        for run in ("paper_statements", "paper_figures"):
+            words = next(row["words"] for row in self.rows if row["id"] == run)
+            for method in ("faststrip-paper", "faststrip-corrected"):
+                files = [row["words"].split()[-1] for row in self.rows
+                         if f"--tangential {method} " in row["words"]]
+                self.assertEqual(len(files), 3)
+                used = files if run == "paper_statements" else [f for f in files if "_A_" in f]
+                for file in used:
+                    self.assertIn(file, words)
