@@ -4,8 +4,8 @@
 !> method, so that whoever reads them can take means, largest values and fronts as wanted. A
 !> method of stage `normal` is judged by penetration, largest pressure and area, one of stage
 !> `tangential` or `both` by forces and moment, in units of mu N and mu N c, c = sqrt(area/pi).
-!> Times are those of the clock on the wall: of some runs of a contact the median (`us` is an older
-!> name of it), the 95th percentile and the worst.
+!> Times are those of the processor: of some runs of a contact the median (`us` is an older name of
+!> it), the 95th percentile and the worst.
 module faststrip_app_bench_trade
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, is_error, status_word
@@ -14,7 +14,7 @@ module faststrip_app_bench_trade
                              cell_integer, cell_number, open_csv, put_comment, put_header, &
                              put_cell, end_row, close_csv
     use faststrip_app_bench_trade_influence, only: trade_influence
-    use faststrip_app_clock, only: spread_of, spread_names, wall_columns
+    use faststrip_app_clock, only: spread_of, spread_names, cpu_columns
     use faststrip_app_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_app_methods, only: methods_t, check_methods
     use faststrip_app_solver, only: solver_t, outcome_t, demand_t, make_solver, solve
@@ -66,12 +66,12 @@ contains
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
-                         // 'mu N c; times: of the stage, on the wall')
+                         // 'mu N c; times: of the stage, processor')
         call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
                                   'normal', 'tangential', 'status', 'us'], &
                                  [character(len=15) :: 'err_' // figure_names], &
                                  [character(len=15) :: 'misfit', 'saturation', 'spin_share'], &
-                                 [character(len=15) :: wall_columns]])
+                                 [character(len=15) :: cpu_columns]])
         call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
@@ -125,7 +125,7 @@ contains
                     if (is_error(status)) exit
                     runs = run
                     us(run) = stage_time(entry%stage, outcome)
-                    spent = spent + outcome%normal_us + outcome%tangential_us
+                    spent = spent + outcome%normal_cpu_us + outcome%tangential_cpu_us
                     if (spent > merge(1.0_wp, 10.0_wp, run >= 3)*enough_us) exit
                 end do
                 call put_cell(writer, case%set)
@@ -170,9 +170,9 @@ contains
         character(len=*), intent(in) :: stage
         type(outcome_t), intent(in) :: outcome
 
-        stage_time = outcome%normal_us + outcome%tangential_us
-        if (stage == 'normal') stage_time = outcome%normal_us
-        if (stage == 'tangential') stage_time = outcome%tangential_us
+        stage_time = outcome%normal_cpu_us + outcome%tangential_cpu_us
+        if (stage == 'normal') stage_time = outcome%normal_cpu_us
+        if (stage == 'tangential') stage_time = outcome%tangential_cpu_us
     end function stage_time
 
     !> Errors in the order of `figure_names`.

@@ -5,7 +5,6 @@
 !> closing the gap on the centre lines under the load, a linear system whose matrix every method
 !> fills in its own way; the errors are those against the closed evaluation.
 module faststrip_app_bench_trade_influence
-    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, is_error, status_word, st_ok
     use faststrip_csv, only: csv_writer_t, put_cell, end_row
@@ -22,7 +21,7 @@ module faststrip_app_bench_trade_influence
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_profile_gap_curve, only: gap_at
     use faststrip_app_bench_polynomials, only: power_of_ten_influence
-    use faststrip_app_clock, only: microseconds, spread_of, spread_names
+    use faststrip_app_clock, only: cpu_microseconds, spread_of, spread_names
     use faststrip_app_console, only: fail_on_error
     use faststrip_app_trade_cases, only: trade_case_t, n_figures
     implicit none
@@ -179,18 +178,16 @@ contains
         type(status_t), intent(out) :: status
 
         integer, parameter :: n = strips_across, runs = 5
-        real(wp) :: matrix(n + 1, n + 1), right(n + 1), times(runs)
-        integer(int64) :: before, after
+        real(wp) :: matrix(n + 1, n + 1), right(n + 1), times(runs), before
         integer :: pivot(n + 1), run
         logical :: singular
 
         p0 = 0.0_wp
         depth = 0.0_wp
         do run = 1, merge(1, runs, method == quadrature)
-            call system_clock(before)
+            before = cpu_microseconds()
             call fill(lattice, method, rows, matrix, status)
-            call system_clock(after)
-            times(run) = microseconds(before, after)
+            times(run) = cpu_microseconds() - before
             us = spread_of(times(:run))
         end do
         if (is_error(status)) return

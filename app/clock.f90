@@ -1,7 +1,6 @@
 !> Measuring times in microseconds, and the median, 95th percentile and worst of many runs.
 !>
-!> Columns of times say which time they hold: `cpu_us_...` that of the processor, `wall_us_...` that
-!> of the clock on the wall.
+!> Columns say which time they hold: `cpu_us_...` that of the processor.
 module faststrip_app_clock
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
@@ -10,12 +9,11 @@ module faststrip_app_clock
     private
 
     public :: microseconds, cpu_microseconds, median, spread_of, spread_text
-    public :: spread_names, cpu_columns, wall_columns
+    public :: spread_names, cpu_columns
 
     !> What is told of many runs, and the columns that tell it.
     character(len=*), parameter :: spread_names(3) = [character(len=6) :: 'median', 'p95', 'worst']
     character(len=*), parameter :: cpu_columns(3) = 'cpu_us_' // spread_names
-    character(len=*), parameter :: wall_columns(3) = 'wall_us_' // spread_names
 
 contains
 

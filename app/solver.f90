@@ -13,7 +13,7 @@ module faststrip_app_solver
                                           strip_forces_t, reserve_strip_forces
     use faststrip_contact_methods, only: gives_stick
     use faststrip_contact_solve, only: reserve_contact_field
-    use faststrip_app_clock, only: microseconds
+    use faststrip_app_clock, only: microseconds, cpu_microseconds
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal, certify
@@ -54,6 +54,8 @@ module faststrip_app_solver
         real(wp) :: gap_change_um = 0.0_wp      !! rms change of the gap by smoothing, um
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us
         real(wp) :: tangential_us = 0.0_wp      !! of the tangential problem, us
+        real(wp) :: normal_cpu_us = 0.0_wp      !! the same of the processor, us
+        real(wp) :: tangential_cpu_us = 0.0_wp
     end type outcome_t
 
 contains
@@ -97,6 +99,7 @@ contains
         type(status_t) :: tangential_status, choice_status
         real(wp) :: change
         integer(int64) :: before, between, after
+        real(wp) :: cpu ! us
 
         outcome%choice = ''
         call check_material(material, status)
@@ -115,6 +118,7 @@ contains
         if (is_error(status)) return
         if (solver%chosen%normal == 'norm') call make_norm_room(solver%norm, solver%gap, status)
         if (is_error(status)) return
+        cpu = cpu_microseconds()
         call system_clock(before)
         if (solver%chosen%normal == 'norm') then
             call solve_by_norm(solver%norm, solver%chosen, solver%gap, material, demand, &
@@ -127,12 +131,15 @@ contains
         if (is_error(status)) return
         call system_clock(between)
         outcome%normal_us = outcome%normal_us + microseconds(before, between)
+        outcome%normal_cpu_us = outcome%normal_cpu_us + cpu_microseconds() - cpu
+        cpu = cpu_microseconds()
         if (solver%chosen%normal == 'norm') then
             call take_rows(solver%norm, solver%normal, status)
             if (is_error(status)) return
             if (solver%with_field) call grow_field(solver, status)
             if (is_error(status)) return
             call system_clock(between)
+            cpu = cpu_microseconds()
         end if
         if (solver%chosen%tangential == 'tang') then
             call solve_by_tang(solver%tang, solver%chosen, solver%normal, solver%norm, &
@@ -146,6 +153,7 @@ contains
                                   tangential_status)
         end if
         call system_clock(after)
+        outcome%tangential_cpu_us = cpu_microseconds() - cpu
         solver%strip_forces%n = 0
         if (solver%with_strip_forces .and. solver%chosen%tangential == 'faststrip' &
             .and. .not. is_error(tangential_status)) then
@@ -179,16 +187,19 @@ contains
         type(status_t), intent(out) :: status
 
         integer(int64) :: before, after
+        real(wp) :: cpu ! us
 
         call clear_status(status)
         solver%chosen = solver%methods
         if (solver%methods%normal /= 'auto') return
+        cpu = cpu_microseconds()
         call system_clock(before)
         call choose(solver%methods, solver%gap, material, mu, demand, creepage, &
                     solver%with_field, solver%chosen, outcome%choice, status)
         call system_clock(after)
         if (is_error(status)) return
         outcome%normal_us = microseconds(before, after)
+        outcome%normal_cpu_us = cpu_microseconds() - cpu
         call make_normal_stage(solver%chosen, solver%normal)
         if (solver%with_field) &
             call reserve_contact_field(solver%field, solver%normal%methods, status)

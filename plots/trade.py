@@ -70,7 +70,7 @@ def main(arguments=None):
     write_rows(os.path.join(options.folder, "tables.csv"), ("file", "title", "caption", "chapter"), [
         ("trade_choice.csv", "Which method to take",
          "The fastest whose mean error, over all contacts and figures of its stage, is within the"
-         " target, with the median of its wall times; in brackets the same for the largest error."
+         " target, with the median of its processor times; in brackets the same for the largest error."
          " 95th percentile and worst of the times stand in trade_points.csv. Errors of"
          f" forces and moment: {FORCES}.", "trade"),
     ])
@@ -78,7 +78,7 @@ def main(arguments=None):
 
 def summarize(table):
     """Mean and largest error of each method over all its contacts, and median (`us`), 95th
-    percentile and worst of their wall times."""
+    percentile and worst of their processor times."""
     status, stage = table.words("status"), table.words("stage")
     method = table.words("method")
     us = table.numbers("us", missing=True)
@@ -97,8 +97,8 @@ def summarize(table):
         # each figure counts alike: the worst figure of a contact is its error
         worst = np.nanmax(errors[np.ix_(known, solved)], axis=0)
         point |= {"us": float(np.median(us[solved])),
-                  "wall_us_p95": float(np.quantile(us[solved], 0.95, method="inverted_cdf")),
-                  "wall_us_worst": float(us[solved].max()), "mean": float(worst.mean()),
+                  "cpu_us_p95": float(np.quantile(us[solved], 0.95, method="inverted_cdf")),
+                  "cpu_us_worst": float(us[solved].max()), "mean": float(worst.mean()),
                   "max": float(worst.max())}
         for f, name in enumerate(FIGURES):
             point[f"mean_{name}"] = float(np.nanmean(errors[f, solved])) if f in known else ""
@@ -172,7 +172,7 @@ def draw(points, heading, path, stamp):
                           fontsize=7.5, color="#333333")
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel("wall time per contact in µs, median over the contacts")
+        axes.set_xlabel("processor time per contact in µs, median over the contacts")
         forces = point_stage in ("tangential", "both")
         axes.set_ylabel("error in % of $\\mu\\cdot N$; of $M_z$ in % of $\\mu\\cdot N c$" if forces
                         else "error in %")

@@ -42,7 +42,7 @@ class Trade(ProgramTest):
         self.assertEqual({row["err_pmax"] for row in hertz}, {""})
         self.assertGreater(min(numbers(rows, "us")), 0.0)
         for row in rows + influence:
-            self.assert_spread(row, "wall_us")
+            self.assert_spread(row, "cpu_us")
 
     def test_exact_on_ellipses(self):
         rows = self.trade("both,Hertz,always,hertz,fastsim,,,,,\n")
