@@ -11,7 +11,8 @@ module faststrip_app_batch
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_file, only: read_gap_file
     use faststrip_app_console, only: fail, fail_on_error, note, progress, put_origin, &
-                                     exit_bad_input
+                                     concerns_gap, exit_bad_input
+    use faststrip_app_files, only: take_input
     use faststrip_app_options, only: command_t, option_t, parse_command, option_text
     use faststrip_app_methods, only: methods_t
     use faststrip_app_method_options, only: method_options, take_method_options
@@ -53,7 +54,8 @@ contains
             // ' its N_N is then empty, and filled in.' // new_line('a') // 'Other columns are' &
             // ' carried through. A row that fails gets its status word and' // new_line('a') &
             // 'empty figures; the others go on, and the exit code is 1.' // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                                    writes=.true.), &
                            method_options]
         call parse_command(command, 1)
         call take_method_options(command, methods)
@@ -64,6 +66,9 @@ contains
             call fail_on_error(status)
         end do
         call refuse_result_columns(table)
+        do row = 1, table%n_rows
+            call take_input(beside(table%file, cell_text(table, row, column(2))))
+        end do
         call make_solver(methods, .false., solver, status)
         call fail_on_error(status)
         call open_csv(writer, option_text(command, '-o', '-'), status)
@@ -87,7 +92,8 @@ contains
             if (is_error(status)) then
                 n_failed = n_failed + 1
                 call note('row ' // integer_text(row) // ' (' // table%file // ':' &
-                          // integer_text(table%line(row)) // '): ' // trim(status%message))
+                          // integer_text(table%line(row)) // '): ' // trim(status%message) &
+                          // about_gap(table, row, column, status))
             end if
             call progress('contacts', row, table%n_rows)
         end do
@@ -97,6 +103,17 @@ contains
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(table%n_rows) // ' contacts failed')
     end subroutine run_batch
+
+    !> The gap file in brackets, where the message is about its gap and does not name it.
+    function about_gap(table, row, column, status) result(text)
+        type(csv_table_t), intent(in) :: table
+        integer, intent(in) :: row, column(:)
+        type(status_t), intent(in) :: status
+        character(len=:), allocatable :: text
+
+        text = ''
+        if (concerns_gap(status)) text = ' (' // cell_text(table, row, column(2)) // ')'
+    end function about_gap
 
     subroutine put_names(writer, names)
         type(csv_writer_t), intent(inout) :: writer

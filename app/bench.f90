@@ -1,10 +1,10 @@
 !> `faststrip bench`: what things cost and how accurate they are.
 module faststrip_app_bench
     use faststrip_kinds, only: wp
-    use faststrip_status, only: number_text
     use faststrip_app_console, only: usage_error
+    use faststrip_app_files, only: take_input
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
-                                     option_integer, option_number
+                                     option_integer, option_number, option_word
     use faststrip_app_bench_integral, only: bench_integral
     use faststrip_app_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_app_bench_reference, only: bench_reference, bench_reference_most_elements
@@ -39,35 +39,36 @@ contains
         command%usage = 'WHAT'
         command%about = about()
         command%options = [ &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
             option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
                      // new_line('a') // '1 to 1000 (default 21)'), &
-            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)'), &
+            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
+                     reads=.true.), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
             option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
                      // ' elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
-                     // ' reference/trade_methods.csv)'), &
+                     // ' reference/trade_methods.csv)', reads=.true.), &
             option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
-                     // ' (default reference/influence)'), &
+                     // ' (default reference/influence)', reads=.true.), &
             option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
-                     // ' extremes, scenes: cases')]
+                     // ' extremes, scenes: cases', reads=.true.)]
+        command%reads = .false.
         call parse_command(command, 1)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
-        rounds = option_integer(command, '--rounds', 21)
-        if (rounds < 1 .or. rounds > 1000) &
-            call usage_error('--rounds is not within 1 to 1000', command%name)
+        rounds = option_integer(command, '--rounds', 21, least=1, most=1000)
         folder = option_text(command, '--contacts', 'reference/contact')
-        most_strips = option_integer(command, '--most-strips', bench_normal_most_strips)
-        most_elements = option_integer(command, '--most-elements', bench_reference_most_elements)
-        seconds = option_number(command, '--seconds', 6.0_wp)
-        if (seconds < 0.0_wp) call usage_error('--seconds is negative: ' &
-            // trim(number_text(seconds)), command%name)
+        call take_input(folder)
+        most_strips = option_integer(command, '--most-strips', bench_normal_most_strips, &
+                                     least=1)
+        most_elements = option_integer(command, '--most-elements', bench_reference_most_elements, &
+                                       least=1)
+        seconds = option_number(command, '--seconds', 6.0_wp, least=0.0_wp)
         select case (what)
         case ('integral')
             call allow([character(len=name_length) :: '--rounds'])
@@ -83,6 +84,7 @@ contains
             call bench_tangential(file, folder, rounds)
         case ('forces')
             call allow([character(len=name_length) :: '--contacts', '--scenes'])
+            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
             call bench_forces(file, folder, option_text(command, '--scenes', &
                                                         'reference/scenes/scenes.csv'))
         case ('certificate')
@@ -106,26 +108,28 @@ contains
         case ('extremes')
             call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
                         '--references', '--scenes'])
-            if (given(command, '--only') .and. &
-                all(extreme_parts /= option_text(command, '--only', ''))) &
-                call usage_error('--only: there is no part called ' &
-                                 // option_text(command, '--only', ''), command%name)
-            call bench_extremes(file, option_text(command, '--only', ''), &
+            call take_input(option_text(command, '--references', 'reference/influence'))
+            call take_input(option_text(command, '--scenes', 'example/scenes'))
+            call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
                                 given(command, '--quick'), folder, &
                                 option_text(command, '--references', 'reference/influence'), &
                                 option_text(command, '--scenes', 'example/scenes'))
         case ('scenes')
             call allow([character(len=name_length) :: '--scenes'])
+            call take_input(option_text(command, '--scenes', 'example/scenes'))
             call bench_scenes(file, option_text(command, '--scenes', 'example/scenes'))
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
+            call take_input(option_text(command, '--methods', 'reference/trade_methods.csv'))
+            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
             call bench_trade(file, option_text(command, '--methods', &
                                                'reference/trade_methods.csv'), folder, &
                              option_text(command, '--scenes', 'reference/scenes/scenes.csv'), &
                              given(command, '--quick'))
         case default
-            call usage_error('there is no bench called ' // what, command%name)
+            call usage_error('WHAT must be a bench of the list, got ''' // what // '''', &
+                             command%name)
         end select
 
     contains

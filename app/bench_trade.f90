@@ -198,7 +198,7 @@ contains
 
         type(csv_table_t) :: table
         type(status_t) :: status
-        character(len=:), allocatable :: what, value
+        character(len=:), allocatable :: what, range, value
         integer :: row
 
         call read_csv(file, table, status)
@@ -217,7 +217,7 @@ contains
             call take_number('fastsim_nx', entries(row)%methods%fastsim_nx)
             call take_number('fastsim_ny', entries(row)%methods%fastsim_ny)
             call take_side(entries(row)%methods)
-            call check_methods(entries(row)%methods, what, value)
+            call check_methods(entries(row)%methods, what, range, value)
             if (len(what) > 0) call refuse(what, value)
         end do
 

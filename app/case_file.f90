@@ -13,9 +13,11 @@ module faststrip_app_case_file
     use faststrip_profile_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_profile_contact_gap, only: standard_gap_step, standard_gap_height
     use faststrip_app_console, only: fail_on_error
+    use faststrip_app_files, only: take_input
     use faststrip_app_methods, only: methods_t, check_methods, word_length
     use faststrip_app_namelist, only: namelist_file_t, group_t, read_namelist_file, find_group, &
-                                      group_text, line_length, sets, refuse, refuse_line
+                                      group_text, line_length, sets, refuse
+    use faststrip_app_namelist_values, only: refuse_values, name_length
     implicit none
     private
 
@@ -65,6 +67,7 @@ contains
         type(namelist_file_t) :: content
         logical :: from_profiles
 
+        call take_input(path)
         call read_namelist_file(path, [character(len=8) :: 'contact', 'material', 'wheel', &
                                        'rail', 'motion', 'numerics', 'sweep'], content)
         call read_contact_group(content, case)
@@ -85,6 +88,8 @@ contains
         character(len=word_length) :: load_direction
         real(wp) :: load_n, penetration_mm, shift_mm
         namelist /contact/ name, gap_file, load_n, penetration_mm, load_direction, shift_mm
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'name', 'gap_file', 'load_N', 'penetration_mm', 'load_direction', 'shift_mm']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -100,11 +105,14 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=contact, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         case%name = trim(name)
         case%gap_file = ''
-        if (len_trim(gap_file) > 0) case%gap_file = beside(content%file, trim(gap_file))
+        if (len_trim(gap_file) > 0) then
+            case%gap_file = beside(content%file, trim(gap_file))
+            call take_input(case%gap_file)
+        end if
         case%load_is_given = .not. sets(content, group, 'penetration_mm')
         if (case%load_is_given) then
             call need_positive(content, group, 'load_N', load_n)
@@ -120,7 +128,7 @@ contains
         case%shift = shift_mm
         case%load_is_vertical = load_direction == 'vertical'
         if (load_direction /= 'vertical' .and. load_direction /= 'normal') &
-            call refuse(content, group, 'load_direction', 'is neither normal nor vertical', &
+            call refuse(content, group, 'load_direction', 'must be normal or vertical', &
                         load_direction)
         if (case%load_is_vertical .and. .not. case%load_is_given) &
             call refuse(content, group, 'load_direction', &
@@ -136,6 +144,8 @@ contains
 
         real(wp) :: e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
         namelist /material/ e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'E_wheel_MPa', 'E_rail_MPa', 'nu_wheel', 'nu_rail', 'mu']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -150,14 +160,14 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=material, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         call need_positive(content, group, 'E_wheel_MPa', e_wheel_mpa)
         call need_positive(content, group, 'E_rail_MPa', e_rail_mpa)
         call need_poisson(content, group, 'nu_wheel', nu_wheel)
         call need_poisson(content, group, 'nu_rail', nu_rail)
         call need_finite(content, group, 'mu', mu)
-        if (mu < 0.0_wp) call refuse(content, group, 'mu', 'is negative', number_text(mu))
+        if (mu < 0.0_wp) call refuse(content, group, 'mu', 'must not be negative', number_text(mu))
         case%material = material_t(e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail)
         case%mu = mu
     end subroutine read_material_group
@@ -172,6 +182,9 @@ contains
         real(wp) :: radius_mm, back_spacing_mm, tread_line_mm
         namelist /wheel/ profile, radius_mm, back_spacing_mm, tread_line_mm, &
             y_positive_to, z_positive_to
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'profile', 'radius_mm', 'back_spacing_mm', 'tread_line_mm', &
+            'y_positive_to', 'z_positive_to']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -188,7 +201,7 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=wheel, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         if (.not. from_profiles) return
         call need_positive(content, group, 'radius_mm', radius_mm)
@@ -216,6 +229,8 @@ contains
         character(len=word_length) :: y_positive_to, z_positive_to
         real(wp) :: cant, gauge_mm, gauge_depth_mm
         namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'profile', 'cant', 'gauge_mm', 'gauge_depth_mm', 'y_positive_to', 'z_positive_to']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -232,7 +247,7 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=rail, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         if (.not. from_profiles) return
         ! A drawn profile stands upright; a measured one is taken as it stands.
@@ -263,6 +278,8 @@ contains
         character(len=word_length) :: sign_set
         real(wp) :: cksi, ceta, cphi_rad_per_mm
         namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'creepage', 'sign_set', 'cksi', 'ceta', 'cphi_rad_per_mm']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -277,7 +294,7 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=motion, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         call need_finite(content, group, 'cksi', cksi)
         call need_finite(content, group, 'ceta', ceta)
@@ -285,7 +302,7 @@ contains
         case%creepage = creepage_t(cksi, ceta, cphi_rad_per_mm)
         case%creepage_by_formula = creepage == 'formula'
         if (creepage /= 'formula' .and. creepage /= 'given') &
-            call refuse(content, group, 'creepage', 'is neither formula nor given', creepage)
+            call refuse(content, group, 'creepage', 'must be formula or given', creepage)
         if (case%creepage_by_formula .and. .not. from_profiles) &
             call refuse(content, group, 'creepage', 'by formula needs profiles', creepage)
         if (case%creepage_by_formula .and. any([cksi, ceta, cphi_rad_per_mm] /= 0.0_wp)) &
@@ -294,7 +311,7 @@ contains
         select case (sign_set)
         case ('A', 'a'); case%creepage_signs = creepage_set_a
         case ('B', 'b'); case%creepage_signs = creepage_set_b
-        case default; call refuse(content, group, 'sign_set', 'is neither A nor B', sign_set)
+        case default; call refuse(content, group, 'sign_set', 'must be A or B', sign_set)
         end select
     end subroutine read_motion_group
 
@@ -304,17 +321,22 @@ contains
 
         type(methods_t) :: methods
         character(len=word_length) :: normal, tangential, norm_start, target
-        integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny
+        integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, tolerance
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, norm_start, tolerance, target
+            error_target, norm_start, tolerance, target, max_elements
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
+            'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
+            'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
+            'target', 'max_elements']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
         integer :: n, code
-        character(len=:), allocatable :: what, value
+        character(len=:), allocatable :: what, range, value
 
         normal = case%methods%normal
         tangential = case%methods%tangential
@@ -327,6 +349,7 @@ contains
         error_target = case%methods%error_target
         norm_start = case%methods%norm_start
         tolerance = case%methods%tolerance
+        max_elements = case%methods%max_elements
         target = case%methods%target
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
@@ -335,7 +358,7 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=numerics, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         methods%normal = normal
         methods%tangential = tangential
@@ -349,10 +372,11 @@ contains
         methods%error_target = error_target
         methods%norm_start = norm_start
         methods%tolerance = tolerance
+        methods%max_elements = max_elements
         methods%target = target
-        call check_methods(methods, what, value)
+        call check_methods(methods, what, range, value)
         case%methods = methods
-        if (len(what) > 0) call refuse(content, group, what, 'is out of range', value)
+        if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
         call need_positive(content, group, 'gap_step_mm', gap_step_mm)
         call need_positive(content, group, 'gap_height_mm', gap_height_mm)
         case%gap_step = gap_step_mm
@@ -366,6 +390,8 @@ contains
         real(wp) :: shifts_mm(max_shifts), load_n(max_shifts)
         real(wp) :: cksi(max_shifts), ceta(max_shifts), cphi_rad_per_mm(max_shifts)
         namelist /sweep/ shifts_mm, load_n, cksi, ceta, cphi_rad_per_mm
+        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
+            'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -380,7 +406,7 @@ contains
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=sweep, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_text(content, group, n, words)
+            if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
         call take_list(content, group, 'shifts_mm', shifts_mm, case%shifts)
         call take_list(content, group, 'load_N', load_n, case%shift_loads)
@@ -396,7 +422,7 @@ contains
             if (.not. case%load_is_given) call refuse(content, group, 'load_N', &
                 'is given, and &contact penetration_mm as well', '')
             if (any(case%shift_loads <= 0.0_wp)) call refuse(content, group, 'load_N', &
-                'is not positive', number_text(minval(case%shift_loads)))
+                'must be above 0', number_text(minval(case%shift_loads)))
         end if
         if (max(size(case%shift_cksi), size(case%shift_ceta), size(case%shift_cphi)) == 0) return
         if (case%creepage_by_formula) call refuse(content, group, 'cksi', &
@@ -446,22 +472,6 @@ contains
         if (group%first > 0) lines_of = group%last - group%first + 1
     end function lines_of
 
-    !> End the program because the runtime could not read the first n lines of a group.
-    subroutine refuse_text(content, group, n, words)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        integer, intent(in) :: n
-        character(len=*), intent(in) :: words
-
-        character(len=*), parameter :: unknown = 'Cannot match namelist object name '
-        character(len=:), allocatable :: what
-
-        what = trim(words)
-        if (index(what, unknown) == 1) what = 'unknown name: ' // what(len(unknown) + 1:)
-        call refuse_line(content, group%first + n - 1, '&' // group%name // ' ' // what, &
-                         adjustl(content%line(group%first + n - 1)))
-    end subroutine refuse_text
-
     subroutine read_points(content, group, path, y_positive_to, z_positive_to, simpack_kind, &
                            cant, profile)
         type(namelist_file_t), intent(in) :: content
@@ -476,11 +486,12 @@ contains
         real(wp), allocatable :: y(:), z(:)
 
         if (y_positive_to /= 'field' .and. y_positive_to /= 'gauge') &
-            call refuse(content, group, 'y_positive_to', 'is neither field nor gauge', &
+            call refuse(content, group, 'y_positive_to', 'must be field or gauge', &
                         y_positive_to)
         if (z_positive_to /= 'down' .and. z_positive_to /= 'up') &
-            call refuse(content, group, 'z_positive_to', 'is neither down nor up', z_positive_to)
+            call refuse(content, group, 'z_positive_to', 'must be down or up', z_positive_to)
         file = beside(content%file, trim(path))
+        call take_input(file)
         if (ends_with(file, '.prw') .or. ends_with(file, '.prr')) then
             call read_simpack_file(file, simpack_kind, y, z, status)
         else
@@ -534,7 +545,7 @@ contains
 
         call need_finite(content, group, name, value)
         if (value <= 0.0_wp) &
-            call refuse(content, group, name, 'is not positive', number_text(value))
+            call refuse(content, group, name, 'must be above 0', number_text(value))
     end subroutine need_positive
 
     subroutine need_poisson(content, group, name, value)
@@ -545,6 +556,6 @@ contains
 
         call need_finite(content, group, name, value)
         if (value <= -1.0_wp .or. value > 0.5_wp) &
-            call refuse(content, group, name, 'is outside (-1, 0.5]', number_text(value))
+            call refuse(content, group, name, 'must be above -1 and at most 0.5', number_text(value))
     end subroutine need_poisson
 end module faststrip_app_case_file

@@ -1,15 +1,20 @@
 !> What the program says to people: errors and notes on stderr, help and version on stdout.
 module faststrip_app_console
-    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, int64
-    use faststrip_status, only: status_t, is_error, st_no_convergence
+    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+    use faststrip_status, only: status_t, is_error, st_not_finite, st_not_increasing, &
+                                st_too_few_points, st_no_contact, st_no_hertz_ellipse, &
+                                st_no_convergence, st_out_of_range, st_no_finite_patch, &
+                                st_linear_algebra
     use faststrip_csv, only: csv_writer_t, put_comment
+    use faststrip_text, only: integer_text, lower_case
     use faststrip_app_machine, only: compiler_name, compiler_flags
     use faststrip_app_revision, only: revision
+    use faststrip_app_system, only: set_progress
     implicit none
     private
 
-    public :: fail, fail_on_error, usage_error, note, say, progress
-    public :: version_text, put_origin
+    public :: fail, fail_on_error, concerns_gap, usage_error, note, say, progress
+    public :: version_text, put_origin, printable
     public :: exit_bad_input, exit_usage, exit_no_convergence
 
     integer, parameter :: exit_bad_input = 1
@@ -46,6 +51,16 @@ contains
         end if
     end subroutine fail_on_error
 
+    !> Is an error one of a gap, or of the contact in it? Errors of files name them themselves.
+    pure logical function concerns_gap(status)
+        type(status_t), intent(in) :: status !! of a call to the library
+
+        concerns_gap = any(status%code == [st_not_finite, st_not_increasing, st_too_few_points, &
+                                           st_no_contact, st_no_hertz_ellipse, &
+                                           st_no_convergence, st_out_of_range, &
+                                           st_no_finite_patch, st_linear_algebra])
+    end function concerns_gap
+
     !> End the program because it was called in a wrong way.
     subroutine usage_error(text, command)
         character(len=*), intent(in) :: text    !! what is wrong, with the offending value
@@ -58,12 +73,77 @@ contains
         end if
     end subroutine usage_error
 
-    !> One line on stderr.
+    !> One line on stderr, whatever the text holds.
     subroutine note(text)
-        character(len=*), intent(in) :: text !! one line
+        character(len=*), intent(in) :: text !! what to say
 
-        write (error_unit, '(2a)') 'faststrip: ', text
+        integer, parameter :: longest = 2000
+
+        if (len(text) > longest) then
+            write (error_unit, '(3a)') 'faststrip: ', printable(text(:longest)), '...'
+        else
+            write (error_unit, '(2a)') 'faststrip: ', printable(text)
+        end if
     end subroutine note
+
+    !> A text in which control characters, and bytes that are no UTF-8, stand as `\xNN`: what was
+    !> typed or read cannot steer the terminal or break the line.
+    pure function printable(text) result(safe)
+        character(len=*), intent(in) :: text  !! any bytes
+        character(len=:), allocatable :: safe
+
+        character(len=2) :: hexadecimal
+        integer :: i, n
+
+        safe = ''
+        i = 1
+        do while (i <= len(text))
+            n = length_of_character(text(i:))
+            if (n > 0) then
+                safe = safe // text(i:i + n - 1)
+            else
+                n = 1
+                write (hexadecimal, '(z2.2)') ichar(text(i:i))
+                safe = safe // '\x' // lower_case(hexadecimal)
+            end if
+            i = i + n
+        end do
+    end function printable
+
+    !> Bytes of the first character of a text in UTF-8; 0 if it is a control character or none.
+    pure integer function length_of_character(text) result(n)
+        character(len=*), intent(in) :: text
+
+        integer :: first, i
+
+        first = ichar(text(1:1))
+        n = 0
+        select case (first)
+        case (32:126); n = 1
+        case (194:223); n = 2
+        case (224:239); n = 3
+        case (240:244); n = 4
+        end select
+        if (n > len(text)) n = 0
+        do i = 2, n
+            if (ichar(text(i:i)) < 128 .or. ichar(text(i:i)) > 191) then
+                n = 0
+                return
+            end if
+        end do
+        if (n < 2) return
+        associate (second => ichar(text(2:2)))
+            ! Control characters beyond ASCII; longer than needed; surrogates; beyond Unicode.
+            if (first == 194 .and. second < 160 .or. first == 224 .and. second < 160 .or. &
+                first == 237 .and. second > 159 .or. first == 240 .and. second < 144 .or. &
+                first == 244 .and. second > 143) n = 0
+        end associate
+        ! Line and paragraph separators, and marks that turn the direction of writing.
+        if (n == 3 .and. first == 226) then
+            if (ichar(text(2:2)) == 128 .and. ichar(text(3:3)) >= 168 .and. &
+                ichar(text(3:3)) <= 174) n = 0
+        end if
+    end function length_of_character
 
     !> One line on stdout.
     subroutine say(text)
@@ -72,20 +152,13 @@ contains
         write (output_unit, '(a)') text
     end subroutine say
 
-    !> A running count on stderr for long work: at most one line a second, none in the first.
+    !> How far long work is, for the lines that `start_signals` sends to stderr.
     subroutine progress(what, done, total)
         character(len=*), intent(in) :: what !! what is being counted
         integer, intent(in) :: done          !! how many are done
         integer, intent(in) :: total         !! how many there are
 
-        integer(int64), save :: last = -1
-        integer(int64) :: now, rate
-
-        call system_clock(now, rate)
-        if (last < 0) last = now
-        if (now - last < rate) return
-        last = now
-        write (error_unit, '(3a,i0,a,i0)') 'faststrip: ', what, ' ', done, ' of ', total
+        call set_progress(what // ' ' // integer_text(done) // ' of ' // integer_text(total))
     end subroutine progress
 
     !> Name, version and revision of the program.

@@ -2,7 +2,7 @@
 module faststrip_app_contact
     use faststrip_status, only: status_t, is_error, st_ok
     use faststrip_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
-    use faststrip_app_console, only: fail_on_error, note, usage_error
+    use faststrip_app_console, only: fail_on_error, concerns_gap, note, usage_error
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
                                      option_number
     use faststrip_app_method_options, only: method_options, take_method_options
@@ -39,11 +39,16 @@ contains
             // new_line('a') // 'the columns y_mm,h_mm,inv2R_per_mm. CSV, one row.' &
             // new_line('a')
         command%options = [ &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
-            option_t('--strips', 'FILE', 'write the strips there, with the sums over each'), &
-            option_t('--fields', 'FILE', 'write pressure, tractions and slip per element there'), &
-            option_t('--gap', 'FILE', 'write the undeformed gap there'), &
-            option_t('--profiles', 'FILE', 'write wheel and rail in contact there'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                     writes=.true.), &
+            option_t('--strips', 'FILE', 'write the strips there, with the sums over each', &
+                     writes=.true.), &
+            option_t('--fields', 'FILE', 'write pressure, tractions and slip per element there', &
+                     writes=.true.), &
+            option_t('--gap', 'FILE', 'write the undeformed gap there', &
+                     writes=.true.), &
+            option_t('--profiles', 'FILE', 'write wheel and rail in contact there', &
+                     writes=.true.), &
             option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
             method_options]
         call parse_command(command, 1)
@@ -63,6 +68,8 @@ contains
         call fail_on_error(status)
         call solve(solver, scene%gap, case%material, case%mu, scene%demand, scene%creepage, &
                    outcome, status)
+        if (concerns_gap(status) .and. len(case%gap_file) > 0) &
+            call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
         if (status%code /= st_ok) call note(trim(status%message))
         call open_outputs(command, writer)

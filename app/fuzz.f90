@@ -6,7 +6,7 @@ module faststrip_app_fuzz
                              close_csv
     use faststrip_app_console, only: fail_on_error, usage_error, progress, put_origin, say
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
-                                     option_integer
+                                     option_integer, option_word
     use faststrip_app_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_app_fuzz_faults, only: is_fault, fault_names
     use faststrip_app_fuzz_judges, only: verdict_t
@@ -30,18 +30,15 @@ contains
         type(room_t) :: room
 
         call take_command(command)
-        cases = option_integer(command, '--cases', 1000)
-        seed = option_integer(command, '--seed', 1)
-        first = option_integer(command, '--first', 1)
-        if (cases < 1 .or. cases > huge(cases) - max(first, 1)) &
-            call usage_error('--cases is below 1 or too large: ' // integer_text(cases), &
-                             command%name)
-        if (seed < 0) call usage_error('--seed is negative: ' // integer_text(seed), command%name)
-        if (first < 1) call usage_error('--first is below 1: ' // integer_text(first), command%name)
+        cases = option_integer(command, '--cases', 1000, least=1)
+        seed = option_integer(command, '--seed', 1, least=0)
+        first = option_integer(command, '--first', 1, least=1)
+        if (cases > huge(cases) - first) &
+            call usage_error('--cases must end before case ' // integer_text(huge(cases)) &
+                             // ', got ' // integer_text(cases), command%name)
         room%thorough = given(command, '--thorough')
-        room%solver = option_text(command, '--solver', 'strip')
-        if (room%solver /= 'strip' .and. room%solver /= 'lattice') &
-            call usage_error('unknown solver: ' // room%solver, command%name)
+        room%solver = option_word(command, '--solver', 'strip', [character(len=7) :: 'strip', &
+                                                                 'lattice'])
         room%fault = option_text(command, '--plant', '')
         if (room%fault == 'list') then
             call list_faults()
@@ -50,6 +47,8 @@ contains
         if (room%fault /= '' .and. .not. is_fault(room%fault)) &
             call usage_error('unknown fault: ' // room%fault, command%name)
         if (given(command, '--read')) then
+            if (given(command, '-o')) &
+                call usage_error('--read goes without -o', command%name)
             call read_verdicts(option_text(command, '--read', ''), numbers, family, verdicts)
             call print_verdicts(numbers, family, verdicts)
             return
@@ -57,15 +56,11 @@ contains
         if (given(command, '--case')) then
             if (given(command, '--first') .or. given(command, '--cases')) &
                 call usage_error('--case goes without --first and --cases', command%name)
-            first = option_integer(command, '--case', 1)
-            if (first < 1) &
-                call usage_error('--case is below 1: ' // integer_text(first), command%name)
+            first = option_integer(command, '--case', 1, least=1)
             cases = 1
         end if
         if (given(command, '--gap-of')) then
-            number = option_integer(command, '--gap-of', 1)
-            if (number < 1) &
-                call usage_error('--gap-of is below 1: ' // integer_text(number), command%name)
+            number = option_integer(command, '--gap-of', 1, least=1)
             call draw_case(seed, number, case)
             call write_gap(option_text(command, '-o', '-'), seed, case)
             return
@@ -89,12 +84,13 @@ contains
             option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
             option_t('--case', 'INTEGER', 'this case only'), &
             option_t('--family', 'NAME', 'only the cases of this family'), &
-            option_t('--read', 'FILE', 'solve nothing, judge the rows that -o wrote there'), &
+            option_t('--read', 'FILE', 'solve nothing, judge the rows that -o wrote there', &
+                     reads=.true.), &
             option_t('--solver', 'NAME', 'strip (default) or lattice'), &
             option_t('--thorough', '', 'every judge on every case, NORM too'), &
             option_t('--plant', 'FAULT', 'put an error into every answer; list: which there are'), &
             option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
-            option_t('-o', 'FILE', 'write one CSV row per case there')]
+            option_t('-o', 'FILE', 'write one CSV row per case there', writes=.true.)]
         call parse_command(command, 0)
     end subroutine take_command
 

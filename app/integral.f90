@@ -13,7 +13,7 @@ module faststrip_app_integral
     use faststrip_influence_quadrature, only: quadrature_influence
     use faststrip_app_console, only: fail, fail_on_error, usage_error, put_origin, exit_bad_input
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
-                                     option_number, option_integer
+                                     option_number, option_integer, option_word
     implicit none
     private
 
@@ -45,13 +45,13 @@ contains
             option_t('--n', 'INTEGER', 'distance in strips, >= 0'), &
             option_t('--b', 'NUMBER', 'half-width over half-length, > 0'), &
             option_t('--x', 'NUMBER', 'field point over half-length (default 0)'), &
-            option_t('--input', 'FILE.csv', 'columns n,b, optionally X; no --n --b --x then'), &
+            option_t('--input', 'FILE.csv', 'columns n,b, optionally X; no --n --b --x then', &
+                     reads=.true.), &
             option_t('--method', 'NAME', 'closed (default), quadrature or table'), &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)')]
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 0)
-        method = option_text(command, '--method', 'closed')
-        if (all(method /= [character(len=10) :: 'closed', 'quadrature', 'table'])) &
-            call usage_error('unknown method: ' // method, command%name)
+        method = option_word(command, '--method', 'closed', &
+                             [character(len=10) :: 'closed', 'quadrature', 'table'])
         if (given(command, '--input')) then
             if (given(command, '--n') .or. given(command, '--b') .or. given(command, '--x')) &
                 call usage_error('--input goes without --n, --b and --x', command%name)
@@ -61,8 +61,8 @@ contains
         else
             if (.not. (given(command, '--n') .and. given(command, '--b'))) &
                 call usage_error('--n and --b, or --input, are needed', command%name)
-            n = [option_integer(command, '--n', 0)]
-            b = [option_number(command, '--b', 0.0_wp)]
+            n = [option_integer(command, '--n', 0, least=0)]
+            b = [option_number(command, '--b', 0.0_wp, above=0.0_wp)]
             x = [option_number(command, '--x', 0.0_wp)]
         end if
         allocate (value(size(n)))

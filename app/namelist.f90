@@ -3,17 +3,23 @@
 !> The Fortran runtime reads the groups; what it does not tell, which line is wrong, is found by
 !> reading a group line by line.
 module faststrip_app_namelist
-    use faststrip_status, only: status_t, set_status, clear_status, st_file_format, st_file_missing
-    use faststrip_text, only: read_line, trim_blanks, lower_case, integer_text
-    use faststrip_app_console, only: fail, exit_bad_input
+    use faststrip_status, only: status_t
+    use faststrip_text, only: text_file_t, open_text, read_line, close_text, trim_blanks, &
+                              lower_case, integer_text
+    use faststrip_app_console, only: fail, fail_on_error, exit_bad_input
     implicit none
     private
 
     public :: namelist_file_t, group_t, read_namelist_file, find_group, group_text, line_length
-    public :: sets, refuse, refuse_line
+    public :: sets, refuse, refuse_line, word_letters
 
     !> Longest line of a case file, characters.
     integer, parameter :: line_length = 1024
+    !> Most lines of a case file: the longest lists take a few hundred.
+    integer, parameter :: most_case_lines = 10000
+    !> What names are made of.
+    character(len=*), parameter :: word_letters = &
+        'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
     character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
     !> A case file as it was read.
@@ -38,23 +44,21 @@ contains
         character(len=*), intent(in) :: known(:)          !! names of all groups, lower case
         type(namelist_file_t), intent(out) :: content     !! the lines
 
+        type(text_file_t) :: file
+        type(status_t) :: status
         character(len=:), allocatable :: text
         character(len=line_length), allocatable :: more(:)
-        integer :: unit, code, n
-        logical :: exists, found, failed
+        integer :: n
+        logical :: found
 
         content%file = path
-        inquire (file=path, exist=exists)
-        if (.not. exists) call fail(exit_bad_input, 'no such file: ' // path)
-        inquire (file=path // '/.', exist=exists)
-        if (exists) call fail(exit_bad_input, 'a folder, not a case file: ' // path)
-        open (newunit=unit, file=path, status='old', action='read', iostat=code)
-        if (code /= 0) call fail(exit_bad_input, 'cannot read the file: ' // path)
+        call open_text(path, file, status)
+        call fail_on_error(status)
         allocate (content%line(64))
         n = 0
         do
-            call read_line(unit, text, found, failed)
-            if (failed) call fail(exit_bad_input, 'cannot read the file: ' // path)
+            call read_line(file, text, found, status)
+            call fail_on_error(status)
             if (.not. found) exit
             if (n == size(content%line)) then
                 allocate (more(2*n))
@@ -63,10 +67,13 @@ contains
             end if
             n = n + 1
             if (n == 1 .and. index(text, byte_order_mark) == 1) text = text(4:)
-            if (len(text) > line_length) call refuse_line(content, n, 'line is too long', '')
+            if (n > most_case_lines) call refuse_line(content, n, 'a case file has at most ' &
+                // integer_text(most_case_lines) // ' lines', '')
+            if (len(text) > line_length) call refuse_line(content, n, 'a line has at most ' &
+                // integer_text(line_length) // ' characters', '')
             content%line(n) = without_comment(text)
         end do
-        close (unit)
+        call close_text(file)
         content%line = content%line(:n)
         call check_groups(content, known)
     end subroutine read_namelist_file
@@ -179,8 +186,11 @@ contains
         character(len=*), intent(in) :: what         !! what is wrong
         character(len=*), intent(in) :: value        !! the offending value
 
-        call refuse_line(content, max(line_setting(content, group, name), group%first, 1), &
-                         '&' // group%name // ' ' // name // ' ' // what, value)
+        character(len=:), allocatable :: text
+
+        text = '&' // group%name // ' ' // name // ' ' // what
+        if (len_trim(value) > 0) text = text // ', got ' // trim(value)
+        call refuse_line(content, max(line_setting(content, group, name), group%first, 1), text, '')
     end subroutine refuse
 
     !> End the program with an error about a line.
@@ -202,7 +212,6 @@ contains
     pure logical function sets_name(line, name)
         character(len=*), intent(in) :: line, name
 
-        character(len=*), parameter :: word = 'abcdefghijklmnopqrstuvwxyz0123456789_'
         integer :: from, at
 
         sets_name = .false.
@@ -213,7 +222,7 @@ contains
             at = from + at - 1
             from = at + len(name)
             if (at > 1) then
-                if (index(word, line(at - 1:at - 1)) > 0) cycle
+                if (index(word_letters, line(at - 1:at - 1)) > 0) cycle
             end if
             sets_name = index(adjustl(line(from:)), '=') == 1
             if (sets_name) return

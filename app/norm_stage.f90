@@ -13,7 +13,8 @@ module faststrip_app_norm_stage
     use faststrip_normal_variational_grid, only: contact_grid_t
     use faststrip_normal_variational_rows, only: rows_as_strips, count_rows
     use faststrip_contact_methods, only: normal_strip
-    use faststrip_app_console, only: note
+    use faststrip_app_system, only: set_detail
+    use faststrip_app_system, only: set_detail
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal
@@ -24,8 +25,6 @@ module faststrip_app_norm_stage
 
     ! Strips to start from where their number is left to the solver.
     integer, parameter :: start_strips = 15
-    ! Elements of a grid from which its solution takes a while.
-    integer, parameter :: many_elements = 200000
 
     !> The method with the room it needs.
     type :: norm_stage_t
@@ -70,6 +69,7 @@ contains
         options%dx = methods%element_dx
         options%dy = methods%element_dy
         options%error_target = methods%error_target
+        options%most_elements = methods%max_elements
         if (methods%norm_start == 'strips') then
             call solve_start(stage, methods, gap, material, demand)
         else
@@ -110,12 +110,11 @@ contains
         if (is_error(status)) stage%start%workspace%strips%n = 0
     end subroutine solve_start
 
-    !> Say that a grid takes a while.
+    !> For who waits: which grid is being solved.
     subroutine tell_of_grid(grid)
         type(contact_grid_t), intent(in) :: grid
 
-        if (grid%nx*grid%ny < many_elements) return
-        call note('norm: ' // integer_text(grid%nx) // ' by ' // integer_text(grid%ny) &
+        call set_detail('norm: ' // integer_text(grid%nx) // ' by ' // integer_text(grid%ny) &
                   // ' elements of ' // trim(number_text(grid%dx)) // ' by ' &
                   // trim(number_text(grid%dy)) // ' mm')
     end subroutine tell_of_grid

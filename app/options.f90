@@ -1,19 +1,25 @@
 !> Options of a subcommand: one table serves for parsing and for the help text.
 module faststrip_app_options
     use faststrip_kinds, only: wp
-    use faststrip_text, only: parse_real, parse_integer
-    use faststrip_app_console, only: usage_error, say
+    use faststrip_status, only: number_text
+    use faststrip_text, only: parse_real, parse_integer, integer_text
+    use faststrip_app_console, only: usage_error, say, printable
+    use faststrip_app_files, only: take_input, take_output
+    use faststrip_app_system, only: start_signals
     implicit none
     private
 
     public :: command_t, option_t, argument_t
-    public :: command_argument, parse_command, given, option_text, option_number, option_integer
+    public :: command_argument, parse_command, given, option_text, option_number, &
+        option_integer, option_word, refuse_value
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
         character(len=20) :: name = ''        !! with its dashes
         character(len=16) :: value_name = ''  !! blank: a flag
-        character(len=160) :: help = ''       !! one line, or two parted by a line feed
+        character(len=200) :: help = ''       !! lines, parted by line feeds
+        logical :: reads = .false.            !! is its value a file, or folder, to read?
+        logical :: writes = .false.           !! is it a file to write?
         logical :: is_given = .false.         !! was it on the command line?
         character(len=:), allocatable :: text !! its value
     end type option_t
@@ -30,6 +36,7 @@ module faststrip_app_options
         character(len=:), allocatable :: about          !! what it does; lines end with a newline
         type(option_t), allocatable :: options(:)       !! what it knows
         type(argument_t), allocatable :: arguments(:)   !! what it was given besides
+        logical :: reads = .true.                       !! are these files to read?
     end type command_t
 
 contains
@@ -47,8 +54,8 @@ contains
     end function command_argument
 
     !> Read the command line from its second word on. Prints the help and ends the program if
-    !> asked for it; ends it with a usage error for an unknown option, a missing value or a wrong
-    !> number of arguments.
+    !> asked for it; ends it with a usage error for an unknown option, a missing value, a wrong
+    !> number of arguments, or an output that is an input or another output.
     subroutine parse_command(command, n_arguments, n_optional)
         type(command_t), intent(inout) :: command   !! options and arguments are filled in
         integer, intent(in) :: n_arguments          !! how many arguments it takes
@@ -80,7 +87,7 @@ contains
                 if (command%options(at)%name == word(:equals - 1)) exit
             end do
             if (at > size(command%options)) &
-                call usage_error('unknown option: ' // word, command%name)
+                call usage_error('unknown option: ' // word(:equals - 1), command%name)
             associate (option => command%options(at))
                 if (option%is_given) &
                     call usage_error('option given twice: ' // trim(option%name), command%name)
@@ -105,7 +112,45 @@ contains
         if (size(command%arguments) > n_most) &
             call usage_error('too many arguments: ' // command%arguments(n_most + 1)%text, &
                              command%name)
+        call start_signals(printable(working_on(command)))
+        call take_files(command)
     end subroutine parse_command
+
+    !> For the lines that tell of long work.
+    function working_on(command) result(text)
+        type(command_t), intent(in) :: command
+        character(len=:), allocatable :: text
+
+        integer :: i
+
+        text = command%name
+        do i = 1, size(command%arguments)
+            text = text // ' ' // command%arguments(i)%text
+        end do
+    end function working_on
+
+    !> Note what is read and written, and refuse to write what is read or written already.
+    subroutine take_files(command)
+        type(command_t), intent(in) :: command
+
+        integer :: i
+
+        do i = 1, size(command%options)
+            associate (option => command%options(i))
+                if (option%is_given .and. option%writes) &
+                    call take_output(option%text, trim(option%name))
+            end associate
+        end do
+        do i = 1, size(command%options)
+            associate (option => command%options(i))
+                if (option%is_given .and. option%reads) call take_input(option%text)
+            end associate
+        end do
+        if (.not. command%reads) return
+        do i = 1, size(command%arguments)
+            call take_input(command%arguments(i)%text)
+        end do
+    end subroutine take_files
 
     !> Done without a constructor, whose copy of the text the compiler does not give back.
     subroutine add_argument(command, word)
@@ -126,7 +171,7 @@ contains
         type(command_t), intent(in) :: command
 
         character(len=38) :: left
-        integer :: i, cut
+        integer :: i, from, cut
 
         call say('usage: faststrip ' // trim(command%name // ' ' // command%usage) &
                  // ' [options]')
@@ -134,13 +179,18 @@ contains
         call say(command%about)
         call say('options:')
         do i = 1, size(command%options)
-            left = trim(command%options(i)%name) // ' ' // command%options(i)%value_name
-            cut = index(command%options(i)%help, new_line('a'))
-            if (cut > 0) then
-                call say('  ' // left(:34) // command%options(i)%help(:cut - 1))
-                left = ''
-            end if
-            call say('  ' // left(:34) // trim(command%options(i)%help(cut + 1:)))
+            associate (help => command%options(i)%help)
+                left = trim(command%options(i)%name) // ' ' // command%options(i)%value_name
+                from = 1
+                do
+                    cut = index(help(from:), new_line('a'))
+                    if (cut == 0) exit
+                    call say('  ' // left(:34) // help(from:from + cut - 2))
+                    left = ''
+                    from = from + cut
+                end do
+                call say('  ' // left(:34) // trim(help(from:)))
+            end associate
         end do
         left = '--help'
         call say('  ' // left(:34) // 'this text')
@@ -165,35 +215,93 @@ contains
         if (given(command, name)) text = command%options(find(command, name))%text
     end function option_text
 
-    !> The option's value as a finite real number; a usage error if it is none.
-    real(wp) function option_number(command, name, default) result(value)
+    !> The option's value as a finite real number; a usage error if it is none, or too small.
+    real(wp) function option_number(command, name, default, above, least) result(value)
         type(command_t), intent(in) :: command !! a parsed command
         character(len=*), intent(in) :: name   !! with its dashes
         real(wp), intent(in) :: default        !! if it was not given
+        real(wp), intent(in), optional :: above !! it has to be larger
+        real(wp), intent(in), optional :: least !! it has to be at least that
 
+        character(len=:), allocatable :: what
         logical :: valid
 
         value = default
         if (.not. given(command, name)) return
         call parse_real(option_text(command, name, ''), value, valid)
-        if (.not. valid) call usage_error('not a finite number: ' // name // ' ' &
-                                          // option_text(command, name, ''), command%name)
+        what = 'a finite number'
+        if (present(above)) then
+            what = 'a number above ' // trim(number_text(above))
+            valid = valid .and. value > above
+        else if (present(least)) then
+            what = 'a number from ' // trim(number_text(least)) // ' on'
+            valid = valid .and. value >= least
+        end if
+        if (.not. valid) call refuse_value(command, name, what)
     end function option_number
 
-    !> The option's value as a whole number; a usage error if it is none.
-    integer function option_integer(command, name, default) result(value)
+    !> The option's value as a whole number; a usage error if it is none or out of range.
+    integer function option_integer(command, name, default, least, most, or) result(value)
         type(command_t), intent(in) :: command !! a parsed command
         character(len=*), intent(in) :: name   !! with its dashes
         integer, intent(in) :: default         !! if it was not given
+        integer, intent(in), optional :: least !! smallest allowed
+        integer, intent(in), optional :: most  !! largest allowed
+        character(len=*), intent(in), optional :: or !! what else may stand there, for the message
 
+        character(len=:), allocatable :: what
         logical :: valid
 
         value = default
         if (.not. given(command, name)) return
         call parse_integer(option_text(command, name, ''), value, valid)
-        if (.not. valid) call usage_error('not a whole number: ' // name // ' ' &
-                                          // option_text(command, name, ''), command%name)
+        what = 'a whole number'
+        if (present(least)) then
+            what = what // ' from ' // integer_text(least)
+            if (.not. present(most)) what = what // ' on'
+            valid = valid .and. value >= least
+        end if
+        if (present(most)) then
+            what = what // ' to ' // integer_text(most)
+            valid = valid .and. value <= most
+        end if
+        if (present(or)) what = what // ' or ' // or
+        if (.not. valid) call refuse_value(command, name, what)
     end function option_integer
+
+    !> The option's value, which has to be one of some words; a usage error if it is none.
+    function option_word(command, name, default, words) result(word)
+        type(command_t), intent(in) :: command   !! a parsed command
+        character(len=*), intent(in) :: name     !! with its dashes
+        character(len=*), intent(in) :: default  !! if it was not given
+        character(len=*), intent(in) :: words(:) !! the words
+        character(len=:), allocatable :: word
+
+        character(len=:), allocatable :: what
+        integer :: i
+
+        word = option_text(command, name, default)
+        if (.not. given(command, name) .or. any(words == word) .and. len_trim(word) > 0) return
+        what = trim(words(1))
+        do i = 2, size(words)
+            if (i == size(words)) then
+                what = what // ' or ' // trim(words(i))
+            else
+                what = what // ', ' // trim(words(i))
+            end if
+        end do
+        call refuse_value(command, name, what)
+    end function option_word
+
+    !> End the program because the value of an option is none that it takes.
+    subroutine refuse_value(command, name, what)
+        type(command_t), intent(in) :: command !! a parsed command
+        character(len=*), intent(in) :: name   !! of the option, with its dashes
+        character(len=*), intent(in) :: what   !! its value must be that
+
+        call usage_error(name // ' must be ' // what // ', got ''' &
+                         // option_text(command, name, '') // '''', command%name)
+    end subroutine refuse_value
 
     integer function find(command, name) result(at)
         type(command_t), intent(in) :: command

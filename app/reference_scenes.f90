@@ -13,7 +13,7 @@ module faststrip_app_reference_scenes
                                             set_norm_gap, norm_solve
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve
-    use faststrip_app_console, only: fail_on_error, note, put_origin, usage_error
+    use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal
@@ -49,12 +49,10 @@ contains
                         // new_line('a') // 'grids and extrapolated. CSV, one row a contact.' &
                         // new_line('a')
         command%options = [ &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
             option_t('--scenes', 'N', 'number of contacts, 1 to 10000 (default 240)')]
         call parse_command(command, 0)
-        last = option_integer(command, '--scenes', scenes_unless_told)
-        if (last < 1 .or. last > 10000) &
-            call usage_error('--scenes is not within 1 to 10000', command%name)
+        last = option_integer(command, '--scenes', scenes_unless_told, least=1, most=10000)
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)

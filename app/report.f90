@@ -11,7 +11,9 @@ module faststrip_app_report
     use faststrip_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
                              open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_app_clock, only: microseconds
-    use faststrip_app_console, only: fail, fail_on_error, note, put_origin, exit_bad_input
+    use faststrip_app_console, only: fail, fail_on_error, note, put_origin, usage_error, &
+                                     exit_bad_input
+    use faststrip_app_system, only: resolved
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
                                      command_argument
     implicit none
@@ -44,8 +46,10 @@ contains
         command%options = [ &
             option_t('-o', 'FOLDER', 'write there (default out/report)'), &
             option_t('--quick', '', 'only the runs that take a few seconds'), &
-            option_t('--runs', 'FILE', 'the runs (default reference/report_runs.csv)'), &
-            option_t('--manifest', 'FILE', 'the comparisons (default reference/comparisons.csv)'), &
+            option_t('--runs', 'FILE', 'the runs (default reference/report_runs.csv)', &
+                     reads=.true.), &
+            option_t('--manifest', 'FILE', 'the comparisons (default reference/comparisons.csv)', &
+                     reads=.true.), &
             option_t('--python', 'PROGRAM', 'Python with numpy and matplotlib (default python3)')]
         call parse_command(command, 0)
         folder = option_text(command, '-o', 'out/report')
@@ -58,6 +62,8 @@ contains
             call require_column(runs, trim(run_columns(i)), column(i), status)
             call fail_on_error(status)
         end do
+        call refuse_inputs_inside(folder, option_text(command, '--runs', ''))
+        call refuse_inputs_inside(folder, option_text(command, '--manifest', ''))
         ! An older report goes; a folder that is no report stays as it is.
         call shell('if [ -e ' // quoted(folder // '/data/runs.csv') // ' ]; then rm -rf ' &
                    // quoted(folder // '/data') // ' ' // quoted(folder // '/figures') &
@@ -71,6 +77,24 @@ contains
         if (code /= 0) call fail(exit_bad_input, 'the report has comparisons that fail, or could' &
                                  // ' not be written: ' // folder // '/report.md')
     end subroutine run_report
+
+    !> A list that stands where the older report goes would go with it.
+    subroutine refuse_inputs_inside(folder, path)
+        character(len=*), intent(in) :: folder !! of the report
+        character(len=*), intent(in) :: path   !! of the list; may be empty
+
+        character(len=:), allocatable :: inside
+        integer :: i
+        character(len=7), parameter :: parts(2) = ['data   ', 'figures']
+
+        if (len(path) == 0) return
+        do i = 1, size(parts)
+            inside = resolved(folder // '/' // trim(parts(i))) // '/'
+            if (len(inside) > 1 .and. index(resolved(path), inside) == 1) &
+                call usage_error('-o must not be a folder whose files are read, got ' // folder &
+                                 // ' with ' // path, 'report')
+        end do
+    end subroutine refuse_inputs_inside
 
     !> Do the runs that are wanted; how each ended and how long it took goes into runs.csv.
     subroutine do_runs(runs, column, folder, python, quick)

@@ -43,7 +43,8 @@ contains
             // ' row per shift' // new_line('a') // 'and method; one that fails gets its status' &
             // ' word and empty figures.' // new_line('a') // 'With --normal or --tangential' &
             // ' there is one row more, by these methods.' // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)'), &
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                                    writes=.true.), &
                            method_options]
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)

@@ -5,10 +5,10 @@ module faststrip_app_table
     use faststrip_text, only: parse_real, integer_text
     use faststrip_numerics_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_influence_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
-                                         refit_row, fit_lsq, fit_minimax_error, fit_author
+                                         refit_row, most_degree, fit_lsq, fit_minimax_error, fit_author
     use faststrip_app_console, only: fail_on_error, usage_error, progress
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
-                                     option_integer
+                                     option_integer, option_word, refuse_value
     use faststrip_app_errata, only: run_errata
     use faststrip_app_table_audit, only: write_audit
     use faststrip_app_table_curves, only: write_curves, write_degrees
@@ -77,11 +77,12 @@ contains
             option_t('--basis', 'NAME', 'monomial (default; powers of L) or chebyshev'), &
             option_t('--quantity', 'NAME', '10**E is half (default) or full integral'), &
             option_t('--format', 'NAME', 'csv (default), fortran, c or json'), &
-            option_t('-o', 'FILE', 'write the table or the audit there (default stdout)'), &
+            option_t('-o', 'FILE', 'write the table or the audit there (default stdout)', &
+                     writes=.true.), &
             option_t('--audit', '', 'check a table against the exact integral'), &
             option_t('--errata', '', 'the paper as printed and as it should be, side by side'), &
-            option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3'), &
-            option_t('--degrees', 'FILE', 'error of the fits for degrees 0 to 40')]
+            option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3', writes=.true.), &
+            option_t('--degrees', 'FILE', 'error of the fits for degrees 0 to 40', writes=.true.)]
     end subroutine describe
 
     subroutine run_audit(command)
@@ -148,9 +149,8 @@ contains
         character(len=:), allocatable :: format
         integer :: i
 
-        format = option_text(command, '--format', 'csv')
-        if (all(format /= [character(len=7) :: 'csv', 'fortran', 'c', 'json'])) &
-            call usage_error('unknown format: ' // format, command%name)
+        format = option_word(command, '--format', 'csv', &
+                             [character(len=7) :: 'csv', 'fortran', 'c', 'json'])
         if (format == 'fortran' .and. size(n) > most_array_rows) &
             call usage_error('more than ' // integer_text(most_array_rows) // ' rows are too ' // &
                              'many for --format fortran: ' // integer_text(size(n)), command%name)
@@ -169,22 +169,14 @@ contains
         type(command_t), intent(in) :: command
         type(refit_t), intent(out) :: spec
 
-        spec%degree = option_integer(command, '--degree', 6)
+        spec%degree = option_integer(command, '--degree', 6, least=0, most=most_degree)
         spec%fit = take_fit(command)
-        select case (option_text(command, '--basis', 'monomial'))
+        select case (option_word(command, '--basis', 'monomial', &
+                                 [character(len=9) :: 'monomial', 'chebyshev']))
         case ('monomial'); spec%basis = basis_monomial
         case ('chebyshev'); spec%basis = basis_chebyshev
-        case default
-            call usage_error('unknown basis: ' // option_text(command, '--basis', ''), &
-                             command%name)
         end select
-        select case (option_text(command, '--quantity', 'half'))
-        case ('half'); spec%half = .true.
-        case ('full'); spec%half = .false.
-        case default
-            call usage_error('unknown quantity: ' // option_text(command, '--quantity', ''), &
-                             command%name)
-        end select
+        spec%half = option_word(command, '--quantity', 'half', ['half', 'full']) == 'half'
         if (given(command, '--range')) call take_range(command, spec%l_min, spec%l_max)
     end subroutine take_spec
 
@@ -192,12 +184,11 @@ contains
         type(command_t), intent(in) :: command
 
         fit = fit_lsq
-        select case (option_text(command, '--fit', 'lsq'))
+        select case (option_word(command, '--fit', 'lsq', &
+                                 [character(len=7) :: 'lsq', 'minimax', 'author']))
         case ('lsq'); fit = fit_lsq
         case ('minimax'); fit = fit_minimax_error
         case ('author'); fit = fit_author
-        case default
-            call usage_error('unknown fit: ' // option_text(command, '--fit', ''), command%name)
         end select
     end function take_fit
 
@@ -220,7 +211,7 @@ contains
             call parse_real(text(colon + 1:), l_max, high_valid)
         end if
         if (.not. (low_valid .and. high_valid)) &
-            call usage_error('not a range LOW:HIGH: --range ' // text, command%name)
+            call refuse_value(command, '--range', 'LOW:HIGH, two numbers')
     end subroutine take_range
 
     subroutine take_distances(command, default, n)
@@ -231,6 +222,6 @@ contains
         character(len=:), allocatable :: problem
 
         call parse_distances(option_text(command, '--n', default), n, problem)
-        if (len(problem) > 0) call usage_error(problem, command%name)
+        if (len(problem) > 0) call refuse_value(command, '--n', problem)
     end subroutine take_distances
 end module faststrip_app_table

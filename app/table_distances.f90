@@ -36,15 +36,14 @@ contains
                     call parse_integer(part(colon + 1:), last, last_valid)
                 end if
                 if (.not. (first_valid .and. last_valid)) then
-                    problem = 'not a list of strip distances: --n ' // text
+                    problem = 'a list of strip distances such as 0:20 or 0,1,5'
                 else if (first < 0 .or. last > most_distance) then
-                    problem = 'strip distances go from 0 to ' // integer_text(most_distance) &
-                              // ': --n ' // text
+                    problem = 'strip distances from 0 to ' // integer_text(most_distance)
                 else if (last < first) then
-                    problem = 'strip distances have to increase: --n ' // text
+                    problem = 'strip distances that increase'
                 else if (size(n) > 0) then
                     if (first <= n(size(n))) &
-                        problem = 'strip distances have to increase: --n ' // text
+                        problem = 'strip distances that increase'
                 end if
             end associate
             if (len(problem) > 0) return

@@ -10,7 +10,7 @@ module faststrip_app_tang_stage
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve, &
                                                 release_tang, edges_of_norm, edges_sampled
     use faststrip_tangential_variational_pressures, only: sample_strips, sample_ellipse
-    use faststrip_app_console, only: note
+    use faststrip_app_system, only: set_detail
     use faststrip_app_methods, only: methods_t
     use faststrip_app_norm_stage, only: norm_stage_t
     use faststrip_app_normal_stage, only: normal_stage_t
@@ -19,10 +19,6 @@ module faststrip_app_tang_stage
 
     public :: tang_stage_t, release_tang_stage, solve_by_tang
 
-    ! Most elements, in contact or not, of a grid that is laid here.
-    integer, parameter :: most_elements = 4000000
-    ! Elements in contact from which a solution takes a while.
-    integer, parameter :: many_elements = 50000
 
     !> The method with the room it needs.
     type :: tang_stage_t
@@ -61,11 +57,11 @@ contains
         else if (methods%normal == 'hertz') then
             associate (hertz => normal%workspace%hertz)
                 call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, methods%element_dx, &
-                                    methods%element_dy, most_elements, stage%grid, status)
+                                    methods%element_dy, methods%max_elements, stage%grid, status)
             end associate
         else
             call sample_strips(normal%workspace%strips, methods%element_dx, methods%element_dy, &
-                               most_elements, stage%grid, status)
+                               methods%max_elements, stage%grid, status)
         end if
         if (is_error(status)) return
         call solve_on_grid(stage, stage%grid, edges_sampled, material, mu, creepage, with_field, &
@@ -90,8 +86,7 @@ contains
 
         options%edges = edges
         elements = count(grid%pressure > 0.0_wp)
-        if (elements >= many_elements) &
-            call note('tang: ' // integer_text(elements) // ' elements in contact')
+        call set_detail('tang: ' // integer_text(elements) // ' elements in contact')
         if (with_field) then
             if (elements > size(field%x)) call reserve_field(field, elements, status)
             call tang_solve(stage%workspace, grid, material, mu, creepage, options, tangential, &

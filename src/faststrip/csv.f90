@@ -7,20 +7,22 @@
 !> over. Line ends LF or CRLF, a byte order mark in front is tolerated.
 module faststrip_csv
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_null_ptr, &
-                                           c_ptr
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, &
+                                           c_null_ptr, c_ptr, c_size_t
     use, intrinsic :: iso_fortran_env, only: output_unit
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                 st_file_format, st_file_write
-    use faststrip_text, only: open_text, is_folder, read_line, trim_blanks, parse_real, &
-                              parse_integer, integer_text, set_place_status
+    use faststrip_text, only: text_file_t, open_text, close_text, is_folder, read_line, &
+                              trim_blanks, parse_real, parse_integer, integer_text, &
+                              set_place_status
     implicit none
     private
 
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
     public :: column_numbers
+    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
     public :: real_text
 
@@ -44,6 +46,7 @@ module faststrip_csv
     type :: csv_writer_t
         private
         character(len=:), allocatable :: path
+        character(len=:), allocatable :: final
         character(len=:), allocatable :: temporary
         character(len=:), allocatable :: row
         type(status_t) :: status
@@ -104,11 +107,55 @@ module faststrip_csv
             integer(c_int) :: code
         end function c_remove
 
+        function c_readlink(path, target, room) bind(c, name='readlink') result(length)
+            import :: c_char, c_size_t
+            character(kind=c_char), intent(in) :: path(*)
+            character(kind=c_char), intent(out) :: target(*)
+            integer(c_size_t), value :: room
+            integer(c_size_t) :: length
+        end function c_readlink
+
+        function c_gethostname(name, room) bind(c, name='gethostname') result(code)
+            import :: c_char, c_int, c_size_t
+            character(kind=c_char), intent(out) :: name(*)
+            integer(c_size_t), value :: room
+            integer(c_int) :: code
+        end function c_gethostname
+
+        ! The number of the C library's last error, by gfortran's own library.
+        function last_error() bind(c, name='_gfortran_ierrno_i4') result(number)
+            import :: c_int
+            integer(c_int) :: number
+        end function last_error
+
+        function c_strerror(number) bind(c, name='strerror') result(text)
+            import :: c_int, c_ptr
+            integer(c_int), value :: number
+            type(c_ptr) :: text
+        end function c_strerror
+
+        function c_strlen(text) bind(c, name='strlen') result(length)
+            import :: c_ptr, c_size_t
+            type(c_ptr), value :: text
+            integer(c_size_t) :: length
+        end function c_strlen
+
         function c_getpid() bind(c, name='getpid') result(number)
             import :: c_int
             integer(c_int) :: number
         end function c_getpid
     end interface
+
+    !> What is written goes to a file of the name `faststrip_HOST_PROCESS_NUMBER.tmp` beside its
+    !> place first; by host and process a file that a killed run left is told from that of a run
+    !> which goes on.
+    character(len=*), parameter :: temporary_ending = '.tmp'
+    !> The numbers go up to this.
+    integer, parameter :: most_temporaries = 8
+
+    ! More cells than this are no table, or have no end: 1 GB in memory.
+    integer, parameter :: most_cells = 25000000
+    integer, parameter :: longest_path = 4096
 
     character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
@@ -121,13 +168,13 @@ contains
         type(status_t), intent(out) :: status    !! `st_file_missing`; `st_file_format`: no
                                                  !! header, a name twice, a row with more or
                                                  !! fewer cells than names, an open quote
-        integer :: unit
+        type(text_file_t) :: file
 
         call empty_table(path, table)
-        call open_text(path, unit, status)
+        call open_text(path, file, status)
         if (status%code /= 0) return
-        call read_rows(unit, table, status)
-        close (unit)
+        call read_rows(file, table, status)
+        call close_text(file)
         if (status%code /= 0) call empty_table(path, table)
     end subroutine read_csv
 
@@ -139,40 +186,34 @@ contains
         allocate (table%names(0), table%cells(0, 0), table%line(0), table%comments(0))
     end subroutine empty_table
 
-    subroutine read_rows(unit, table, status)
-        integer, intent(in) :: unit
+    subroutine read_rows(file, table, status)
+        type(text_file_t), intent(inout) :: file
         type(csv_table_t), intent(inout) :: table
         type(status_t), intent(inout) :: status
         character(len=:), allocatable :: line
         type(csv_text_t), allocatable :: cells(:)
-        integer :: number, n_comments
-        logical :: found, failed, has_header
+        integer :: n_comments
+        logical :: found, has_header
 
-        number = 0
         n_comments = 0
         has_header = .false.
         do
-            call read_line(unit, line, found, failed)
-            if (failed) then
-                call set_place_status(status, st_file_format, 'cannot read on', '', &
-                                      table%file, number + 1)
-                return
-            end if
+            call read_line(file, line, found, status)
+            if (status%code /= 0) return
             if (.not. found) exit
-            number = number + 1
-            if (number == 1 .and. index(line, byte_order_mark) == 1) line = line(4:)
+            if (file%line == 1 .and. index(line, byte_order_mark) == 1) line = line(4:)
             line = trim_blanks(line)
             if (len(line) == 0) cycle
             if (line(1:1) == '#') then
                 call append_comment(table%comments, n_comments, trim_blanks(line(2:)))
                 cycle
             end if
-            call split_line(line, cells, table%file, number, status)
+            call split_line(line, cells, table%file, file%line, status)
             if (status%code /= 0) return
             if (has_header) then
-                call append_row(table, cells, number, status)
+                call append_row(table, cells, file%line, status)
             else
-                call take_header(table, cells, number, status)
+                call take_header(table, cells, file%line, status)
                 has_header = .true.
             end if
             if (status%code /= 0) return
@@ -234,13 +275,15 @@ contains
         integer :: n, room, i, j
 
         if (size(cells) /= table%n_columns) then
-            call set_place_status(status, st_file_format, 'row of ' // &
-                                  integer_text(size(cells)) // ' cells under ' // &
-                                  integer_text(table%n_columns) // ' column names', '', &
-                                  table%file, number)
+            call refuse_width(table, cells, number, status)
             return
         end if
         n = table%n_rows
+        if (real(n + 1, wp)*table%n_columns > most_cells) then
+            call set_place_status(status, st_file_format, 'a table of more than ' &
+                                  // integer_text(most_cells) // ' cells', '', table%file, number)
+            return
+        end if
         if (n == size(table%line)) then
             room = 2*n + 64
             allocate (more_cells(table%n_columns, room), more_lines(room))
@@ -258,6 +301,26 @@ contains
         table%line(n) = number
         table%n_rows = n
     end subroutine append_row
+
+    ! A row that is too short misses its last columns; one that is too long has cells without any.
+    subroutine refuse_width(table, cells, number, status)
+        type(csv_table_t), intent(in) :: table
+        type(csv_text_t), intent(in) :: cells(:)
+        integer, intent(in) :: number
+        type(status_t), intent(inout) :: status
+        character(len=:), allocatable :: what, value
+
+        what = 'row of ' // integer_text(size(cells)) // ' cells under ' &
+               // integer_text(table%n_columns) // ' column names'
+        if (size(cells) < table%n_columns) then
+            what = what // ', none for the column'
+            value = table%names(size(cells) + 1)%text
+        else
+            what = what // ', one beyond the column ' // table%names(table%n_columns)%text
+            value = "'" // cells(table%n_columns + 1)%text // "'"
+        end if
+        call set_place_status(status, st_file_format, what, value, table%file, number)
+    end subroutine refuse_width
 
     subroutine split_line(line, cells, file, number, status)
         character(len=*), intent(in) :: line
@@ -441,28 +504,84 @@ contains
         end do
     end subroutine column_numbers
 
+    !> The beginning of the names of files being written on this host.
+    function temporary_prefix() result(prefix)
+        character(len=:), allocatable :: prefix !! `faststrip_HOST_`
+        character(kind=c_char) :: name(longest_path)
+        integer :: i
+
+        prefix = 'faststrip_'
+        name = c_null_char
+        if (c_gethostname(name, int(size(name) - 1, c_size_t)) /= 0) return
+        do i = 1, size(name)
+            if (name(i) == c_null_char) exit
+            if (name(i) /= '/') prefix = prefix // name(i)
+        end do
+        prefix = prefix // '_'
+    end function temporary_prefix
+
+    !> Where a file is written until it is whole.
+    function temporary_name(path, number) result(name)
+        character(len=*), intent(in) :: path       !! name of the file
+        integer, intent(in) :: number              !! 1 to `most_temporaries`
+        character(len=:), allocatable :: name
+
+        name = final_path(path)
+        name = name(:index(name, '/', back=.true.)) // temporary_prefix() &
+               // integer_text(int(c_getpid())) // '_' // integer_text(number) // temporary_ending
+    end function temporary_name
+
+    ! Where symbolic links lead to, also to what is not there yet.
+    function final_path(path) result(final)
+        character(len=*), intent(in) :: path
+        character(len=:), allocatable :: final
+        integer, parameter :: most_links = 40
+        character(kind=c_char) :: target(longest_path)
+        character(len=:), allocatable :: text
+        integer :: i, step, length
+
+        final = path
+        do step = 1, most_links
+            length = int(c_readlink(final // c_null_char, target, size(target, kind=c_size_t)))
+            if (length < 1) return
+            allocate (character(len=length) :: text)
+            do i = 1, length
+                text(i:i) = target(i)
+            end do
+            if (text(1:1) /= '/') text = final(:index(final, '/', back=.true.)) // text
+            call move_alloc(text, final)
+        end do
+    end function final_path
+
     !> Start a file. What is written goes to a file of another name in the same folder until
     !> `close_csv` renames it: a run that fails leaves an older file as it was. `-` means the
-    !> standard output; what is no ordinary file (`/dev/...`) is written directly.
+    !> standard output; what is no ordinary file (`/dev/...`) is written directly. A symbolic link
+    !> is followed.
     subroutine open_csv(writer, path, status)
         type(csv_writer_t), intent(out) :: writer !! to be closed by `close_csv` or `abort_csv`
         character(len=*), intent(in) :: path      !! name of the file, or `-`
         type(status_t), intent(out) :: status     !! `st_file_write`
-        integer :: attempt
+        integer :: number
 
         call clear_status(status)
         writer%path = path
+        writer%final = path
+        if (index(path, '/dev/') /= 1) writer%final = final_path(path)
         writer%temporary = ''
         writer%row = ''
         if (path == '-') then
             flush (output_unit)
             writer%stream = c_fdopen(c_dup(1_c_int), 'w' // c_null_char)
-        else if (index(path, '/dev/') == 1) then
-            writer%stream = c_fopen(path // c_null_char, 'w' // c_null_char)
-        else if (len_trim(path) > 0 .and. .not. is_folder(path)) then
-            do attempt = 1, 100
-                writer%temporary = path // '.tmp' // integer_text(int(c_getpid())) // '_' // &
-                                   integer_text(attempt)
+        else if (index(writer%final, '/dev/') == 1) then
+            writer%stream = c_fopen(writer%final // c_null_char, 'w' // c_null_char)
+        else if (len_trim(path) == 0) then
+            call set_status(writer%status, st_file_write, 'cannot write a file without a name')
+        else if (is_folder(path)) then
+            call set_status(writer%status, st_file_write, 'cannot write the file: ' // path &
+                            // ': Is a directory')
+        else
+            do number = 1, most_temporaries
+                writer%temporary = temporary_name(path, number)
                 writer%stream = c_fopen(writer%temporary // c_null_char, 'wx' // c_null_char)
                 if (c_associated(writer%stream)) exit
             end do
@@ -580,8 +699,29 @@ contains
     subroutine note_failure(writer)
         type(csv_writer_t), intent(inout) :: writer
 
-        call set_status(writer%status, st_file_write, 'cannot write the file: ' // writer%path)
+        integer(c_int) :: number
+
+        number = last_error()
+        if (writer%status%code /= 0) return
+        call set_status(writer%status, st_file_write, 'cannot write the file: ' // writer%path &
+                        // ': ' // cause(number))
     end subroutine note_failure
+
+    ! The C library's words for an error.
+    function cause(number) result(words)
+        integer(c_int), intent(in) :: number
+        character(len=:), allocatable :: words
+        character(kind=c_char), pointer :: text(:)
+        type(c_ptr) :: place
+        integer :: i
+
+        place = c_strerror(number)
+        call c_f_pointer(place, text, [int(c_strlen(place))])
+        allocate (character(len=size(text)) :: words)
+        do i = 1, size(text)
+            words(i:i) = text(i)
+        end do
+    end function cause
 
     subroutine note_line_break(writer)
         type(csv_writer_t), intent(inout) :: writer
@@ -605,10 +745,10 @@ contains
         if (writer%n_cells > 0) call end_row(writer)
         code = c_fclose(writer%stream)
         writer%stream = c_null_ptr
-        if (code /= 0 .and. writer%status%code == 0) call note_failure(writer)
+        if (code /= 0) call note_failure(writer)
         if (len(writer%temporary) > 0) then
             if (writer%status%code == 0) then
-                code = c_rename(writer%temporary // c_null_char, writer%path // c_null_char)
+                code = c_rename(writer%temporary // c_null_char, writer%final // c_null_char)
                 if (code /= 0) call note_failure(writer)
             end if
             if (writer%status%code /= 0) code = c_remove(writer%temporary // c_null_char)

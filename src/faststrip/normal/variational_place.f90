@@ -8,6 +8,7 @@
 !> outermost.
 module faststrip_normal_variational_place
     use faststrip_kinds, only: wp, pi
+    use faststrip_text, only: integer_text
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_no_contact, st_out_of_range
     use faststrip_influence_closed, only: strip_influence_edges
@@ -137,9 +138,9 @@ contains
         columns = 2.0_wp*(aint(extent%half_length/dx) + 2.0_wp)
         rows = real(last, wp) - first + 1.0_wp
         if (columns*rows > most_elements) then
-            call set_status(status, st_out_of_range, 'the contact takes more elements than ' &
-                            //'allowed: '//trim(number_text(columns))//' by ' &
-                            //trim(number_text(rows)))
+            call set_status(status, st_out_of_range, 'the contact must take at most ' &
+                            //integer_text(most_elements)//' elements (max_elements), got ' &
+                            //trim(number_text(columns))//' by '//trim(number_text(rows)))
             return
         end if
         call size_grid(grid, nint(columns), last - first + 1)

@@ -7,8 +7,8 @@ module faststrip_profile_file
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_file_format, &
                                 st_not_increasing, st_too_few_points
-    use faststrip_text, only: open_text, read_line, trim_blanks, parse_real, integer_text, &
-                              lower_case, set_place_status
+    use faststrip_text, only: text_file_t, open_text, read_line, close_text, trim_blanks, &
+                              parse_real, integer_text, lower_case, set_place_status
     implicit none
     private
 
@@ -65,9 +65,9 @@ contains
                                                       !! `st_not_increasing`,
                                                       !! `st_too_few_points`
         type(points_t) :: points
+        type(text_file_t) :: file
         character(len=:), allocatable :: line
-        integer :: unit, number
-        logical :: found, failed, named
+        logical :: found, named
 
         allocate (y(0), z(0))
         call clear_status(status)
@@ -76,26 +76,22 @@ contains
                             integer_text(y_sense) // ', ' // integer_text(z_sense))
             return
         end if
-        call open_text(path, unit, status)
+        call open_text(path, file, status)
         if (is_error(status)) return
-        number = 0
         named = .false.
         do
-            call read_line(unit, line, found, failed)
-            if (failed) call set_place_status(status, st_file_format, 'cannot read on', '', &
-                                              path, number + 1)
-            if (failed .or. .not. found) exit
-            number = number + 1
+            call read_line(file, line, found, status)
+            if (is_error(status) .or. .not. found) exit
             line = without_comment(line, '#!')
             if (len(line) == 0) cycle
             if (points%n == 0 .and. .not. named) then
                 named = is_name_line(line)
                 if (named) cycle
             end if
-            call append_point(line, 2, path, number, points, status)
+            call append_point(line, 2, path, file%line, points, status)
             if (is_error(status)) exit
         end do
-        close (unit)
+        call close_text(file)
         if (.not. is_error(status)) call check_order(points, path, 1.0_wp, status)
         if (is_error(status)) return
         y = real(y_sense, wp)*points%y(:points%n)
@@ -166,21 +162,17 @@ contains
         type(simpack_t), intent(out) :: header
         type(points_t), intent(out) :: points
         type(status_t), intent(out) :: status
+        type(text_file_t) :: file
         character(len=:), allocatable :: line
-        integer :: unit, number
-        logical :: found, failed, in_points, has_points
+        logical :: found, in_points, has_points
 
-        call open_text(path, unit, status)
+        call open_text(path, file, status)
         if (is_error(status)) return
-        number = 0
         in_points = .false.
         has_points = .false.
         do
-            call read_line(unit, line, found, failed)
-            if (failed) call set_place_status(status, st_file_format, 'cannot read on', '', &
-                                              path, number + 1)
-            if (failed .or. .not. found) exit
-            number = number + 1
+            call read_line(file, line, found, status)
+            if (is_error(status) .or. .not. found) exit
             line = without_comment(line, '!')
             if (len(line) == 0) cycle
             select case (lower_case(line))
@@ -189,21 +181,21 @@ contains
             case ('point.begin')
                 if (has_points) call set_place_status(status, st_file_format, &
                                                       'a second list of points', line, path, &
-                                                      number)
+                                                      file%line)
                 in_points = .true.
                 has_points = .true.
             case ('point.end')
                 in_points = .false.
             case default
                 if (in_points) then
-                    call append_point(line, 3, path, number, points, status)
+                    call append_point(line, 3, path, file%line, points, status)
                 else
-                    call take_key(line, path, number, header, status)
+                    call take_key(line, path, file%line, header, status)
                 end if
             end select
             if (is_error(status)) exit
         end do
-        close (unit)
+        call close_text(file)
         if (is_error(status)) return
         if (in_points .or. .not. has_points) then
             call set_place_status(status, st_file_format, &

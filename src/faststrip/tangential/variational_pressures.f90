@@ -2,8 +2,9 @@
 module faststrip_tangential_variational_pressures
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, st_bad_argument, &
-                                st_no_contact, st_not_finite, st_out_of_range
+    use faststrip_text, only: integer_text
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                st_bad_argument, st_no_contact, st_not_finite, st_out_of_range
     use faststrip_normal_patch_ellipse, only: check_strips
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y
@@ -99,7 +100,9 @@ contains
         rows = max((1.0_wp - rounding)*((y_right - y_left)/dy), 1.0_wp)
         ! What lies beside the last whole element may hold the middle of another one.
         if ((columns + 1.0_wp)*(rows + 1.0_wp) > most_elements) then
-            call set_status(status, st_out_of_range, 'the grid has more elements than allowed')
+            call set_status(status, st_out_of_range, 'the grid must have at most ' &
+                            // integer_text(most_elements) // ' elements (max_elements), got ' &
+                            // trim(number_text(columns)) // ' by ' // trim(number_text(rows)))
             return
         end if
         call size_grid(grid, ceiling(columns), ceiling(rows))

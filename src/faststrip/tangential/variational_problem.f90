@@ -28,6 +28,7 @@
 !> **Shift.** s = w + u, the rigid shift and the displacement: symmetric, no nodes, no edges.
 module faststrip_tangential_variational_problem
     use faststrip_kinds, only: wp, pi
+    use faststrip_text, only: integer_text
     use faststrip_status, only: status_t, set_status, clear_status, is_error, st_no_contact, &
                                 st_out_of_range
     use faststrip_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
@@ -117,7 +118,8 @@ contains
             call set_status(status, st_no_contact, 'no element is in contact')
             return
         else if (n > most_elements) then
-            call set_status(status, st_out_of_range, 'more elements in contact than allowed')
+            call set_status(status, st_out_of_range, 'at most ' // integer_text(most_elements) &
+                            // ' elements may be in contact for rolling, got ' // integer_text(n))
             return
         end if
         first = [grid%nx, grid%ny]

@@ -1,0 +1,280 @@
+/* What the program needs of the operating system and Fortran does not have: which file a path
+ * means, and signals. Everything that a signal handler calls here is safe there. */
+#define _XOPEN_SOURCE 700
+#include <ctype.h>
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { kind_none, kind_file, kind_folder, kind_pipe, kind_other };
+enum { most_temporaries = 64, longest_text = 200 };
+
+static char temporaries[most_temporaries][PATH_MAX];
+static volatile sig_atomic_t n_temporaries;
+
+/* Two texts of what is being done, so that one is whole while the other is written. */
+static char doing[2][longest_text];
+static volatile sig_atomic_t doing_now;
+static volatile sig_atomic_t told, seconds;
+
+/* The kind of what a path leads to, and the numbers that tell it from all other files. */
+int faststrip_identify(const char *path, long long identity[2])
+{
+    struct stat about;
+
+    identity[0] = identity[1] = 0;
+    if (stat(path, &about) != 0)
+        return kind_none;
+    identity[0] = (long long)about.st_dev;
+    identity[1] = (long long)about.st_ino;
+    if (S_ISREG(about.st_mode))
+        return kind_file;
+    if (S_ISDIR(about.st_mode))
+        return kind_folder;
+    return S_ISFIFO(about.st_mode) ? kind_pipe : kind_other;
+}
+
+/* A path without links and dots; what does not exist yet keeps its name in its folder. Returns
+ * the length, 0 if there is no such path. */
+int faststrip_resolve(const char *path, char *out, int room)
+{
+    char full[PATH_MAX], folder[PATH_MAX], name[PATH_MAX], link[PATH_MAX];
+    const char *slash;
+    ssize_t n;
+    int step;
+
+    if (room < PATH_MAX || strlen(path) >= sizeof name)
+        return 0;
+    if (realpath(path, out))
+        return (int)strlen(out);
+    strcpy(full, path);
+    for (step = 0; step < 40; step++) {
+        slash = strrchr(full, '/');
+        strcpy(name, slash ? slash + 1 : full);
+        strcpy(folder, slash ? full : ".");
+        if (slash)
+            folder[slash - full + 1] = '\0';
+        if (!realpath(folder, out) || strlen(out) + strlen(name) + 2 > PATH_MAX)
+            return 0;
+        strcat(out, "/");
+        strcat(out, name);
+        n = readlink(out, link, sizeof link - 1);
+        if (n < 0)
+            return (int)strlen(out);
+        link[n] = '\0';
+        if (link[0] == '/') {
+            strcpy(full, link);
+        } else {
+            if (strlen(out) - strlen(name) + strlen(link) >= sizeof full)
+                return 0;
+            strcpy(full, out);
+            strcpy(full + strlen(full) - strlen(name), link);
+        }
+    }
+    return 0;
+}
+
+/* Does somebody write into a named pipe within some seconds? It stays open, or what was written
+ * would be lost. */
+int faststrip_is_fed(const char *path, int wait)
+{
+    struct pollfd pipe = { open(path, O_RDONLY | O_NONBLOCK), POLLIN, 0 };
+    struct timespec nap = { 0, 50000000 };
+    int i, ready;
+
+    if (pipe.fd < 0)
+        return 1;
+    for (i = 0; i < 20 * wait; i++) {
+        ready = poll(&pipe, 1, 0);
+        if (ready > 0 && pipe.revents & (POLLIN | POLLHUP))
+            return 1;
+        nanosleep(&nap, NULL);
+    }
+    return 0;
+}
+
+/* Remember a file that has to go if the program ends before its time. */
+void faststrip_keep_in_mind(const char *path)
+{
+    if (n_temporaries >= most_temporaries || strlen(path) >= PATH_MAX)
+        return;
+    strcpy(temporaries[n_temporaries], path);
+    n_temporaries++;
+}
+
+static void remove_temporaries(void)
+{
+    int i;
+
+    for (i = 0; i < n_temporaries; i++)
+        unlink(temporaries[i]);
+}
+
+/* Remove what killed runs on this host left in a folder: files called prefix, number of the
+ * process, underscore, number, ending. */
+void faststrip_remove_leftovers(const char *folder, const char *prefix, const char *ending)
+{
+    DIR *stream = opendir(folder);
+    struct dirent *entry;
+    char path[2 * PATH_MAX], *end;
+    const char *name;
+    long process;
+
+    if (!stream)
+        return;
+    while ((entry = readdir(stream))) {
+        name = entry->d_name;
+        if (strncmp(name, prefix, strlen(prefix)) != 0)
+            continue;
+        name += strlen(prefix);
+        if (!isdigit((unsigned char)*name))
+            continue;
+        process = strtol(name, &end, 10);
+        if (process < 1 || process > INT_MAX || *end != '_' || !isdigit((unsigned char)end[1]))
+            continue;
+        strtol(end + 1, &end, 10);
+        if (strcmp(end, ending) != 0)
+            continue;
+        if (process != getpid() && (kill((pid_t)process, 0) == 0 || errno != ESRCH))
+            continue;
+        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < (int)sizeof path)
+            unlink(path);
+    }
+    closedir(stream);
+}
+
+static void tell(const char *text)
+{
+    ssize_t n = write(STDERR_FILENO, text, strlen(text));
+
+    (void)n;
+}
+
+static void append(char *line, size_t room, const char *text)
+{
+    size_t n = strlen(line);
+
+    while (*text && n + 1 < room)
+        line[n++] = *text++;
+    line[n] = '\0';
+}
+
+static void append_number(char *line, size_t room, int number)
+{
+    char digits[12];
+    int i = sizeof digits - 1;
+
+    digits[i] = '\0';
+    do
+        digits[--i] = (char)('0' + number % 10);
+    while ((number /= 10) > 0);
+    append(line, room, digits + i);
+}
+
+struct known_signal {
+    int number;
+    const char *name, *why;
+};
+
+static const char by_fault[] = ", a fault of the program: please report it";
+static const struct known_signal known[] = {
+    { SIGHUP, "HUP", "" },
+    { SIGINT, "INT", "" },
+    { SIGTERM, "TERM", "" },
+    { SIGPIPE, "PIPE", ": nobody reads the output" },
+    { SIGUSR1, "USR1", "" },
+    { SIGUSR2, "USR2", "" },
+    { SIGQUIT, "QUIT", "" },
+    { SIGXCPU, "XCPU", ": the shell's limit of processor time (ulimit -t)" },
+    { SIGXFSZ, "XFSZ", ": the shell's limit of file sizes (ulimit -f)" },
+    { SIGSEGV, "SEGV", by_fault },
+    { SIGBUS, "BUS", by_fault },
+    { SIGFPE, "FPE", by_fault },
+    { SIGILL, "ILL", by_fault },
+    { SIGABRT, "ABRT", by_fault },
+};
+enum { n_known = sizeof known / sizeof known[0], first_not_ignored = 6 };
+
+static void end_by_signal(int number)
+{
+    char line[longest_text] = "faststrip: ended by signal ";
+    int i;
+
+    remove_temporaries();
+    for (i = 0; i < n_known && known[i].number != number; i++)
+        ;
+    append(line, sizeof line, i < n_known ? known[i].name : "?");
+    append(line, sizeof line, " (");
+    append_number(line, sizeof line, number);
+    append(line, sizeof line, ")");
+    append(line, sizeof line, i < n_known ? known[i].why : "");
+    append(line, sizeof line, "\n");
+    tell(line);
+    _exit(128 + number);
+}
+
+/* Once a second: what is being done, if that is news; else ever more rarely. */
+static void tell_progress(int number)
+{
+    char line[longest_text + 20] = "faststrip: ";
+    int now = doing_now, saved = errno;
+
+    (void)number;
+    seconds++;
+    if (now != told || (seconds & (seconds - 1)) == 0) {
+        append(line, sizeof line, doing[now & 1]);
+        append(line, sizeof line, ", ");
+        append_number(line, sizeof line, seconds);
+        append(line, sizeof line, " s\n");
+        tell(line);
+        told = now;
+    }
+    errno = saved;
+}
+
+/* What the lines on stderr say that long work is at. */
+void faststrip_set_progress(const char *text)
+{
+    strncpy(doing[(doing_now + 1) & 1], text, longest_text - 1);
+    doing_now++;
+}
+
+/* Handle the signals that end a program, and tell of long work from its first second on. */
+void faststrip_start_signals(const char *text)
+{
+    static char stack[65536];
+    stack_t other = { .ss_sp = stack, .ss_size = sizeof stack };
+    struct sigaction action, old;
+    struct itimerval second = { { 1, 0 }, { 1, 0 } };
+    int i;
+
+    faststrip_set_progress(text);
+    atexit(remove_temporaries);
+    sigaltstack(&other, NULL);
+    memset(&action, 0, sizeof action);
+    sigfillset(&action.sa_mask);
+    action.sa_handler = end_by_signal;
+    action.sa_flags = SA_ONSTACK;
+    for (i = 0; i < n_known; i++) {
+        /* What nohup or the shell made us ignore stays ignored. */
+        if (i < first_not_ignored && sigaction(known[i].number, NULL, &old) == 0
+            && old.sa_handler == SIG_IGN)
+            continue;
+        sigaction(known[i].number, &action, NULL);
+    }
+    action.sa_handler = tell_progress;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &action, NULL);
+    told = doing_now;
+    setitimer(ITIMER_REAL, &second, NULL);
+}
