@@ -68,7 +68,7 @@ contains
                                      least=1)
         most_elements = option_integer(command, '--most-elements', bench_reference_most_elements, &
                                        least=1)
-        seconds = option_number(command, '--seconds', 6.0_wp, least=0.0_wp)
+        seconds = option_number(command, '--seconds', 6.0_wp, least=0)
         select case (what)
         case ('integral')
             call allow([character(len=name_length) :: '--rounds'])

@@ -1,6 +1,6 @@
 !> What the program says to people: errors and notes on stderr, help and version on stdout.
 module faststrip_app_console
-    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+    use, intrinsic :: iso_fortran_env, only: error_unit
     use faststrip_status, only: status_t, is_error, st_not_finite, st_not_increasing, &
                                 st_too_few_points, st_no_contact, st_no_hertz_ellipse, &
                                 st_no_convergence, st_out_of_range, st_no_finite_patch, &
@@ -9,7 +9,7 @@ module faststrip_app_console
     use faststrip_text, only: integer_text, lower_case
     use faststrip_app_machine, only: compiler_name, compiler_flags
     use faststrip_app_revision, only: revision
-    use faststrip_app_system, only: set_progress
+    use faststrip_app_system, only: set_progress, is_printed
     implicit none
     private
 
@@ -149,7 +149,7 @@ contains
     subroutine say(text)
         character(len=*), intent(in) :: text !! one line
 
-        write (output_unit, '(a)') text
+        if (.not. is_printed(text)) call fail(exit_bad_input, 'cannot write to the standard output')
     end subroutine say
 
     !> How far long work is, for the lines that `start_signals` sends to stderr.

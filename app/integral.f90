@@ -61,8 +61,8 @@ contains
         else
             if (.not. (given(command, '--n') .and. given(command, '--b'))) &
                 call usage_error('--n and --b, or --input, are needed', command%name)
-            n = [option_integer(command, '--n', 0, least=0)]
-            b = [option_number(command, '--b', 0.0_wp, above=0.0_wp)]
+            n = [option_integer(command, '--n', 0)]
+            b = [option_number(command, '--b', 0.0_wp)]
             x = [option_number(command, '--x', 0.0_wp)]
         end if
         allocate (value(size(n)))
@@ -115,9 +115,9 @@ contains
         value = 0.0_wp
         call clear_status(status)
         if (n < 0) then
-            call set_status(status, st_bad_argument, 'n is negative: ' // integer_text(n))
+            call set_status(status, st_bad_argument, 'n must not be negative, got ' // integer_text(n))
         else if (b <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'b is not positive: ' // number_text(b))
+            call set_status(status, st_bad_argument, 'b must be above 0, got ' // number_text(b))
         else
             select case (method)
             case ('closed')

@@ -1,6 +1,5 @@
 !> The options by which several subcommands choose methods and resolutions.
 module faststrip_app_method_options
-    use faststrip_kinds, only: wp
     use faststrip_normal_strip, only: strips_auto
     use faststrip_app_options, only: command_t, option_t, option_text, option_integer, &
                                      option_number, option_word
@@ -59,15 +58,15 @@ contains
         methods%max_elements = option_integer(command, '--max-elements', methods%max_elements, &
                                               least=1, most=most_elements)
         methods%smoothing_um = option_number(command, '--smooth', methods%smoothing_um, &
-                                             least=0.0_wp)
-        methods%tolerance = option_number(command, '--tolerance', methods%tolerance, above=0.0_wp)
+                                             least=0)
+        methods%tolerance = option_number(command, '--tolerance', methods%tolerance, above=0)
         methods%target = option_word(command, '--target', trim(methods%target), targets)
         methods%element_dx = option_number(command, '--element-dx', methods%element_dx, &
-                                           above=0.0_wp)
+                                           above=0)
         methods%element_dy = option_number(command, '--element-dy', methods%element_dy, &
-                                           above=0.0_wp)
+                                           above=0)
         methods%error_target = option_number(command, '--error-target', methods%error_target, &
-                                             least=0.0_wp)
+                                             least=0)
         methods%norm_start = option_word(command, '--norm-start', trim(methods%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

@@ -105,6 +105,8 @@ contains
             else if (open_at == 0) then
                 call refuse_line(content, i, 'text outside any group', text)
             end if
+            if (first_outside_quotes(text, ';') > 0) &
+                call refuse_line(content, i, 'must not hold a semicolon', text)
             slash = slash_at(text)
             if (slash > 0 .and. slash < len(text)) &
                 call refuse_line(content, i, 'text after the slash that closes the group', text)

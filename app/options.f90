@@ -1,7 +1,6 @@
 !> Options of a subcommand: one table serves for parsing and for the help text.
 module faststrip_app_options
     use faststrip_kinds, only: wp
-    use faststrip_status, only: number_text
     use faststrip_text, only: parse_real, parse_integer, integer_text
     use faststrip_app_console, only: usage_error, say, printable
     use faststrip_app_files, only: take_input, take_output
@@ -87,7 +86,7 @@ contains
                 if (command%options(at)%name == word(:equals - 1)) exit
             end do
             if (at > size(command%options)) &
-                call usage_error('unknown option: ' // word(:equals - 1), command%name)
+                call usage_error('unknown option: ' // word, command%name)
             associate (option => command%options(at))
                 if (option%is_given) &
                     call usage_error('option given twice: ' // trim(option%name), command%name)
@@ -220,8 +219,8 @@ contains
         type(command_t), intent(in) :: command !! a parsed command
         character(len=*), intent(in) :: name   !! with its dashes
         real(wp), intent(in) :: default        !! if it was not given
-        real(wp), intent(in), optional :: above !! it has to be larger
-        real(wp), intent(in), optional :: least !! it has to be at least that
+        integer, intent(in), optional :: above !! it has to be larger
+        integer, intent(in), optional :: least !! it has to be at least that
 
         character(len=:), allocatable :: what
         logical :: valid
@@ -231,10 +230,10 @@ contains
         call parse_real(option_text(command, name, ''), value, valid)
         what = 'a finite number'
         if (present(above)) then
-            what = 'a number above ' // trim(number_text(above))
+            what = 'a number above ' // integer_text(above)
             valid = valid .and. value > above
         else if (present(least)) then
-            what = 'a number from ' // trim(number_text(least)) // ' on'
+            what = 'a number from ' // integer_text(least) // ' on'
             valid = valid .and. value >= least
         end if
         if (.not. valid) call refuse_value(command, name, what)

@@ -160,6 +160,12 @@ static void tell(const char *text)
     (void)n;
 }
 
+/* A line to the standard output; not 0 if it cannot be written. */
+int faststrip_print(const char *line)
+{
+    return puts(line) == EOF || fflush(stdout) == EOF;
+}
+
 static void append(char *line, size_t room, const char *text)
 {
     size_t n = strlen(line);

@@ -5,7 +5,7 @@ module faststrip_app_system
     private
 
     public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, remove_leftovers
-    public :: start_signals, set_progress, set_detail
+    public :: start_signals, set_progress, set_detail, is_printed
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     ! Kinds of files, as `system.c` numbers them.
@@ -64,6 +64,12 @@ module faststrip_app_system
             import :: c_char
             character(kind=c_char), intent(in) :: text(*)
         end subroutine c_start_signals
+
+        function c_print(line) bind(c, name='faststrip_print') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: line(*)
+            integer(c_int) :: code
+        end function c_print
 
         subroutine c_set_progress(text) bind(c, name='faststrip_set_progress')
             import :: c_char
@@ -140,6 +146,13 @@ contains
         present_work = text
         call c_start_signals(text // c_null_char)
     end subroutine start_signals
+
+    !> Print a line on the standard output; was it written?
+    logical function is_printed(line)
+        character(len=*), intent(in) :: line !! without its end
+
+        is_printed = c_print(line // c_null_char) == 0
+    end function is_printed
 
     !> Say what is being done; it is told only if it takes long.
     subroutine set_progress(text)

@@ -5,7 +5,7 @@ module faststrip_app_table
     use faststrip_text, only: parse_real, integer_text
     use faststrip_numerics_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_influence_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
-                                         refit_row, most_degree, fit_lsq, fit_minimax_error, fit_author
+                                         refit_row, fit_lsq, fit_minimax_error, fit_author
     use faststrip_app_console, only: fail_on_error, usage_error, progress
     use faststrip_app_options, only: command_t, option_t, parse_command, given, option_text, &
                                      option_integer, option_word, refuse_value
@@ -169,7 +169,7 @@ contains
         type(command_t), intent(in) :: command
         type(refit_t), intent(out) :: spec
 
-        spec%degree = option_integer(command, '--degree', 6, least=0, most=most_degree)
+        spec%degree = option_integer(command, '--degree', 6)
         spec%fit = take_fit(command)
         select case (option_word(command, '--basis', 'monomial', &
                                  [character(len=9) :: 'monomial', 'chebyshev']))

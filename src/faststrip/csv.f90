@@ -699,12 +699,15 @@ contains
     subroutine note_failure(writer)
         type(csv_writer_t), intent(inout) :: writer
 
+        character(len=:), allocatable :: name
         integer(c_int) :: number
 
         number = last_error()
         if (writer%status%code /= 0) return
-        call set_status(writer%status, st_file_write, 'cannot write the file: ' // writer%path &
-                        // ': ' // cause(number))
+        name = writer%path
+        if (name == '-') name = 'standard output'
+        call set_status(writer%status, st_file_write, 'cannot write the file: ' // name // ': ' &
+                        // cause(number))
     end subroutine note_failure
 
     ! The C library's words for an error.

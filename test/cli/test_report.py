@@ -20,7 +20,7 @@ class Report(ProgramTest):
             [str(PROGRAM), "report", "--runs", str(self.folder / "runs.csv"), "--manifest",
              str(self.folder / "manifest.csv"), "--python", sys.executable, "-o",
              str(self.folder / "a report"), *words],
-            cwd=ROOT, encoding="utf-8", capture_output=True, timeout=60, check=False,
+            cwd=ROOT, encoding="utf-8", capture_output=True, timeout=600, check=False,
             env=os.environ | {"MPLBACKEND": "Agg"},
         )
 

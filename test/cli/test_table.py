@@ -9,6 +9,8 @@ import subprocess
 import tempfile
 import unittest
 
+from cli_program import without_progress
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "bin" / "faststrip"
 PUBLISHED = ROOT / "reference" / "paper" / "table1.csv"
@@ -59,16 +61,18 @@ int main(void)
 
 
 def call(*words, folder=ROOT):
-    return subprocess.run(
+    done = subprocess.run(
         [str(word) for word in words],
         cwd=folder,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        timeout=120,
+        timeout=1200,
         check=False,
     )
+    done.stderr = without_progress(done.stderr)
+    return done
 
 
 def table(*options):
@@ -267,7 +271,7 @@ class Audited(unittest.TestCase):
         result = table("--audit", "-o", self.path)
         self.assertEqual(result.returncode, 0)
         # A slow machine may see a line of progress.
-        self.assertRegex(result.stderr, r"^(faststrip: row \d+ of \d+\n)*$")
+        self.assertEqual(result.stderr, "")
         self.assertIn("no misprint is demonstrable", result.stdout)
         self.assertEqual(len(rows_of(self.path.read_text())), 21)
 
@@ -428,7 +432,7 @@ class Refused(unittest.TestCase):
         self.refuse(2, [":1"], "--range", ":1")
         self.refuse(1, ["-2:1"], "--range", "-1:1", "--fit", "author")
         for text in ("", "a", "1:", "5:3", "1,1", "3,2", "0:10001", "-1", "1,,2", "1:2:3", "0,"):
-            self.refuse(2, [f"--n {text}"], "--n", text)
+            self.refuse(2, ["--n must be", f"'{text}'"], "--n", text)
         self.refuse(2, ["spline"], "--basis", "spline")
         self.refuse(2, ["lasso"], "--fit", "lasso")
         self.refuse(2, ["double"], "--quantity", "double")

@@ -26,7 +26,7 @@ class Installation:
         self.header = self.prefix / "include" / "faststrip.h"
         done = subprocess.run([ROOT / "run", "install", "--prefix", self.prefix], cwd=folder,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=600, check=False)
+                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=6000, check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stdout)
 
@@ -68,7 +68,7 @@ class HostTest(unittest.TestCase):
         """Run a line of shell that has to succeed; what it printed."""
         done = subprocess.run(["sh", "-euc", line], cwd=cls.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
-                              env={**cls.installed.environment, **environment}, timeout=600,
+                              env={**cls.installed.environment, **environment}, timeout=6000,
                               check=False)
         if done.returncode != 0:
             raise AssertionError(f"{line}: {done.returncode}\n{done.stdout}")

@@ -201,7 +201,7 @@ class CommandLine(unittest.TestCase):
     def run_program(self, command, *arguments):
         return subprocess.run([sys.executable, str(PLOTS / f"{command}.py"), *arguments],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                              timeout=120, check=False)
+                              timeout=1200, check=False)
 
     def test_error_is_one_line_and_exit_1(self):
         result = self.run_program("sweep", "--sweep", "not/there.csv")

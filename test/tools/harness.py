@@ -22,7 +22,7 @@ def run(command, folder):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        timeout=300,
+        timeout=3000,
         check=False,
     )
 

@@ -233,7 +233,7 @@ class Solver(unittest.TestCase):
     @classmethod
     def command(cls, *words, **environment):
         done = subprocess.run(words, cwd=cls.folder, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=300,
+                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=3000,
                               env=dict(os.environ, **environment), check=False)
         if done.returncode != 0:
             raise AssertionError(f"{' '.join(words)}: {done.returncode}\n{done.stdout}")

@@ -70,7 +70,7 @@ class Project(unittest.TestCase):
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            timeout=300,
+            timeout=3000,
             check=False,
         )
 

@@ -1,0 +1,95 @@
+"""A run that is ended leaves the old output, no other file, and one line."""
+
+import resource
+import signal
+import subprocess
+import time
+
+from cli_program import (BATCH_COLUMNS, PATIENCE, PROGRAM, ProgramTest, gap_case, gap_text,
+                         parabola, without_progress)
+
+ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
+
+
+class Signals(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("gap.csv", gap_text(parabola, n=601))
+        self.write("case.nml", gap_case())
+        self.write("cases.csv", "\n".join([BATCH_COLUMNS] + [ROW] * 100000) + "\n")
+        self.write("out.csv", "old\n")
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def start(self, setup=None):
+        """A batch that takes long, once it has begun to write."""
+        before = self.names()
+        process = subprocess.Popen([PROGRAM, "batch", "cases.csv", "-o", "out.csv"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   encoding="utf-8", preexec_fn=setup)
+        while process.poll() is None and not any(
+                name.endswith(".tmp") and name not in before for name in self.names()):
+            time.sleep(0.01)
+        return process
+
+    def ended(self, process):
+        out, err = process.communicate(timeout=PATIENCE)
+        self.assertEqual(out, "")
+        self.assertEqual((self.folder / "out.csv").read_text(encoding="utf-8"), "old\n")
+        return process.returncode, without_progress(err)
+
+    def test_signals(self):
+        names = self.names()
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT,
+                       signal.SIGXFSZ, signal.SIGPIPE, signal.SIGXCPU, signal.SIGUSR1):
+            process = self.start()
+            process.send_signal(number)
+            code, said = self.ended(process)
+            self.assertEqual(code, 128 + number)
+            self.assertRegex(said, rf"\Afaststrip: [^\n]* {number.name[3:]} [^\n]*\n\Z")
+            self.assertEqual(self.names(), names)
+
+    def test_a_limit_of_file_sizes(self):
+        names = self.names()
+        process = self.start(lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000)))
+        code, said = self.ended(process)
+        self.assertEqual(code, 128 + signal.SIGXFSZ)
+        self.assertRegex(said, r"\Afaststrip: [^\n]*ulimit -f[^\n]*\n\Z")
+        self.assertEqual(self.names(), names)
+
+    def test_what_was_made_to_be_ignored(self):
+        process = self.start(lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.send_signal(signal.SIGHUP)
+        time.sleep(0.2)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(self.ended(process)[0], 128 + signal.SIGTERM)
+
+    def test_leftovers(self):
+        names = self.names()
+        killed = self.start()
+        killed.kill()
+        self.ended(killed)
+        left = [name for name in self.names() if name not in names]
+        self.assertEqual(len(left), 1)
+        going_on = self.start()
+        self.assertNotIn(left[0], self.names())
+        own = [name for name in self.names() if name not in names]
+        self.write("notes_1.tmp", "not ours\n")
+        self.good("contact", "case.nml", "-o", "other.csv")
+        for name in (*own, "notes_1.tmp"):
+            self.assertIn(name, self.names())
+        going_on.terminate()
+        self.ended(going_on)
+        self.assertEqual(self.names(), sorted([*names, "notes_1.tmp", "other.csv"]))
+
+    def test_progress(self):
+        process = self.start()
+        said = process.stderr.readline()
+        while "contacts" not in said:
+            self.assertEqual(without_progress(said), "")
+            said = process.stderr.readline()
+        self.assertRegex(said, r"\Afaststrip: contacts \d+ of 100000, \d+ s\n\Z")
+        process.terminate()
+        self.ended(process)
