@@ -556,6 +556,7 @@ contains
 
         call need_finite(content, group, name, value)
         if (value <= -1.0_wp .or. value > 0.5_wp) &
-            call refuse(content, group, name, 'must be above -1 and at most 0.5', number_text(value))
+            call refuse(content, group, name, 'must be above -1 and at most 0.5', &
+                        number_text(value))
     end subroutine need_poisson
 end module faststrip_app_case_file

@@ -115,7 +115,8 @@ contains
         value = 0.0_wp
         call clear_status(status)
         if (n < 0) then
-            call set_status(status, st_bad_argument, 'n must not be negative, got ' // integer_text(n))
+            call set_status(status, st_bad_argument, 'n must not be negative, got ' &
+                            // integer_text(n))
         else if (b <= 0.0_wp) then
             call set_status(status, st_bad_argument, 'b must be above 0, got ' // number_text(b))
         else

@@ -61,6 +61,7 @@ contains
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')
         call say('')
-        call say('Units are mm, N, MPa, rad. Exit codes: 1 bad input, 2 usage, 3 no convergence.')
+        call say('Units are mm, N, MPa, rad. Exit codes: 1 bad input, 2 usage, 3 no convergence,')
+        call say('128 + n ended by signal n.')
     end subroutine print_help
 end program faststrip_main

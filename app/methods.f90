@@ -9,7 +9,8 @@ module faststrip_app_methods
     implicit none
     private
 
-    public :: methods_t, check_methods, most_strips, most_points, most_points_per_strip, most_elements
+    public :: methods_t, check_methods
+    public :: most_strips, most_points, most_points_per_strip, most_elements
     public :: word_length, normal_methods, tangential_methods, norm_starts, targets, n_force_laws
 
     !> Length of a method's name, characters.

@@ -27,7 +27,7 @@ contains
         character(len=*), intent(in) :: names(:)     !! that the group knows
         character(len=*), intent(in) :: words        !! of the runtime
 
-        character(len=:), allocatable :: line, name, next, value
+        character(len=:), allocatable :: line, name, value
         integer :: i, from, name_at, to
 
         name = ''
@@ -41,9 +41,8 @@ contains
                 if (i == group%first + n - 1 .and. len(name) > 0) &
                     call check_value(content, group, i, name, value, names, from == 1)
                 if (to > len(line)) exit
-                next = trim_blanks(line(name_at:to - 1))
+                name = trim_blanks(line(name_at:to - 1))
                 from = to + 1
-                name = next
                 if (place(names, name) == 0) call refuse_line(content, i, '&' // group%name &
                     // ' unknown name', lower_case(name))
             end do
@@ -120,8 +119,9 @@ contains
             if (is_number(value, .false.) .and. .not. continues) return
             what = 'a number'
         end if
-        call refuse_line(content, number, '&' // group%name // ' ' // trim(names(place(names, name))) // ' must be ' &
-                         // what // ', got ' // value, '')
+        call refuse_line(content, number, '&' // group%name // ' ' &
+                         // trim(names(place(names, name))) // ' must be ' // what &
+                         // ', got ' // value, '')
     end subroutine check_value
 
     !> Number of a name in a list, in upper or lower case; 0 if it is not there.

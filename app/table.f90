@@ -81,7 +81,8 @@ contains
                      writes=.true.), &
             option_t('--audit', '', 'check a table against the exact integral'), &
             option_t('--errata', '', 'the paper as printed and as it should be, side by side'), &
-            option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3', writes=.true.), &
+            option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3', &
+                     writes=.true.), &
             option_t('--degrees', 'FILE', 'error of the fits for degrees 0 to 40', writes=.true.)]
     end subroutine describe
 

@@ -16,7 +16,8 @@ faststrip \\- wheel/rail contact by the modified strip method
 """
 TAIL = """\
 .SH EXIT STATUS
-0 all went well; 1 bad input; 2 wrong usage; 3 no convergence.
+0 all went well; 1 bad input; 2 wrong usage; 3 no convergence; 128 + n ended by signal n: then no
+output was written and an older one is as it was.
 .SH SEE ALSO
 The library is described in its header
 .I faststrip.h

@@ -134,4 +134,5 @@ class Endless(ProgramTest):
                          says=["max_elements", "gap.csv"])
         self.write("n.nml", gap_case(extra="&numerics\n normal = 'norm'\n max_elements = 100\n/\n"))
         self.refused(1, "contact", "n.nml", says=["max_elements", "100"])
-        self.refused(2, "contact", "case.nml", "--max-elements", "0", says=["--max-elements", "'0'"])
+        self.refused(2, "contact", "case.nml", "--max-elements", "0",
+                     says=["--max-elements", "'0'"])

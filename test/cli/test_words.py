@@ -3,7 +3,7 @@
 import re
 import subprocess
 
-from cli_program import PROGRAM, ProgramTest, gap_case, gap_text, parabola
+from cli_program import BATCH_COLUMNS, PROGRAM, ProgramTest, gap_case, gap_text, parabola
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
@@ -61,7 +61,7 @@ class Words(ProgramTest):
         flat = gap_text(lambda y: 1.0 - 1e-3 * y * y, n=61, inv2r=-1.0)
         self.write("gap.csv", flat)
         self.refused(1, "contact", "case.nml", says=["gap.csv", "case.nml"])
-        self.write("b.csv", "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm\n" + ROW + "\n")
+        self.write("b.csv", f"{BATCH_COLUMNS}\n{ROW}\n")
         done = self.run_program("batch", "b.csv")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.splitlines()[0], r"row 1 \(b\.csv:2\): .*gap\.csv")
@@ -76,7 +76,7 @@ class Words(ProgramTest):
         self.assertEqual(done.stderr, b"faststrip: no such file: \\xff\\xc3\n")
 
     def test_the_missing_column_is_named(self):
-        head = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm\n"
+        head = BATCH_COLUMNS + "\n"
         self.write("b.csv", head + ROW.rsplit(",", 2)[0] + "\n")
         self.refused(1, "batch", "b.csv", says=["column: ceta", "(b.csv:2)"])
         self.write("b.csv", head + ROW + ",7\n")

@@ -110,6 +110,43 @@ class Installing(Project):
                 self.assertFalse((self.folder / ".venv").exists())
 
 
+class Room(Project):
+    """Where nothing can be built, one line says why."""
+
+    def refused(self, words, says):
+        done = subprocess.run(["sh", "-c", f"{words}; exec {self.folder}/run build"], cwd="/",
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, timeout=3000, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"\Arun: [^\n]+\n\Z")
+        self.assertIn(says, done.stderr)
+
+    def test_a_limit_of_file_sizes(self):
+        self.refused("ulimit -f 10", "ulimit -f")
+
+    def test_a_folder_that_is_none(self):
+        self.write("build", "in the way\n")
+        self.refused("true", "cannot write into this folder")
+
+    def test_a_folder_that_cannot_be_written(self):
+        self.folder.joinpath("bin").symlink_to("/proc/self")
+        self.refused("true", "cannot write into the folder bin")
+
+    def test_lists_of_packages_that_cannot_be_had(self):
+        """The one line holds what apt-get said."""
+        tools = self.folder / "bare"
+        tools.mkdir()
+        for name in (*BASIC_TOOLS, "grep"):
+            (tools / name).symlink_to(shutil.which(name))
+        for name, body in (("id", "echo 0"), ("apt-get", "echo 'E: no such list' >&2; exit 9")):
+            self.write(f"bare/{name}", f"#!/bin/sh\n{body}\n")
+            (tools / name).chmod(0o755)
+        done = self.run_it("build", PATH=str(tools))
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\Arun: cannot install gfortran [^\n]*: E: no such list "
+                                      r"[^\n]*; apt-get update: E: no such list [^\n]*\n\Z")
+
+
 class Testing(Project):
     """Needs the .venv of the checkout, as ./run test makes it."""
 
