@@ -87,6 +87,7 @@ contains
         integer :: i
         character(len=7), parameter :: parts(2) = ['data   ', 'figures']
 
+        inside = ''
         if (len(path) == 0) return
         do i = 1, size(parts)
             inside = resolved(folder // '/' // trim(parts(i))) // '/'
