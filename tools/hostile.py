@@ -303,7 +303,7 @@ def options(rng, i):
         at = words.index(name)
         words = words[:at] + words[at + 2:]
     words = words + ([name, value] if rng.random() < 0.5 else [f"{name}={value}"])
-    code = (1, 2) if kind in ("FILE.csv", "LOW:HIGH") or subcommand == "integral" else (2,)
+    code = (1, 2) if kind in ("FILE.csv", "LOW:HIGH", "D") or subcommand == "integral" else (2,)
     attempt = Try("options", [subcommand, *words], codes=code)
     if name == "--scenes" and subcommand == "bench":
         attempt.codes = (1, 2)
