@@ -6,9 +6,10 @@ module faststrip_app_bench_convergence
                              close_csv
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_bench_ellipse, only: make_ellipse
     use faststrip_app_console, only: fail_on_error, note, progress, put_origin

@@ -4,7 +4,7 @@ module faststrip_app_bench_ellipse
     use faststrip_status, only: status_t
     use faststrip_profile_gap, only: gap_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_console, only: fail_on_error
     implicit none
     private

@@ -22,10 +22,11 @@ module faststrip_app_bench_extremes_noise
     use faststrip_influence_offcentre, only: strip_influence_at
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve, &
                                       strip_solve_penetration
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_faststrip, only: faststrip_solve, default_points
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases

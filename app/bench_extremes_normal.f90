@@ -9,9 +9,10 @@ module faststrip_app_bench_extremes_normal
     use faststrip_influence_row, only: center_influence_column
     use faststrip_numerics_lapack, only: dgetrf, dgecon
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_bench_ellipse, only: make_ellipse, make_parabola
     use faststrip_app_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_app_console, only: fail_on_error, progress

@@ -11,7 +11,7 @@ module faststrip_app_bench_extremes_tangential
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_creepage, only: creepage_t
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_bench_ellipse, only: make_ellipse
     use faststrip_app_bench_extremes_rows, only: row_t, put_row, status_of

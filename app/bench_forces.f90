@@ -16,10 +16,10 @@ module faststrip_app_bench_forces
     use faststrip_creepage, only: creepage_t
     use faststrip_material, only: material_t
     use faststrip_normal_hertz, only: hertz_strips
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_file, only: read_gap_file
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_app_console, only: fail_on_error, note, put_origin
     use faststrip_contact_methods, only: gives_stick, tangential_method, normal_hertz

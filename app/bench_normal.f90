@@ -21,9 +21,10 @@ module faststrip_app_bench_normal
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases

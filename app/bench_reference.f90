@@ -10,11 +10,12 @@ module faststrip_app_bench_reference
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_material, only: material_t, normal_compliance
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             set_norm_gap, norm_solve
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_bench_reference_tang, only: measure_tang
     use faststrip_app_clock, only: microseconds, cpu_microseconds, median, spread_of, spread_text, &

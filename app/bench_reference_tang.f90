@@ -10,9 +10,9 @@ module faststrip_app_bench_reference_tang
     use faststrip_csv, only: csv_writer_t, put_cell, end_row
     use faststrip_creepage, only: creepage_t
     use faststrip_material, only: material_t, normal_compliance
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             set_norm_gap, norm_solve
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve, &
                                                 edges_of_norm

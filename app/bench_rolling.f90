@@ -7,10 +7,10 @@ module faststrip_app_bench_rolling
                              close_csv
     use faststrip_creepage, only: creepage_t
     use faststrip_material, only: material_t, normal_compliance
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_variational, only: norm_workspace_t, norm_options_t, reserve_norm, &
                                             set_norm_gap, norm_solve
     use faststrip_normal_variational_grid, only: contact_grid_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve, &
                                                 scheme_first_order, scheme_second_order, &

@@ -8,7 +8,7 @@ module faststrip_app_bench_tangential
     use faststrip_text, only: integer_text
     use faststrip_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_material, only: material_t
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
     use faststrip_app_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_app_clock, only: cpu_microseconds, median, spread_of, spread_text, spread_names, &

@@ -15,11 +15,12 @@ module faststrip_app_bench_trade_influence
     use faststrip_influence_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                          refit_row, fit_minimax_error
     use faststrip_influence_trapezoid, only: trapezoid_influence
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_profile_gap_curve, only: gap_at
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_bench_polynomials, only: power_of_ten_influence
     use faststrip_app_clock, only: cpu_microseconds, spread_of, spread_names
     use faststrip_app_console, only: fail_on_error

@@ -15,9 +15,10 @@ module faststrip_app_certify
     use faststrip_profile_gap_file, only: read_gap_file
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_normal_strip, only: strip_workspace_t, strip_options_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_workspace_t, strip_options_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_certificate, only: certificate_t, certify_strips, richardson_estimate
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_console, only: fail_on_error, put_origin, progress, say
     use faststrip_app_fuzz_gaps, only: fuzz_case_t, make_fuzz_case, family_names
     implicit none

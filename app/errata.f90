@@ -20,8 +20,9 @@ module faststrip_app_errata
     use faststrip_profile_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve

@@ -5,13 +5,14 @@ module faststrip_app_norm_stage
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
     use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_strip, only: normal_result_t, strips_auto
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             release_norm, set_norm_gap, norm_solve, &
                                             norm_solve_penetration
     use faststrip_normal_variational_grid, only: contact_grid_t
     use faststrip_normal_variational_rows, only: rows_as_strips, count_rows
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: normal_strip
     use faststrip_app_system, only: set_detail
     use faststrip_app_system, only: set_detail

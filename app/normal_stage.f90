@@ -5,7 +5,7 @@ module faststrip_app_normal_stage
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_normal_certificate, only: certificate_t, certify_strips
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
                                          normal_strip, tangential_faststrip
     use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &

@@ -8,9 +8,9 @@ module faststrip_app_reference_scenes
                              close_csv
     use faststrip_creepage, only: creepage_t
     use faststrip_material, only: normal_compliance
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             set_norm_gap, norm_solve
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_variational, only: tang_options_t, tang_workspace_t, tang_solve
     use faststrip_app_console, only: fail_on_error, note, put_origin

@@ -8,7 +8,7 @@ module faststrip_app_solver
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t, reserve_strip_forces
     use faststrip_contact_methods, only: gives_stick

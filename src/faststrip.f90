@@ -35,9 +35,10 @@ module faststrip
                                       hertz_solve_gap_penetration, hertz_strips
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve, &
                                       strip_solve_penetration, strips_auto
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           field_power, strip_forces_t, &
                                           reserve_strip_forces, state_adhesion, state_slip

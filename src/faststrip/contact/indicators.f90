@@ -11,8 +11,8 @@ module faststrip_contact_indicators
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration
     use faststrip_normal_strip_patches, only: patches_t
-    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_start, only: start_patches
+    use faststrip_normal_types, only: goal_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     implicit none
     private

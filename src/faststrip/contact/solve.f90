@@ -17,10 +17,11 @@ module faststrip_contact_solve
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve, &
                                       strip_solve_penetration, strips_auto
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &

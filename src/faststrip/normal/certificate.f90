@@ -43,8 +43,8 @@ module faststrip_normal_certificate
     use faststrip_influence_row, only: center_influence_column, influence_column_gradient
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_strip_state, only: flattest
+    use faststrip_normal_types, only: normal_result_t
     implicit none
     private
 

@@ -18,8 +18,8 @@ module faststrip_normal_equal_ellipse
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, put_hertz_strips
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
-    use faststrip_normal_strip, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_types, only: normal_result_t
     implicit none
     private
 

@@ -24,7 +24,7 @@ module faststrip_normal_strip
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
     use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
-    use faststrip_normal_strip_equations, only: goal_t, effort_t, effort_work, step_work
+    use faststrip_normal_strip_equations, only: effort_work, step_work
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_coupled, only: settle_coupled
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
@@ -34,11 +34,12 @@ module faststrip_normal_strip
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, place_strips, remember
     use faststrip_normal_strip_start, only: start_patches, resume_patches
+    use faststrip_normal_types, only: normal_result_t, goal_t
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps, overlap_left
     implicit none
     private
 
-    public :: strip_options_t, strip_workspace_t, normal_result_t
+    public :: strip_options_t, strip_workspace_t
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
     public :: fewest_strips, strips_auto
 
@@ -79,21 +80,6 @@ module faststrip_normal_strip
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
     end type strip_options_t
-
-    !> The normal problem's figures.
-    type :: normal_result_t
-        real(wp) :: load = 0.0_wp        !! normal force, N
-        real(wp) :: penetration = 0.0_wp !! approach D of the bodies, from h = 0, mm
-        real(wp) :: area = 0.0_wp        !! contact area, mm2
-        real(wp) :: pmax = 0.0_wp        !! largest pressure, MPa
-        real(wp) :: y_min = 0.0_wp       !! left end of the contact, mm
-        real(wp) :: y_max = 0.0_wp       !! right end of the contact, mm
-        real(wp) :: x_max = 0.0_wp       !! largest half-length along x, mm
-        integer :: n_patches = 0         !! number of contact patches
-        integer :: passes = 0            !! how often the ends were moved
-        integer :: iterations = 0        !! steps of all passes
-        type(effort_t) :: effort         !! what it took
-    end type normal_result_t
 
 contains
 

@@ -13,13 +13,13 @@
 module faststrip_normal_strip_coupled
     use faststrip_kinds, only: wp, pi
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, &
-                                                strip_residual, strip_jacobian, &
+    use faststrip_normal_strip_equations, only: add_effort, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
     use faststrip_normal_strip_state, only: strip_workspace_t, place_edges
+    use faststrip_normal_types, only: goal_t, effort_t
     implicit none
     private
 

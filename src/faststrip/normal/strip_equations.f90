@@ -15,31 +15,16 @@ module faststrip_normal_strip_equations
     use faststrip_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_normal_types, only: goal_t, effort_t
     implicit none
     private
 
-    public :: goal_t, effort_t, add_effort, effort_work, step_work, strip_residual
+    public :: add_effort, effort_work, step_work, strip_residual
     public :: strip_jacobian, mark_leaving_strips
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.
     real(wp), parameter :: leaving_length_ratio = 0.15_wp
-
-    !> What is prescribed: the load, or the penetration.
-    type :: goal_t
-        logical :: by_load = .true.
-        real(wp) :: load = 0.0_wp        !! N
-        real(wp) :: penetration = 0.0_wp !! above the lowest height, mm
-    end type goal_t
-
-    !> What a solution took.
-    type :: effort_t
-        integer :: iterations = 0 !! steps
-        integer :: factorings = 0 !! those of them for which a Jacobian was factored
-        integer :: values = 0     !! influence numbers computed
-        integer :: gradients = 0  !! influence numbers computed with their derivatives
-        real(wp) :: operations = 0.0_wp !! of the linear algebra, multiplications and additions
-    end type effort_t
 
 contains
 

@@ -2,9 +2,9 @@
 module faststrip_normal_strip_newton
     use faststrip_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: goal_t, effort_t, add_effort, &
-                                                strip_jacobian, mark_leaving_strips
+    use faststrip_normal_strip_equations, only: add_effort, strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_patches, only: max_patches
+    use faststrip_normal_types, only: goal_t, effort_t
     implicit none
     private
 

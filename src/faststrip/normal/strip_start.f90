@@ -4,9 +4,9 @@ module faststrip_normal_strip_start
     use faststrip_status, only: status_t, is_error
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
-    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
+    use faststrip_normal_types, only: goal_t
     implicit none
     private
 

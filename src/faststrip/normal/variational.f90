@@ -24,8 +24,6 @@ module faststrip_normal_variational
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
-    use faststrip_normal_strip, only: normal_result_t
-    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y, &
                                                  take_pressures, count_patches
@@ -36,6 +34,7 @@ module faststrip_normal_variational
     use faststrip_normal_variational_rows, only: pressures_of_strips
     use faststrip_normal_variational_solver, only: minimiser_t, size_minimiser, task_t, minimise, &
                                                    minimised_t, kernel_influence, kernel_inverse
+    use faststrip_normal_types, only: normal_result_t, goal_t
     implicit none
     private
 

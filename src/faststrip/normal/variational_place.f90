@@ -14,11 +14,11 @@ module faststrip_normal_variational_place
     use faststrip_influence_closed, only: strip_influence_edges
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_strip_patches, only: patches_t, max_patches
-    use faststrip_normal_strip_equations, only: goal_t
     use faststrip_normal_strip_start, only: start_patches
     use faststrip_normal_strip_state, only: flattest
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y
+    use faststrip_normal_types, only: goal_t
     implicit none
     private
 
