@@ -16,7 +16,7 @@ module faststrip_profile_gap_curve
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
     public :: gap_at, gap_curvature, level_intervals
-    public :: gap_inv2r, largest_turn
+    public :: gap_inv2r, largest_turn, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
     real(wp), parameter :: flattest_ratio = 0.03_wp
@@ -358,6 +358,21 @@ contains
         end do
         y = y0 + t*dy
     end function crossing
+
+    !> The first point at or to the right of a position: 1 to n + 1.
+    pure integer function first_point_from(curve, y) result(first)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+
+        if (y <= curve%y(1)) then
+            first = 1
+        else if (y > curve%y(curve%n)) then
+            first = curve%n + 1
+        else
+            first = interval_of(curve, y)
+            if (curve%y(first) < y) first = first + 1
+        end if
+    end function first_point_from
 
     !> Index i of the point interval that holds y, with y_i <= y < y_(i+1) inside the data.
     pure integer function interval_of(curve, y) result(i)

@@ -1,0 +1,143 @@
+!> Heights of the gap that a strip does not resolve, as the pressure they cause.
+!>
+!> A strip knows the gap on its own middle line. Between the middles of its neighbours lie points
+!> of the gap whose heights differ from any smooth curve: noise of a measurement, ripples, a kink.
+!> What they differ by, d(y), is the same all along the strip, so that the half-space is in plane
+!> strain there, and the pressure that closes it is
+!>
+!>     p(y) = -1/(pi^2 H) int [d(y) - d(y')]/(y - y')^2 dy',
+!>
+!> (K.L. Johnson, Contact Mechanics, 1985, section 2.3: a wave of amplitude d and wave number c takes
+!> c d/(pi H)). The smooth curve is the quartic through the gap at the middles of the strip and of
+!> its two neighbours and at its own two edges, which the certificate samples by itself; in a patch's
+!> end strip the parabola through its middle and its edges.
+module faststrip_normal_unresolved
+    use faststrip_kinds, only: wp, pi
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, first_point_from
+    use faststrip_normal_strips, only: contact_strips_t
+    implicit none
+    private
+
+    public :: unresolved_pressure
+
+    !> Points of the gap looked at together, even; of more, so many evenly spread ones, which tell of
+    !> long waves, and as many neighbours in the middle, which tell of short ones.
+    integer, parameter :: most_points = 128
+    integer, parameter :: most_nodes = 5
+
+contains
+
+    !> The largest pressure in strip k that unresolved heights of the gap ask for, MPa; not negative.
+    !> Zero where no points lie between the edges and the middle.
+    pure real(wp) function unresolved_pressure(curve, compliance, strips, first, last, k) &
+        result(pressure)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved, mm
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(contact_strips_t), intent(in) :: strips !! the solution
+        integer, intent(in) :: first, last           !! first and last strip of its patch
+        integer, intent(in) :: k                     !! the strip
+
+        real(wp) :: node(most_nodes), coefficient(most_nodes), largest
+        integer :: point(most_points)
+        integer :: n_nodes, from, to, n, i
+
+        call place_nodes(strips, first, last, k, node, n_nodes)
+        from = first_point_from(curve, minval(node(:n_nodes)))
+        to = first_point_from(curve, maxval(node(:n_nodes)))
+        if (curve%y(min(to, curve%n)) > maxval(node(:n_nodes)) .or. to > curve%n) to = to - 1
+        pressure = 0.0_wp
+        if (to - from < 2) return
+        call divide_differences(curve, node(:n_nodes), coefficient(:n_nodes))
+        n = to - from + 1
+        if (n <= most_points) then
+            point(:n) = [(i, i=from, to)]
+            largest = largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
+                                       strips%y_left(k), strips%y_right(k), point(:n))
+        else
+            ! Counted from both ends, and as many before the middle as behind it: a mirrored gap
+            ! is looked at in the same points.
+            point = [(from + (i - 1)*(n/most_points), i=1, most_points/2), &
+                     (to - (most_points - i)*(n/most_points), i=most_points/2 + 1, most_points)]
+            largest = largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
+                                       strips%y_left(k), strips%y_right(k), point)
+            n = most_points - modulo(n, 2)
+            point(:n) = [((from + to - n + 1)/2 + i, i=0, n - 1)]
+            largest = max(largest, &
+                          largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
+                                           strips%y_left(k), strips%y_right(k), point(:n)))
+        end if
+        pressure = largest/(pi**2*compliance)
+    end function unresolved_pressure
+
+    !> Where the smooth curve meets the gap.
+    pure subroutine place_nodes(strips, first, last, k, node, n_nodes)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last, k
+        real(wp), intent(out) :: node(:)
+        integer, intent(out) :: n_nodes
+
+        n_nodes = 3
+        node = 0.0_wp
+        node(1:3) = [strips%y_left(k), 0.5_wp*(strips%y_left(k) + strips%y_right(k)), &
+                     strips%y_right(k)]
+        if (k == first .or. k == last) return
+        n_nodes = 5
+        node(4) = 0.5_wp*(strips%y_left(k - 1) + strips%y_right(k - 1))
+        node(5) = 0.5_wp*(strips%y_left(k + 1) + strips%y_right(k + 1))
+    end subroutine place_nodes
+
+    !> Newton's divided differences of the gap at the nodes.
+    pure subroutine divide_differences(curve, node, coefficient)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: node(:)
+        real(wp), intent(out) :: coefficient(:)
+
+        real(wp) :: inv2r
+        integer :: i, j
+
+        do i = 1, size(node)
+            call gap_at(curve, node(i), coefficient(i), inv2r)
+        end do
+        do j = 2, size(node)
+            do i = size(node), j, -1
+                coefficient(i) = (coefficient(i) - coefficient(i - 1))/(node(i) - node(i - j + 1))
+            end do
+        end do
+    end subroutine divide_differences
+
+    !> The largest of minus the integral above at the given points of the gap that lie in the strip;
+    !> beyond the points nothing differs. At least zero.
+    pure real(wp) function largest_response(curve, node, coefficient, y_from, y_to, point) &
+        result(largest)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: node(:), coefficient(:) ! of the smooth curve
+        real(wp), intent(in) :: y_from, y_to            ! edges of the strip
+        integer, intent(in) :: point(:)                 ! at least three, ascending
+
+        real(wp), dimension(most_points) :: y, d, share
+        real(wp) :: total, smooth
+        integer :: i, j, m
+
+        m = size(point)
+        do i = 1, m
+            y(i) = curve%y(point(i))
+            smooth = coefficient(size(node))
+            do j = size(node) - 1, 1, -1
+                smooth = coefficient(j) + (y(i) - node(j))*smooth
+            end do
+            d(i) = curve%h(point(i)) - smooth
+        end do
+        share(1) = 0.5_wp*(y(2) - y(1))
+        share(m) = 0.5_wp*(y(m) - y(m - 1))
+        share(2:m - 1) = 0.5_wp*(y(3:m) - y(1:m - 2))
+        largest = 0.0_wp
+        do i = 1, m
+            if (y(i) < y_from .or. y(i) > y_to) cycle
+            total = d(i)/(y(i) - y(1) + share(1)) + d(i)/(y(m) - y(i) + share(m))
+            do j = 1, m
+                if (j /= i) total = total + share(j)*(d(i) - d(j))/(y(i) - y(j))**2
+            end do
+            largest = max(largest, -total)
+        end do
+    end function largest_response
+end module faststrip_normal_unresolved
