@@ -323,15 +323,16 @@ contains
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, tolerance
+            error_target, tolerance, resolution_limit
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, norm_start, tolerance, target, max_elements
+            error_target, norm_start, tolerance, target, max_elements, &
+            resolution_limit
         character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
             'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
             'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
             'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
-            'target', 'max_elements']
+            'target', 'max_elements', 'resolution_limit']
         type(group_t) :: group
         character(len=line_length), allocatable :: text(:)
         character(len=message_length) :: words
@@ -351,6 +352,7 @@ contains
         tolerance = case%methods%tolerance
         max_elements = case%methods%max_elements
         target = case%methods%target
+        resolution_limit = case%methods%resolution_limit
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%methods%smoothing_um
@@ -374,6 +376,7 @@ contains
         methods%tolerance = tolerance
         methods%max_elements = max_elements
         methods%target = target
+        methods%resolution_limit = resolution_limit
         call check_methods(methods, what, range, value)
         case%methods = methods
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)

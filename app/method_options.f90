@@ -12,7 +12,7 @@ module faststrip_app_method_options
     public :: method_options, take_method_options
 
     !> For the table of a subcommand.
-    type(option_t), parameter :: method_options(14) = [ &
+    type(option_t), parameter :: method_options(15) = [ &
         option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm;' &
                  // new_line('a') // 'auto: both methods, the cheapest expected to do'), &
         option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
@@ -27,6 +27,8 @@ module faststrip_app_method_options
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--max-elements', 'N', 'norm, tang: no larger grids than that (default' &
                  // ' 1000000)'), &
+        option_t('--resolution-limit', 'E', 'status under_resolved above this est_err_pmax' &
+                 // ' (default 0.1)'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
@@ -67,6 +69,8 @@ contains
                                            above=0)
         methods%error_target = option_number(command, '--error-target', methods%error_target, &
                                              least=0)
+        methods%resolution_limit = option_number(command, '--resolution-limit', &
+                                                 methods%resolution_limit, above=0)
         methods%norm_start = option_word(command, '--norm-start', trim(methods%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

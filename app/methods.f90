@@ -4,6 +4,7 @@ module faststrip_app_methods
     use faststrip_kinds, only: wp
     use faststrip_status, only: number_text
     use faststrip_text, only: integer_text
+    use faststrip_normal_limitations, only: default_resolution
     use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points_per_strip => most_points
     implicit none
@@ -61,6 +62,7 @@ module faststrip_app_methods
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
         real(wp) :: tolerance = 0.02_wp  !! largest error wanted of auto
         character(len=word_length) :: target = 'forces' !! one of `targets`
+        real(wp) :: resolution_limit = default_resolution !! largest est_err_pmax of a resolved contact
     end type methods_t
 
 contains
@@ -90,6 +92,7 @@ contains
         call check_real('error_target', methods%error_target, .true.)
         call check_real('smoothing_um', methods%smoothing_um, .true.)
         call check_real('tolerance', methods%tolerance, .false.)
+        call check_real('resolution_limit', methods%resolution_limit, .false.)
 
     contains
 

@@ -5,6 +5,7 @@ module faststrip_app_normal_stage
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_normal_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_limitations, only: name_resolution, default_resolution
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
                                          normal_strip, tangential_faststrip
@@ -20,6 +21,7 @@ module faststrip_app_normal_stage
     type :: normal_stage_t
         type(contact_methods_t) :: methods !! what was asked for
         type(workspace_t) :: workspace     !! with the strips of the last contact
+        real(wp) :: resolution_limit = default_resolution !! largest est_err_pmax of a resolved one
     end type normal_stage_t
 
     !> What presses the bodies together.
@@ -42,6 +44,7 @@ contains
         if (methods%normal == 'norm') normal = normal_strip ! for the strips that stand for its rows
         tangential = tangential_method(methods%tangential)
         if (methods%tangential == 'tang') tangential = tangential_faststrip ! does not count
+        stage%resolution_limit = methods%resolution_limit
         stage%methods = contact_methods_t( &
             normal, tangential, &
             methods%strips_per_patch, methods%points_per_strip, methods%fastsim_nx, &
@@ -81,23 +84,28 @@ contains
         case%load = demand%load
         case%penetration = demand%penetration
         case%methods = stage%methods
+        case%estimate = .false. ! `certify` does
+        case%resolution_limit = stage%resolution_limit
         call solve_contact_normal(stage%workspace, case, normal, status)
     end subroutine solve_normal
 
-    !> How wrong the last solution is, where that can be told: of strips.
-    subroutine certify(stage, material, normal, certificate, is_certified)
+    !> How wrong the last solution is, where that can be told: of strips. Errors above the limit are
+    !> named in the status. Outside the time that is measured.
+    subroutine certify(stage, material, normal, certificate, is_certified, status)
         type(normal_stage_t), intent(in) :: stage       !! with a solution
         type(material_t), intent(in) :: material        !! moduli, MPa
         type(normal_result_t), intent(in) :: normal     !! its figures
         type(certificate_t), intent(out) :: certificate !! of them
         logical, intent(out) :: is_certified            !! does the certificate count?
+        type(status_t), intent(inout) :: status         !! limitations so far
 
-        type(status_t) :: status
+        type(status_t) :: estimate
 
         is_certified = .false.
         if (stage%methods%normal /= normal_strip) return
         call certify_strips(stage%workspace%solver%curve, normal_compliance(material), &
-                            stage%workspace%strips, normal, certificate, status)
-        is_certified = .not. is_error(status)
+                            stage%workspace%strips, normal, certificate, estimate)
+        is_certified = .not. is_error(estimate)
+        if (is_certified) call name_resolution(certificate%est_err_pmax, stage%resolution_limit, status)
     end subroutine certify
 end module faststrip_app_normal_stage

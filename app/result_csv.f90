@@ -13,12 +13,12 @@ module faststrip_app_result_csv
     public :: result_columns, put_result, put_strips, put_field, put_smoothing
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(22) = [character(len=19) :: &
+    character(len=*), parameter :: result_columns(23) = [character(len=19) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
         'est_err_penetration', 'est_err_pmax', 'est_err_area', 'gap_change_um', &
-        'choice']
+        'choice', 'strips_across']
 
 contains
 
@@ -62,6 +62,11 @@ contains
         end associate
         call put_known(outcome%gap_change_um > 0.0_wp, outcome%gap_change_um)
         call put_cell(writer, outcome%choice)
+        if (outcome%normal%strips_across > 0) then
+            call put_cell(writer, outcome%normal%strips_across)
+        else
+            call put_cell(writer, '')
+        end if
 
     contains
 

@@ -8,6 +8,7 @@ module faststrip_app_solver
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_limitations, only: name_resolution
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t, reserve_strip_forces
@@ -125,6 +126,9 @@ contains
                                outcome%normal, outcome%certificate, status)
             outcome%is_certified = .true.
             outcome%is_estimated = solver%norm%workspace%is_estimated
+            if (outcome%is_estimated) &
+                call name_resolution(outcome%certificate%est_err_pmax, &
+                                     solver%methods%resolution_limit, status)
         else
             call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)
         end if
@@ -172,7 +176,7 @@ contains
         if (status%code == st_ok) status = choice_status
         if (is_error(status) .or. solver%chosen%normal == 'norm') return
         call certify(solver%normal, material, outcome%normal, outcome%certificate, &
-                     outcome%is_certified)
+                     outcome%is_certified, status)
         outcome%is_estimated = outcome%is_certified
     end subroutine solve
 

@@ -7,19 +7,22 @@
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                st_bad_argument, st_workspace_too_small
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                count_text, st_bad_argument, st_under_resolved, &
+                                st_workspace_too_small
     use faststrip_material, only: material_t, check_material, normal_compliance
     use faststrip_creepage, only: creepage_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_profile_gap, only: gap_t, min_gap_points
     use faststrip_profile_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
+    use faststrip_normal_limitations, only: default_resolution, name_resolution, add_limitation
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve, &
-                                      strip_solve_penetration, strips_auto
+                                      strip_solve_penetration, strips_auto, strips_auto_most
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
@@ -46,8 +49,8 @@ module faststrip_contact_solve
     public :: solve_contact, solve_contact_normal, solve_contact_tangential
     public :: most_gap_points
 
-    ! Strips of a Hertz ellipse where the number is left to the solver, and the most it takes.
-    integer, parameter :: auto_hertz_strips = 15, auto_most_strips = 41
+    ! Strips of a Hertz ellipse where the number is left to the solver.
+    integer, parameter :: auto_hertz_strips = 15
     integer, parameter :: most_patches = 16 ! each with its own ellipse
 
     !> Most points of a gap.
@@ -64,11 +67,16 @@ module faststrip_contact_solve
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
+        logical :: estimate = .true.       !! are the errors of strips estimated? Costs about a step
+        real(wp) :: resolution_limit = default_resolution
+            !! `st_under_resolved` names an estimated relative error of pmax above this, > 0
     end type contact_case_t
 
     !> Figures of one contact.
     type :: contact_result_t
         type(normal_result_t) :: normal         !! load, penetration, area, largest pressure, ...
+        type(certificate_t) :: certificate      !! how wrong they are, by strips
+        logical :: is_estimated = .false.       !! is that known? Not of ellipses
         type(tangential_result_t) :: tangential !! forces on the rail, friction power, stick
     end type contact_result_t
 
@@ -192,7 +200,8 @@ contains
         type(status_t) :: forces
 
         call hold_environment(environment)
-        call solve_normal(workspace, case, result%normal, status)
+        call solve_normal(workspace, case, result%normal, result%certificate, &
+                          result%is_estimated, status)
         if (.not. is_error(status) .and. case%methods%tangential /= tangential_none) then
             call solve_tangential(workspace, case, result%tangential, forces, field)
             if (is_error(forces)) then
@@ -206,16 +215,22 @@ contains
     end subroutine solve_contact
 
     !> The normal problem alone; the strips are in the workspace.
-    subroutine solve_contact_normal(workspace, case, normal, status)
+    subroutine solve_contact_normal(workspace, case, normal, status, certificate, is_estimated)
         type(workspace_t), intent(inout) :: workspace !! with room for the method
         type(contact_case_t), intent(in) :: case      !! gap, material, demand, method
         type(normal_result_t), intent(out) :: normal  !! figures
         type(status_t), intent(out) :: status         !! as `solve_contact`
+        type(certificate_t), intent(out), optional :: certificate !! how wrong they are
+        logical, intent(out), optional :: is_estimated !! is that known?
 
         type(environment_t) :: environment
+        type(certificate_t) :: found
+        logical :: is_found
 
         call hold_environment(environment)
-        call solve_normal(workspace, case, normal, status)
+        call solve_normal(workspace, case, normal, found, is_found, status)
+        if (present(certificate)) certificate = found
+        if (present(is_estimated)) is_estimated = is_found
         call restore_environment(environment)
     end subroutine solve_contact_normal
 
@@ -237,15 +252,23 @@ contains
         call restore_environment(environment)
     end subroutine solve_contact_tangential
 
-    subroutine solve_normal(workspace, case, normal, status)
+    subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status)
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
         type(normal_result_t), intent(out) :: normal
+        type(certificate_t), intent(out) :: certificate
+        logical, intent(out) :: is_estimated
         type(status_t), intent(out) :: status
 
         workspace%solved_by = 0
+        is_estimated = .false.
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
+        if (.not. case%resolution_limit > 0.0_wp) then
+            call set_status(status, st_bad_argument, 'the resolution limit must be above 0, got ' &
+                            // number_text(case%resolution_limit))
+            return
+        end if
         call check_material(case%material, status)
         if (is_error(status)) return
         if (allocated(case%gap%y)) then
@@ -255,15 +278,17 @@ contains
         if (case%methods%normal == normal_hertz) then
             call solve_hertz(workspace, case, normal, status)
         else
-            call solve_by_strips(workspace, case, normal, status)
+            call solve_by_strips(workspace, case, normal, certificate, is_estimated, status)
         end if
         if (.not. is_error(status)) workspace%solved_by = case%methods%normal
     end subroutine solve_normal
 
-    subroutine solve_by_strips(workspace, case, normal, status)
+    subroutine solve_by_strips(workspace, case, normal, certificate, is_estimated, status)
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
         type(normal_result_t), intent(out) :: normal
+        type(certificate_t), intent(out) :: certificate
+        logical, intent(inout) :: is_estimated
         type(status_t), intent(out) :: status
 
         type(strip_options_t) :: options
@@ -271,6 +296,7 @@ contains
 
         options%strips_per_patch = case%methods%strips_per_patch
         options%warm_start = case%warm_start
+        options%resolution_limit = case%resolution_limit
         if (workspace%solver%max_strips < strip_room(case%methods)) then
             call set_status(status, st_workspace_too_small, &
                             'the workspace has room for fewer strips than the method may need')
@@ -284,12 +310,38 @@ contains
                                          case%penetration, options, workspace%strips, normal, &
                                          status)
         end if
-        if (is_error(status) .or. case%methods%normal == normal_strip) return
+        if (is_error(status)) return
+        if (case%estimate) &
+            call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
+        is_estimated = is_estimated .and. case%methods%normal == normal_strip
+        if (case%methods%normal == normal_strip) return
         call replace_by_ellipses( &
             merge(equal_area, equal_moments, case%methods%normal == normal_equal_area), &
             workspace%solver%curve, workspace%strips, normal, ellipses)
         if (is_error(ellipses)) status = ellipses
     end subroutine solve_by_strips
+
+    !> How wrong the strips in the workspace are; more than the limit is named in the status.
+    subroutine estimate_errors(workspace, case, normal, certificate, is_estimated, status)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(normal_result_t), intent(in) :: normal
+        type(certificate_t), intent(out) :: certificate
+        logical, intent(out) :: is_estimated
+        type(status_t), intent(inout) :: status
+
+        type(status_t) :: estimate
+
+        call certify_strips(workspace%solver%curve, normal_compliance(case%material), &
+                            workspace%strips, normal, certificate, estimate)
+        is_estimated = .not. is_error(estimate)
+        if (is_estimated) then
+            call name_resolution(certificate%est_err_pmax, case%resolution_limit, status)
+        else
+            call add_limitation(status, st_under_resolved, 'no error can be estimated: ' &
+                                //trim(estimate%message))
+        end if
+    end subroutine estimate_errors
 
     subroutine solve_hertz(workspace, case, normal, status)
         type(workspace_t), intent(inout) :: workspace
@@ -420,6 +472,6 @@ contains
         type(contact_methods_t), intent(in) :: methods
 
         strip_room = 2*methods%strips_per_patch + 60
-        if (methods%strips_per_patch == strips_auto) strip_room = 2*auto_most_strips + 60
+        if (methods%strips_per_patch == strips_auto) strip_room = 2*strips_auto_most + 60
     end function strip_room
 end module faststrip_contact_solve

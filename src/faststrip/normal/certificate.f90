@@ -18,7 +18,7 @@
 !> because the patch is in error too; its size is, so magnitudes are taken:
 !>
 !>     penetration   0.60 (rms e + 3 mean |m|)
-!>     area          1.30 (rms t + 2.5 mean |m|)
+!>     area          1.30 (rms t + 2.5 mean |m|) + 0.5 mean u_k/p0_k, each at most 1
 !>
 !> with means over y. Of n strips across the patch with the largest pressure, fewer than eight raise
 !> the area's estimate by 8/n, because a cubic through few lengths tells less of the tips. These
@@ -55,7 +55,7 @@ module faststrip_normal_certificate
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_state, only: flattest
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_normal_unresolved, only: unresolved_pressure
+    use faststrip_normal_unresolved, only: unresolved_pressure, most_nodes
     implicit none
     private
 
@@ -72,7 +72,7 @@ module faststrip_normal_certificate
 
     real(wp), parameter :: penetration_factor = 0.6_wp, penetration_middle = 3.0_wp
     real(wp), parameter :: area_factor = 1.3_wp, area_middle = 2.5_wp
-    real(wp), parameter :: area_strips = 8.0_wp
+    real(wp), parameter :: area_strips = 8.0_wp, area_unresolved = 0.5_wp
     real(wp), parameter :: edge_factor = 0.3_wp
     real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.7_wp
     real(wp), parameter :: unresolved_factor = 1.1_wp, pmax_least = 0.4_wp
@@ -120,7 +120,7 @@ contains
 
         type(samples_t) :: samples
         real(wp) :: depth, width, extra, peak_extra, largest_p0
-        real(wp) :: widths, sum_edge, sum_tip, sum_middle
+        real(wp) :: widths, sum_edge, sum_tip, sum_middle, sum_area, sum_unresolved, unresolved
         integer :: k, from, peak, across
 
         call check_solution(curve, compliance, strips, result, status)
@@ -133,6 +133,8 @@ contains
         sum_middle = 0.0_wp
         sum_edge = 0.0_wp
         sum_tip = 0.0_wp
+        sum_area = 0.0_wp
+        sum_unresolved = 0.0_wp
         do from = 1, strips%n, block
             call take_samples(curve, compliance, strips, depth, from, samples, certificate)
             do k = from, min(from + block - 1, strips%n)
@@ -144,7 +146,12 @@ contains
                     sum_tip = sum_tip + width*samples%tips(i)**2
                     sum_middle = sum_middle + width*abs(samples%middle(i))
                 end associate
-                extra = missing_pressure(curve, compliance, strips, depth, k, k - from + 1, samples)
+                unresolved = unresolved_in(curve, compliance, strips, k)
+                sum_unresolved = sum_unresolved + width*strips%half_length(k) &
+                                 *min(1.0_wp, unresolved/max(strips%p0(k), smallest))
+                sum_area = sum_area + width*strips%half_length(k)
+                extra = missing_pressure(compliance, strips, depth, k, k - from + 1, samples, &
+                                         unresolved)
                 largest_p0 = max(largest_p0, strips%p0(k) + extra)
                 if (abs(k - peak) <= 1 .and. strips%patch(k) == strips%patch(peak)) &
                     peak_extra = max(peak_extra, extra)
@@ -156,7 +163,8 @@ contains
         across = count(strips%patch(:strips%n) == strips%patch(peak))
         certificate%est_err_area = &
             area_factor*max(1.0_wp, area_strips/across) &
-            *(sqrt(sum_tip/widths) + area_middle*sum_middle/widths)
+            *(sqrt(sum_tip/widths) + area_middle*sum_middle/widths) &
+            + area_unresolved*sum_unresolved/sum_area
         certificate%est_err_pmax = max(peak_extra/result%pmax, &
                                        (largest_p0 - strips%p0(peak))/result%pmax, &
                                        pmax_least/across**2)
@@ -228,13 +236,13 @@ contains
     end subroutine take_samples
 
     !> The pressure that the gaps sampled about a strip ask for beyond its own, MPa.
-    pure real(wp) function missing_pressure(curve, compliance, strips, depth, k, i, samples) &
+    pure real(wp) function missing_pressure(compliance, strips, depth, k, i, samples, unresolved) &
         result(pressure)
-        type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: k, i ! the strip, and where its samples are
         type(samples_t), intent(in) :: samples
+        real(wp), intent(in) :: unresolved ! of heights, MPa
 
         real(wp) :: edge, middle(-1:1), per_width
         integer :: first, last
@@ -247,8 +255,31 @@ contains
         pressure = per_width*(edge_factor*abs(edge) &
                               + section_change*change(middle, [k > first, .true., k < last])) &
                    + section_factor*abs(middle(0))*depth/(compliance*strips%half_length(k)) &
-                   + unresolved_factor*unresolved_pressure(curve, compliance, strips, first, last, k)
+                   + unresolved_factor*unresolved
     end function missing_pressure
+
+    !> The pressure that heights in strip k ask for which it does not resolve, MPa. The smooth curve
+    !> meets the gap where it is sampled: in its middle, at its edges and in its neighbours' middles.
+    pure real(wp) function unresolved_in(curve, compliance, strips, k) result(pressure)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k
+
+        real(wp) :: node(most_nodes)
+        integer :: n
+
+        associate (left => strips%y_left(:strips%n), right => strips%y_right(:strips%n))
+            n = 3
+            node(1:3) = [left(k), 0.5_wp*(left(k) + right(k)), right(k)]
+            if (.not. starts_patch(strips, k) .and. k < last_of_patch(strips, k)) then
+                n = 5
+                node(4) = 0.5_wp*(left(k - 1) + right(k - 1))
+                node(5) = 0.5_wp*(left(k + 1) + right(k + 1))
+            end if
+            pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n))
+        end associate
+    end function unresolved_in
 
     !> How far the middle one of three values is from the mean of the outer ones; at an end from the
     !> straight line on, which is nothing; alone its size.

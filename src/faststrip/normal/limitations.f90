@@ -17,18 +17,25 @@
 !> Of several limitations the status has the code of the first that applies here, and all of the
 !> words there is room for:
 !>
-!>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, fewer_strips
+!>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, more_strips,
+!>     fewer_strips, under_resolved
 module faststrip_normal_limitations
     use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, message_length, &
-                                st_edge_of_data, st_flat_along_x, st_conformal, &
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                message_length, st_edge_of_data, st_flat_along_x, st_conformal, &
+                                st_under_resolved, &
                                 st_no_finite_patch, st_ok
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: check_curvature, name_limitations, add_limitation
+    public :: check_curvature, name_limitations, name_resolution, add_limitation
+    public :: default_resolution
+
+    !> Estimated relative error of the largest pressure up to which a solution is called resolved. At
+    !> 5 % twice, at 20 % half as many random gaps are named.
+    real(wp), parameter :: default_resolution = 0.1_wp
 
     real(wp), parameter :: doubtful_slope = 0.2_wp
     real(wp), parameter :: doubtful_turn = 20.0_wp*pi/180.0_wp
@@ -99,6 +106,18 @@ contains
                                 //trim(number_text(slope))//' of the gap in a patch')
         end if
     end subroutine name_limitations
+
+    !> Add `st_under_resolved` to a status if an estimate of the error of the largest pressure is above
+    !> a limit, or no number.
+    pure subroutine name_resolution(est_err_pmax, limit, status)
+        real(wp), intent(in) :: est_err_pmax    !! estimated, relative
+        real(wp), intent(in) :: limit           !! largest that is called resolved
+        type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
+
+        if (est_err_pmax <= limit .or. is_error(status)) return
+        call add_limitation(status, st_under_resolved, 'the estimated error of pmax is above ' &
+                            //trim(number_text(limit))//': '//trim(number_text(est_err_pmax)))
+    end subroutine name_resolution
 
     !> Add a limitation to a status: the first one gives the code, the words are strung together.
     pure subroutine add_limitation(status, code, words)

@@ -16,13 +16,16 @@ module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                count_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
                                 st_no_contact, st_fewer_strips, &
-                                st_fallback_used, st_overlap_left, &
+                                st_fallback_used, st_overlap_left, st_more_strips, &
                                 st_workspace_too_small
     use faststrip_material, only: check_compliance
+    use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
-    use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation
+    use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation, &
+                                            default_resolution
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_strip_equations, only: effort_work, step_work
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
@@ -41,10 +44,12 @@ module faststrip_normal_strip
 
     public :: strip_options_t, strip_workspace_t
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
-    public :: fewest_strips, strips_auto
+    public :: fewest_strips, strips_auto, strips_auto_most
 
-    !> As many strips as the largest pressure and the penetration need to settle, 15 to 41.
+    !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
+    !> resolved, up to `strips_auto_most`.
     integer, parameter :: strips_auto = 0
+    integer, parameter :: strips_auto_most = 81
 
     integer, parameter :: scout_strips = 7   ! strips that find the patches
     integer, parameter :: fewest_scouted = 10 ! fewer strips find the patches themselves
@@ -53,7 +58,8 @@ module faststrip_normal_strip
     integer, parameter :: level_factor = 3   ! each with at most so many times the strips
     integer, parameter :: most_levels = 9
     real(wp), parameter :: coarse_tolerance = 1.0e-3_wp ! of the scouting strips
-    integer, parameter :: auto_levels(3) = [15, 27, 41]
+    integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
+    integer, parameter :: auto_enough = 41 ! for a solution that is resolved
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
 
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
@@ -79,6 +85,8 @@ module faststrip_normal_strip
         integer :: strips_per_patch = 15  !! strips across the largest patch, or `strips_auto`
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
+        real(wp) :: resolution_limit = default_resolution
+            !! `strips_auto` goes on until the estimated error of pmax is not above this
     end type strip_options_t
 
 contains
@@ -90,7 +98,8 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion), `st_no_finite_patch` (a contact
     !> that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
-    !> `faststrip_normal_lattice` gave the answer, or one or two strips were asked and three used;
+    !> `faststrip_normal_lattice` gave the answer; `st_more_strips`, more strips than asked were used,
+    !> because those did not settle or are fewer than three;
     !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
     !> `st_conformal`: see `faststrip_normal_limitations`;
@@ -194,7 +203,10 @@ contains
                 scratch = .false.
                 level = level + 1
                 if (options%strips_per_patch /= strips_auto .or. level <= first_counted + 1) cycle
-                if (abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
+                if (.not. is_resolved(workspace, compliance, strips, result, &
+                                      options%resolution_limit)) cycle
+                if (result%strips_across >= auto_enough .or. &
+                    abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
                     abs(result%penetration - coarser%penetration) &
                     <= auto_penetration*result%penetration) exit
             else if (scratch) then
@@ -235,14 +247,30 @@ contains
                                 //'by more than 1 % of the penetration: a rough gap, or one that ' &
                                 //'is cut off')
         call name_limitations(workspace%curve, strips, status)
-        if (options%strips_per_patch > 0 .and. options%strips_per_patch < fewest_strips &
-            .and. .not. is_error(status)) &
-            call add_limitation(status, st_fallback_used, 'one or two strips cannot find the ' &
-                                //'ends of a patch: three were used')
-        if (.not. settled .and. .not. is_error(status)) &
+        if (options%strips_per_patch /= strips_auto &
+            .and. levels(n_settled) > options%strips_per_patch .and. .not. is_error(status)) &
+            call add_limitation(status, st_more_strips, trim(count_text(levels(n_settled))) &
+                                //' strips used where '//trim(count_text(options%strips_per_patch)) &
+                                //' were asked, which did not settle')
+        ! Of itself, auto asks for as many as are resolved.
+        if (.not. (settled .or. options%strips_per_patch == strips_auto .or. is_error(status))) &
             call add_limitation(status, st_fewer_strips, &
                                 'fewer strips than asked: more did not settle')
     end subroutine solve
+
+    !> Is the estimated error of the largest pressure not above a limit?
+    logical function is_resolved(workspace, compliance, strips, result, limit)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, limit
+        type(contact_strips_t), intent(in) :: strips
+        type(normal_result_t), intent(in) :: result
+
+        type(certificate_t) :: certificate
+        type(status_t) :: status
+
+        call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
+        is_resolved = .not. is_error(status) .and. certificate%est_err_pmax <= limit
+    end function is_resolved
 
     !> By which numbers of strips the asked one is reached.
     pure subroutine plan_levels(strips_per_patch, levels, n_levels, first_counted)
@@ -480,10 +508,12 @@ contains
         result%area = 0.0_wp
         result%pmax = 0.0_wp
         result%x_max = 0.0_wp
+        result%strips_across = 0
         last = 0
         do p = 1, strips%n_patches
             first = last + 1
             last = last + count(strips%patch(:strips%n) == p)
+            result%strips_across = max(result%strips_across, last - first + 1)
             associate (left => strips%y_left(first:last), right => strips%y_right(first:last), &
                        half_length => strips%half_length(first:last))
                 result%area = result%area + 2.0_wp*profile_integral(left, right, half_length)

@@ -32,6 +32,7 @@ module faststrip_normal_types
         real(wp) :: y_max = 0.0_wp       !! right end of the contact, mm
         real(wp) :: x_max = 0.0_wp       !! largest half-length along x, mm
         integer :: n_patches = 0         !! number of contact patches
+        integer :: strips_across = 0     !! strips across the patch that has most, 0: no strips
         integer :: passes = 0            !! how often the ends were moved
         integer :: iterations = 0        !! steps of all passes
         type(effort_t) :: effort         !! what it took

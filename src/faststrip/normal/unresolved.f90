@@ -8,83 +8,65 @@
 !>     p(y) = -1/(pi^2 H) int [d(y) - d(y')]/(y - y')^2 dy',
 !>
 !> (K.L. Johnson, Contact Mechanics, 1985, section 2.3: a wave of amplitude d and wave number c takes
-!> c d/(pi H)). The smooth curve is the quartic through the gap at the middles of the strip and of
-!> its two neighbours and at its own two edges, which the certificate samples by itself; in a patch's
-!> end strip the parabola through its middle and its edges.
+!> c d/(pi H)). The smooth curve is the polynomial through nodes that the caller names: what the
+!> strip and its neighbours know of the gap.
 module faststrip_normal_unresolved
     use faststrip_kinds, only: wp, pi
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, first_point_from
-    use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: unresolved_pressure
+    public :: unresolved_pressure, most_nodes
 
     !> Points of the gap looked at together, even; of more, so many evenly spread ones, which tell of
     !> long waves, and as many neighbours in the middle, which tell of short ones.
     integer, parameter :: most_points = 128
+
+    !> Most nodes of a smooth curve.
     integer, parameter :: most_nodes = 5
 
 contains
 
-    !> The largest pressure in strip k that unresolved heights of the gap ask for, MPa; not negative.
-    !> Zero where no points lie between the edges and the middle.
-    pure real(wp) function unresolved_pressure(curve, compliance, strips, first, last, k) &
+    !> The largest pressure in a strip that unresolved heights of the gap ask for, MPa; not negative.
+    !> Zero where fewer than three points of the gap lie between the nodes.
+    pure real(wp) function unresolved_pressure(curve, compliance, y_left, y_right, node) &
         result(pressure)
-        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved, mm
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(contact_strips_t), intent(in) :: strips !! the solution
-        integer, intent(in) :: first, last           !! first and last strip of its patch
-        integer, intent(in) :: k                     !! the strip
+        type(gap_curve_t), intent(in) :: curve    !! the gap that was solved, mm
+        real(wp), intent(in) :: compliance        !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: y_left, y_right   !! edges of the strip, mm
+        real(wp), intent(in) :: node(:)
+            !! where the smooth curve meets the gap, all different, at most `most_nodes`, mm
 
-        real(wp) :: node(most_nodes), coefficient(most_nodes), largest
+        real(wp) :: coefficient(most_nodes), largest
         integer :: point(most_points)
-        integer :: n_nodes, from, to, n, i
+        integer :: from, to, n, i
 
-        call place_nodes(strips, first, last, k, node, n_nodes)
-        from = first_point_from(curve, minval(node(:n_nodes)))
-        to = first_point_from(curve, maxval(node(:n_nodes)))
-        if (curve%y(min(to, curve%n)) > maxval(node(:n_nodes)) .or. to > curve%n) to = to - 1
+        from = first_point_from(curve, minval(node))
+        to = first_point_from(curve, maxval(node))
+        if (curve%y(min(to, curve%n)) > maxval(node) .or. to > curve%n) to = to - 1
         pressure = 0.0_wp
         if (to - from < 2) return
-        call divide_differences(curve, node(:n_nodes), coefficient(:n_nodes))
+        call divide_differences(curve, node, coefficient(:size(node)))
         n = to - from + 1
         if (n <= most_points) then
             point(:n) = [(i, i=from, to)]
-            largest = largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
-                                       strips%y_left(k), strips%y_right(k), point(:n))
+            largest = largest_response(curve, node, coefficient(:size(node)), &
+                                       y_left, y_right, point(:n))
         else
             ! Counted from both ends, and as many before the middle as behind it: a mirrored gap
             ! is looked at in the same points.
             point = [(from + (i - 1)*(n/most_points), i=1, most_points/2), &
                      (to - (most_points - i)*(n/most_points), i=most_points/2 + 1, most_points)]
-            largest = largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
-                                       strips%y_left(k), strips%y_right(k), point)
+            largest = largest_response(curve, node, coefficient(:size(node)), &
+                                       y_left, y_right, point)
             n = most_points - modulo(n, 2)
             point(:n) = [((from + to - n + 1)/2 + i, i=0, n - 1)]
             largest = max(largest, &
-                          largest_response(curve, node(:n_nodes), coefficient(:n_nodes), &
-                                           strips%y_left(k), strips%y_right(k), point(:n)))
+                          largest_response(curve, node, coefficient(:size(node)), &
+                                           y_left, y_right, point(:n)))
         end if
         pressure = largest/(pi**2*compliance)
     end function unresolved_pressure
-
-    !> Where the smooth curve meets the gap.
-    pure subroutine place_nodes(strips, first, last, k, node, n_nodes)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: first, last, k
-        real(wp), intent(out) :: node(:)
-        integer, intent(out) :: n_nodes
-
-        n_nodes = 3
-        node = 0.0_wp
-        node(1:3) = [strips%y_left(k), 0.5_wp*(strips%y_left(k) + strips%y_right(k)), &
-                     strips%y_right(k)]
-        if (k == first .or. k == last) return
-        n_nodes = 5
-        node(4) = 0.5_wp*(strips%y_left(k - 1) + strips%y_right(k - 1))
-        node(5) = 0.5_wp*(strips%y_left(k + 1) + strips%y_right(k + 1))
-    end subroutine place_nodes
 
     !> Newton's divided differences of the gap at the nodes.
     pure subroutine divide_differences(curve, node, coefficient)

@@ -25,6 +25,7 @@ module faststrip_normal_variational
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_variational_estimate, only: raise_estimates
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y, &
                                                  take_pressures, count_patches
     use faststrip_normal_variational_place, only: extent_t, guess_extent, extent_of_strips, &
@@ -328,6 +329,9 @@ contains
                 call richardson_estimate(coarse, result, 2.0_wp, workspace%curve%h_lowest, &
                                          workspace%certificate, estimate)
                 workspace%is_estimated = .not. is_error(estimate)
+                if (workspace%is_estimated) &
+                    call raise_estimates(workspace%curve, compliance, workspace%grid, &
+                                         workspace%certificate)
                 if (options%error_target > 0.0_wp .and. workspace%is_estimated .and. &
                     max(workspace%certificate%est_err_penetration, &
                         workspace%certificate%est_err_pmax) <= options%error_target) exit
