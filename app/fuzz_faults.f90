@@ -4,7 +4,7 @@
 !> judges ask for by themselves among them: what a wrong solver would hand over.
 module faststrip_app_fuzz_faults
     use faststrip_kinds, only: wp
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_profile_gap_curve, only: gap_curve_t

@@ -7,7 +7,7 @@ module faststrip_app_fuzz_norm_judge
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error
     use faststrip_profile_gap, only: gap_t
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_variational, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                             release_norm, set_norm_gap, norm_solve

@@ -7,7 +7,7 @@ module faststrip_app_fuzz_relations
     use faststrip_status, only: is_error
     use faststrip_material, only: material_t
     use faststrip_profile_gap_curve, only: gap_curve_t
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_app_fuzz_cases, only: fuzz_case_t
     use faststrip_app_fuzz_judges, only: verdict_t, report_badness, judge_mirror, judge_scale, &
                                          judge_stiffness, judge_monotone, judge_wall

@@ -10,7 +10,7 @@ module faststrip_app_fuzz_solution_judges
     use faststrip_material, only: material_t
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at
-    use faststrip_normal_strip, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_app_fuzz_influence, only: displacement
     use faststrip_app_fuzz_judges, only: verdict_t, report_badness, judge_finite, judge_order, &

@@ -12,11 +12,12 @@ program kernels
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, normal_result_t, &
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_faststrip, only: faststrip_solve
     use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_normal_types, only: normal_result_t
     implicit none
 
     print '(a)', 'case,method,x_name,x,y_name,y,quantity,value,status'

@@ -245,15 +245,16 @@ contains
         real(wp), intent(in) :: unresolved ! of heights, MPa
 
         real(wp) :: edge, middle(-1:1), per_width
-        integer :: first, last
+        integer :: j
 
-        first = first_of_patch(strips, k)
-        last = last_of_patch(strips, first)
         edge = 0.5_wp*(samples%left(i) + samples%right(i))
-        middle = samples%middle(i - 1:i + 1)
+        do j = -1, 1
+            middle(j) = samples%middle(i + j)
+        end do
         per_width = depth/(2.0_wp*compliance*(strips%y_right(k) - strips%y_left(k)))
         pressure = per_width*(edge_factor*abs(edge) &
-                              + section_change*change(middle, [k > first, .true., k < last])) &
+                              + section_change*change(middle, .not. starts_patch(strips, k), &
+                                                    k < last_of_patch(strips, k))) &
                    + section_factor*abs(middle(0))*depth/(compliance*strips%half_length(k)) &
                    + unresolved_factor*unresolved
     end function missing_pressure
@@ -271,26 +272,35 @@ contains
 
         associate (left => strips%y_left(:strips%n), right => strips%y_right(:strips%n))
             n = 3
-            node(1:3) = [left(k), 0.5_wp*(left(k) + right(k)), right(k)]
-            if (.not. starts_patch(strips, k) .and. k < last_of_patch(strips, k)) then
-                n = 5
-                node(4) = 0.5_wp*(left(k - 1) + right(k - 1))
-                node(5) = 0.5_wp*(left(k + 1) + right(k + 1))
+            node(1) = left(k)
+            node(2) = 0.5_wp*(left(k) + right(k))
+            node(3) = right(k)
+            if (.not. starts_patch(strips, k)) then
+                n = n + 1
+                node(n) = 0.5_wp*(left(k - 1) + right(k - 1))
             end if
+            if (k < last_of_patch(strips, k)) then
+                n = n + 1
+                node(n) = 0.5_wp*(left(k + 1) + right(k + 1))
+            end if
+            ! At an end of the patch the neighbour's other edge serves instead.
+            if (n == 4 .and. starts_patch(strips, k)) node(5) = right(k + 1)
+            if (n == 4 .and. .not. starts_patch(strips, k)) node(5) = left(k - 1)
+            if (n == 4) n = 5
             pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n))
         end associate
     end function unresolved_in
 
     !> How far the middle one of three values is from the mean of the outer ones; at an end from the
     !> straight line on, which is nothing; alone its size.
-    pure real(wp) function change(values, has)
+    pure real(wp) function change(values, has_left, has_right)
         real(wp), intent(in) :: values(-1:1)
-        logical, intent(in) :: has(-1:1)
+        logical, intent(in) :: has_left, has_right
 
         change = 0.0_wp
-        if (all(has)) then
+        if (has_left .and. has_right) then
             change = abs(values(0) - 0.5_wp*(values(-1) + values(1)))
-        else if (.not. (has(-1) .or. has(1))) then
+        else if (.not. (has_left .or. has_right)) then
             change = abs(values(0))
         end if
     end function change

@@ -39,7 +39,7 @@ contains
 
         real(wp) :: coefficient(most_nodes), largest
         integer :: point(most_points)
-        integer :: from, to, n, i
+        integer :: from, to, first, n, i
 
         from = first_point_from(curve, minval(node))
         to = first_point_from(curve, maxval(node))
@@ -49,18 +49,25 @@ contains
         call divide_differences(curve, node, coefficient(:size(node)))
         n = to - from + 1
         if (n <= most_points) then
-            point(:n) = [(i, i=from, to)]
+            do i = 1, n
+                point(i) = from + i - 1
+            end do
             largest = largest_response(curve, node, coefficient(:size(node)), &
                                        y_left, y_right, point(:n))
         else
             ! Counted from both ends, and as many before the middle as behind it: a mirrored gap
             ! is looked at in the same points.
-            point = [(from + (i - 1)*(n/most_points), i=1, most_points/2), &
-                     (to - (most_points - i)*(n/most_points), i=most_points/2 + 1, most_points)]
+            do i = 1, most_points/2
+                point(i) = from + (i - 1)*(n/most_points)
+                point(most_points + 1 - i) = to - (i - 1)*(n/most_points)
+            end do
             largest = largest_response(curve, node, coefficient(:size(node)), &
                                        y_left, y_right, point)
             n = most_points - modulo(n, 2)
-            point(:n) = [((from + to - n + 1)/2 + i, i=0, n - 1)]
+            first = (from + to - n + 1)/2
+            do i = 1, n
+                point(i) = first + i - 1
+            end do
             largest = max(largest, &
                           largest_response(curve, node, coefficient(:size(node)), &
                                            y_left, y_right, point(:n)))
