@@ -18,7 +18,7 @@
 !> because the patch is in error too; its size is, so magnitudes are taken:
 !>
 !>     penetration   0.60 (rms e + 3 mean |m|)
-!>     area          1.30 (rms t + 2.5 mean |m|) + 0.5 mean u_k/p0_k, each at most 1
+!>     area          1.50 (rms t + 3.5 mean |m|) + 0.5 mean u_k/p0_k, each at most 1
 !>
 !> with means over y. Of n strips across the patch with the largest pressure, fewer than eight raise
 !> the area's estimate by 8/n, because a cubic through few lengths tells less of the tips. These
@@ -71,7 +71,7 @@ module faststrip_normal_certificate
     end type certificate_t
 
     real(wp), parameter :: penetration_factor = 0.6_wp, penetration_middle = 3.0_wp
-    real(wp), parameter :: area_factor = 1.3_wp, area_middle = 2.5_wp
+    real(wp), parameter :: area_factor = 1.5_wp, area_middle = 3.5_wp
     real(wp), parameter :: area_strips = 8.0_wp, area_unresolved = 0.5_wp
     real(wp), parameter :: edge_factor = 0.3_wp
     real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.7_wp
