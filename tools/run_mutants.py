@@ -73,7 +73,8 @@ OWN_STAGES = {
     "python": [("installed", FACES[:1])],
     "plots": [("python", ["test/plots"])],
 }
-ALL_STAGES = [("fortran", ""), ("python", ["test/cli"]), ("installed", FACES),
+TABLES = ["test/tools/test_choice_table.py", "test/tools/test_kalker_table.py"]
+ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),
               ("python", ["test/plots"])]
 
 

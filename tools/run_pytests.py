@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Run the unittest files test_*.py of some folders and count them.
+"""Run the unittest files test_*.py of some folders, or some files, and count them.
 
-    run_pytests.py [--filter TEXT] FOLDER...
+    run_pytests.py [--filter TEXT] FOLDER|FILE...
 
 The last line is `all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or
 none ran. With --filter only tests run whose `folder/module::class.test` contains TEXT.
@@ -94,8 +94,8 @@ def main():
     options = parser.parse_args()
     together = [0, 0, 0]
     for folder in options.folders:
-        for path in sorted(folder.glob("test_*.py")):
-            title = f"{folder.as_posix()}/{path.stem}"
+        for path in [folder] if folder.is_file() else sorted(folder.glob("test_*.py")):
+            title = f"{path.parent.as_posix()}/{path.stem}"
             suite = unittest.TestSuite(
                 test
                 for test in flatten(load(path, title))

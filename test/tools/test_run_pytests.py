@@ -87,6 +87,15 @@ class Runs(unittest.TestCase):
         self.check({"a/helper.py": GOOD}, 1, "0 passed, 0 failed")
         self.check({"a/test_good.py": GOOD}, 1, "0 passed, 0 failed", "--filter", "unknown")
 
+    def test_files_beside_folders(self):
+        with tempfile.TemporaryDirectory() as name:
+            for path in ("test_one.py", "test_two.py"):
+                (pathlib.Path(name) / path).write_text(GOOD, encoding="utf-8")
+            runner = ROOT / "tools" / "run_pytests.py"
+            result = run([sys.executable, runner, f"{name}/test_two.py"], name)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertRegex(result.stdout, r"\A\S*/test_two +1 passed, 0 failed\nall modules")
+
     def test_a_filter(self):
         files = {"a/test_mixed.py": MIXED, "b/test_good.py": GOOD}
         self.check(files, 0, "1 passed, 0 failed", "--filter", "b/test_good")
