@@ -47,6 +47,8 @@ FLAGS = "-Og -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
 TRAPS = "-ffpe-trap=invalid,zero,overflow"
 # Not copied: what is built, and the lists themselves, which change no result.
 LEFT_OUT = {".git", ".venv", "build", "bin", "out", "__pycache__", "tools/mutants"}
+# The main program of the tests, which sets the traps.
+RUNNER = "test/generated_runner.f90"
 # Written by the build, and here once and for all: a new commit alone changes no result.
 REVISION = "app/revision.f90"
 REVISION_TEXT = """\
@@ -195,60 +197,96 @@ def call(command, folder):
     return done.stdout
 
 
+def module_text(path):
+    """What a module file says, or nothing if there is none."""
+    return gzip.decompress(path.read_bytes()) if path.exists() else None
+
+
+class Source:
+    """A Fortran file: the modules it makes and those it uses."""
+
+    MADE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)\s*(?:!.*)?$", re.I | re.M)
+    USED = re.compile(r"^\s*use\b(?:\s*,[^:\n]*)?\s*(?:::)?\s*(\w+)", re.I | re.M)
+
+    def __init__(self, root, name):
+        self.name = name
+        self.object = name.replace("/", "_") + ".o"
+        self.text = (root / name).read_text(encoding="utf-8")
+        self.made = {word.lower() for word in self.MADE.findall(self.text)}
+        self.used = {word.lower() for word in self.USED.findall(self.text)} - self.made
+
+    def compile(self, path, folder, modules, target):
+        """Compile it from a path; modules are sought in some folders, what is made goes to one."""
+        traps = TRAPS.split() if self.name == RUNNER else []
+        done = subprocess.run(
+            ["gfortran", "-c", *FLAGS.split(), *traps, "-J", str(target),
+             *(f"-I{place}" for place in (target, *modules)), str(path),
+             "-o", str(target / self.object)],
+            cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, encoding="utf-8", errors="replace", check=False)
+        if done.returncode != 0:
+            raise Unfit(f"{path} does not compile\n{done.stdout}")
+
+
+def in_order(sources):
+    """Sources in levels: each uses modules of earlier levels only."""
+    made = {module for source in sources for module in source.made}
+    levels, ready, left = [], set(), list(sources)
+    while left:
+        level = [source for source in left if not (source.used & made) - ready]
+        if not level:
+            raise Unfit(f"modules use each other: {', '.join(source.name for source in left)}")
+        levels.append(level)
+        ready.update(module for source in level for module in source.made)
+        left = [source for source in left if source not in level]
+    return levels
+
+
 class Base:
     """The tree without a mutant, built once."""
 
     def __init__(self, root, python):
         self.python = python
         self.folder = root / "build" / "mutants" / "base"
-        names = files_of(root)
-        self.names = names
-        self.hash = hash_of(root, names)
-        copy_tree(root, self.folder, names)
+        self.names = files_of(root)
+        self.hash = hash_of(root, self.names)
+        copy_tree(root, self.folder, self.names)
+        self.objects = self.folder / "build" / "objects"
         self.has_fortran = (self.folder / "fpm.toml").exists()
-        self.commands, self.libraries = [], []
+        self.sources, self.libraries = [], []
         if self.has_fortran:
             self.build()
 
     def build(self):
+        """Compile what has changed, or uses a module that has."""
         if (self.folder / "app").exists():
             (self.folder / REVISION).write_text(REVISION_TEXT, encoding="utf-8")
         call([self.python, "tools/pf2f90.py"], self.folder)
-        call([".venv/bin/fpm", "build", "--tests", "--compiler", "gfortran", "--flag", FLAGS],
-             self.folder)
-        listed = self.folder / "build" / "compile_commands.json"
-        with open(listed, encoding="utf-8") as file:
-            self.commands = [Compilation(entry) for entry in json.load(file)]
         manifest = tomllib.loads((self.folder / "fpm.toml").read_text(encoding="utf-8"))
         link = manifest.get("build", {}).get("link", [])
         self.libraries = [f"-l{name}" for name in ([link] if isinstance(link, str) else link)]
+        paths = [path for place in ("src", "app") for path in (self.folder / place).rglob("*.f90")]
+        paths += (self.folder / "test").glob("*.f90")
+        levels = in_order([Source(self.folder, path.relative_to(self.folder).as_posix())
+                           for path in sorted(paths)])
+        self.sources = [source for level in levels for source in level]
+        self.objects.mkdir(parents=True, exist_ok=True)
+        record = self.objects / "keys.json"
+        keys = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            for level in levels:
+                keys.update(pool.map(lambda source: self.compiled(source, keys), level))
+                record.write_text(json.dumps(keys), encoding="utf-8")
 
-
-class Compilation:
-    """One call of the compiler, as fpm made it."""
-
-    def __init__(self, entry):
-        self.words = entry["arguments"]
-        self.file = entry["file"].removeprefix("././").removeprefix("./")
-        self.object = self.words[self.words.index("-o") + 1]
-        self.modules = self.words[self.words.index("-J") + 1]
-
-    def redirected(self, base, scratch):
-        """The same, with what it writes in scratch and what it reads there first."""
-        words = list(self.words)
-        words[words.index("-J") + 1] = str(scratch)
-        words[words.index("-o") + 1] = str(scratch / pathlib.Path(self.object).name)
-        place = words.index(f"-I{self.modules}")
-        words[place:place + 1] = [f"-I{scratch}", f"-I{base / self.modules}"]
-        return words
-
-
-USED = re.compile(r"^\s*use\s*(?:,[^:\n]*)?(?:::)?\s*(\w+)", re.IGNORECASE | re.MULTILINE)
-
-
-def module_text(path):
-    """What a module file says, or nothing if there is none."""
-    return gzip.decompress(path.read_bytes()) if path.exists() else None
+    def compiled(self, source, keys):
+        """Compile a file if that is needed; its name and the hash of what it was made from."""
+        digest = hashlib.sha256(f"{FLAGS} {TRAPS} {source.text}".encode())
+        for module in sorted(source.used):
+            digest.update(module_text(self.objects / f"{module}.mod") or b"")
+        key = digest.hexdigest()
+        if keys.get(source.name) != key or not (self.objects / source.object).exists():
+            source.compile(source.name, self.folder, [], self.objects)
+        return source.name, key
 
 
 class Job:
@@ -260,67 +298,43 @@ class Job:
         copy_tree(base.folder, self.folder, base.names)
         self.scratch = self.folder / "build" / "scratch"
         self.prefix = self.folder / "build" / "prefix"
-        self.linked = {}
-
-    def source(self, step):
-        """Where the source of a compilation is; what the tests are translated to, in the base."""
-        own = self.folder / step.file
-        return own if own.exists() else self.base.folder / step.file
+        self.linked, self.compiled = set(), set()
 
     def clear(self):
         shutil.rmtree(self.scratch, ignore_errors=True)
         self.scratch.mkdir(parents=True)
-        self.linked = {}
+        self.linked, self.compiled = set(), set()
 
     def compile(self, changed):
         """Compile a changed file, and what uses its module if that looks different now."""
-        objects, different = {}, set()
-        for step in self.base.commands:
-            text = None
-            if step.file != changed:
-                if not different:
-                    continue
-                text = self.source(step).read_text(encoding="utf-8")
-                if not different & {name.lower() for name in USED.findall(text)}:
-                    continue
-            before = set(self.scratch.glob("*.mod"))
-            words = step.redirected(self.base.folder, self.scratch)
-            words[words.index("-c") + 1] = str(self.source(step))
-            done = subprocess.run(words, cwd=self.folder, stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  encoding="utf-8", errors="replace", check=False)
-            if done.returncode != 0:
-                raise Unfit(done.stdout)
-            objects[step.object] = self.scratch / pathlib.Path(step.object).name
-            for made in set(self.scratch.glob("*.mod")) - before:
-                if module_text(made) != module_text(
-                        self.base.folder / step.modules / made.name):
-                    different.add(made.stem.lower())
-        self.objects = objects
+        different = set()
+        for source in self.base.sources:
+            if source.name != changed and not source.used & different:
+                continue
+            own = self.folder / source.name
+            if not own.exists():
+                own = self.base.folder / source.name
+            source.compile(own, self.folder, [self.base.objects], self.scratch)
+            self.compiled.add(source.name)
+            for module in source.made:
+                made = f"{module}.mod"
+                if module_text(self.scratch / made) != module_text(self.base.objects / made):
+                    different.add(module)
 
     def object_paths(self, *folders):
-        return [self.objects.get(step.object, self.base.folder / step.object)
-                for step in self.base.commands if step.file.split("/")[0] in folders]
+        return [(self.scratch if source.name in self.compiled else self.base.objects)
+                / source.object
+                for source in self.base.sources if source.name.split("/")[0] in folders]
 
     def link(self, what, make):
         """Link a thing once per mutant."""
         if what not in self.linked:
             make()
-            self.linked[what] = True
+            self.linked.add(what)
 
     def link_tests(self):
-        """The program of the Fortran tests; its main program sets the traps."""
-        target = self.folder / "build" / "runner"
-        step = next(step for step in self.base.commands
-                    if step.file == "test/generated_runner.f90")
-        words = step.redirected(self.base.folder, self.scratch)
-        words[words.index("-o") + 1] = str(self.scratch / "runner.o")
-        words[words.index("-c") + 1] = str(self.source(step))
-        call([*words, *TRAPS.split()], self.folder)
-        objects = [path for path in self.object_paths("src", "test")
-                   if pathlib.Path(path).name != pathlib.Path(step.object).name]
-        call(["gfortran", "-o", target, self.scratch / "runner.o", *objects,
-              *self.base.libraries], self.folder)
+        call(["gfortran", "-o", self.folder / "build" / "runner",
+              *self.object_paths("src", "test"), *self.base.libraries], self.folder)
 
     def link_program(self):
         (self.folder / "bin").mkdir(exist_ok=True)
@@ -337,7 +351,7 @@ class Job:
         shutil.copy(self.folder / "bin" / "faststrip", stage / "bin")
         made = self.scratch / "faststrip.mod"
         if not made.exists():
-            made = self.base.folder / self.base.commands[0].modules / "faststrip.mod"
+            made = self.base.objects / "faststrip.mod"
         shutil.copy(made, stage / "include")
         call(["ar", "rcs", stage / "lib" / "libfaststrip.a", *self.object_paths("src")],
              self.folder)
@@ -377,7 +391,6 @@ class Job:
             text = mutant.applied(kept.decode())
             source.write_text(text, encoding="utf-8")
             self.clear()
-            self.objects = {}
             try:
                 if source.suffix == ".f90":
                     self.compile(mutant.file)
@@ -492,7 +505,6 @@ def check_base(base, mutants, quick, results):
     seconds = {}
     job = Job(base, "base", {})
     job.clear()
-    job.objects = {}
     for kind, what in stages:
         name = stage_name(kind, what)
         if name in seconds:
