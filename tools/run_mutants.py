@@ -64,8 +64,7 @@ TIME_FACTOR = 8.0
 TIME_EXTRA = 60.0
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
-FACES = ["test/embed/test_python.py", "test/embed/test_callers.py", "test/embed/test_legacy.py",
-         "test/embed/test_hosts.py"]
+FACES = ["test/embed/test_python.py", "test/embed/test_callers.py", "test/embed/test_legacy.py"]
 FORTRAN_ROOMS = ("ground", "numerics", "influence", "profile", "normal", "tangential", "contact",
                  "errata")
 OWN_STAGES = {
