@@ -12,6 +12,7 @@ The mutants of a room stand in tools/mutants/ROOM.toml, one table each:
     index = 2                      # which one, if the text stands there more often
     replacement = "what takes its place"
     why = "what a user would get wrong"
+    first = "test/cli/test_auto.py"            # optional: tests of Python to begin with
     equivalent = "why no test can see it"      # only where that is so
 
 A mutant is killed if a test fails that passes without it, or if the tests do not end. The tests of
@@ -85,7 +86,7 @@ class Unfit(Exception):
 
 class Mutant:
     KEYS = {"id", "file", "text", "replacement", "why"}
-    MORE = {"index", "equivalent"}
+    MORE = {"index", "first", "equivalent"}
 
     def __init__(self, room, entry):
         missing = self.KEYS - entry.keys()
@@ -97,6 +98,7 @@ class Mutant:
         self.id, self.file, self.why = entry["id"], entry["file"], entry["why"]
         self.text, self.replacement = entry["text"], entry["replacement"]
         self.index = entry.get("index")
+        self.first = entry.get("first")
         self.equivalent = entry.get("equivalent")
 
     def applied(self, source):
@@ -413,6 +415,8 @@ class Job:
 def stages_of(mutant, quick):
     """The tests a mutant meets, in order; a change of Python meets no Fortran test."""
     own = OWN_STAGES[mutant.room]
+    if mutant.first:
+        own = [("python", [mutant.first])] + own
     others = [] if quick else [stage for stage in ALL_STAGES if stage not in own]
     return [stage for stage in own + others
             if stage[0] != "fortran" or mutant.file.endswith(".f90")]
