@@ -2,7 +2,7 @@
 
 import math
 
-from cli_program import ROOT, ProgramTest, rows_of
+from cli_program import ROOT, ProgramTest, gap_case, gap_text, rows_of
 
 SCENES = ROOT / "example" / "scenes"
 
@@ -71,3 +71,31 @@ class Auto(ProgramTest):
         self.refused(1, "contact", "case.nml", says=("target", "wear"))
         self.refused(2, "contact", SCENES / "freight_25t.nml", "--tolerance", "-1",
                      says=("tolerance", "-1"))
+
+    def test_kalkers_grid_is_thirty_elements_across_either_way(self):
+        """What auto leaves to Kalker's methods is what they give on that grid."""
+        self.write("gap.csv", gap_text(lambda y: 6e-3 * y * y))
+        self.write("case.nml", gap_case(motion="cksi = 4e-4"))
+        ellipse = self.good("contact", "case.nml", "--normal", "hertz", "--tangential", "none")[0]
+        a = float(ellipse["xmax_mm"])
+        b = 0.5 * (float(ellipse["ymax_mm"]) - float(ellipse["ymin_mm"]))
+        self.assertGreater(a / b, 2.0)
+        chosen = self.good("contact", "case.nml", "--normal", "auto", "--tolerance", "1e-5")[0]
+        self.assertIn("norm + tang", chosen["choice"])
+        row = self.good("contact", "case.nml", "--normal", "norm", "--tangential", "tang",
+                        "--element-dx", a / 15.0, "--element-dy", b / 15.0)[0]
+        for name in ("penetration_mm", "area_mm2", "pmax_MPa", "Fx_N", "stick_fraction"):
+            self.assert_close(float(chosen[name]), float(row[name]), relative=1e-6, what=name)
+
+    def test_the_error_target_of_norm_is_the_tolerance(self):
+        self.write("gap.csv", gap_text(lambda y: 2e-3 * y * y))
+        self.write("case.nml", gap_case())
+        words = ("contact", "case.nml", "--normal", "auto", "--target", "penetration")
+        chosen = self.good(*words, "--tolerance", "2e-4")[0]
+        self.assertIn("norm", chosen["choice"])
+        norm = ("contact", "case.nml", "--normal", "norm", "--tangential", "none")
+        self.assertEqual(chosen["penetration_mm"],
+                         self.good(*norm, "--error-target", "2e-4")[0]["penetration_mm"])
+        self.assertNotEqual(chosen["penetration_mm"],
+                            self.good(*norm, "--error-target", "2e-2")[0]["penetration_mm"])
+        self.assertLess(float(chosen["est_err_penetration"]), 2e-4)
