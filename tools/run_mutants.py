@@ -28,6 +28,7 @@ compiled too.
 
 import argparse
 import concurrent.futures
+import fcntl
 import gzip
 import hashlib
 import json
@@ -65,14 +66,15 @@ TIME_FACTOR = 8.0
 TIME_EXTRA = 60.0
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
-FACES = ["test/embed/test_python.py", "test/embed/test_callers.py", "test/embed/test_legacy.py"]
+FACES = ["test/embed/test_values.py", "test/embed/test_python.py",
+         "test/embed/test_callers.py", "test/embed/test_legacy.py"]
 FORTRAN_ROOMS = ("ground", "numerics", "influence", "profile", "normal", "tangential", "contact",
                  "errata")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],
     "app": [("python", ["test/cli"])],
-    "python": [("installed", FACES[:1])],
+    "python": [("installed", FACES[:2])],
     "plots": [("python", ["test/plots"])],
 }
 TABLES = ["test/tools/test_choice_table.py", "test/tools/test_kalker_table.py"]
@@ -598,6 +600,13 @@ def main():
             mutants = [mutant for mutant in mutants if mutant.id in options.only]
         for mutant in mutants:
             mutant.applied((root / mutant.file).read_text(encoding="utf-8"))
+        kept = root / "build" / "mutants"
+        kept.mkdir(parents=True, exist_ok=True)
+        lock = open(kept / "lock", "w", encoding="utf-8")
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise Unfit(f"another run uses {kept}") from None
         base = Base(root, pathlib.Path(sys.executable))
         results = Results(root / "build" / "mutants" / "results.jsonl")
         found = run(mutants, base, results, options)

@@ -1,0 +1,227 @@
+"""Every figure of C, Python and F77 against the program's, with nothing alike: unlike bodies, an
+unsymmetric gap, all three creepages, friction and numbers of points that are no defaults."""
+
+import csv
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+from installed import ROOT, HostTest
+
+POINTS = 401
+GAP = [(y, 2e-3 * (y - 1.0) ** 2 + 4e-5 * (y - 1.0) ** 3 + 0.25, (1.0 + 0.01 * y) / 920.0)
+       for y in (-15.0 + 0.075 * i for i in range(POINTS))]
+E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL = 2.1e5, 1.5e5, 0.28, 0.33
+MU, LOAD, CREEPAGE = 0.27, 9.0e4, (1.1e-3, -7.0e-4, 2.3e-4)
+CASE = f"""\
+&contact
+  name = 'values'
+  gap_file = 'gap.csv'
+  load_N = {LOAD}
+/
+&material
+  mu = {MU}
+  E_wheel_MPa = {E_WHEEL}
+  E_rail_MPa = {E_RAIL}
+  nu_wheel = {NU_WHEEL}
+  nu_rail = {NU_RAIL}
+/
+&motion
+  cksi = {CREEPAGE[0]}
+  ceta = {CREEPAGE[1]}
+  cphi_rad_per_mm = {CREEPAGE[2]}
+/
+"""
+COLUMNS = ("N_N", "penetration_mm", "area_mm2", "pmax_MPa", "ymin_mm", "ymax_mm", "xmax_mm", "Fx_N",
+           "Fy_N", "Mz_Nmm", "friction_power_N", "stick_fraction")
+NAMES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
+         "friction_power", "stick_fraction")
+WAYS = (("strip", "faststrip", 11, 13, (50, 50)), ("strip", "fastsim", 9, 15, (12, 21)),
+        ("hertz", "polach", 15, 15, (50, 50)), ("equal_area", "linear", 15, 15, (50, 50)),
+        ("hertz", "fastsim-weighted", 15, 15, (31, 8)))
+
+F77 = """\
+      PROGRAM VALUES
+      INTEGER IOPT(9), IW(8), INFO, I, N, K(2000)
+      DOUBLE PRECISION PAR(9), RES(14), Y(401), H(401), A(401), C(4)
+      DOUBLE PRECISION X(2000,8), F(3), G(4)
+      DO 10 I = 1, 401
+        READ (*, *) Y(I), H(I), A(I)
+   10 CONTINUE
+      CALL FSDFLT(IOPT, PAR)
+      READ (*, *) (IOPT(I), I=1,6)
+      READ (*, *) PAR
+      IF (IOPT(2) .LT. 7) IOPT(9) = 1
+      CALL FSINIT(IOPT, 401, IW, 8, INFO)
+      CALL FSCONT(IW, 401, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, 20) INFO*1D0, RES
+      CALL FSSTRP(IW, 2000, N, X(1,1), X(1,2), X(1,3), X(1,4), K, INFO)
+      WRITE (*, 20) (X(I,1), X(I,2), X(I,3), X(I,4), K(I)*1D0, I=1,N)
+      CALL FSKALK(1.7D0, 0.3D0, C, INFO)
+      WRITE (*, 20) C
+      CALL FSHERZ(PAR, 1D-3, 3D-3, 5D4, G(1), G(2), G(3), G(4), INFO)
+      WRITE (*, 20) G
+      CALL FSTSIM(6D0, 4D0, 7D4, C(1), C(2), C(3), PAR(7), PAR(8),
+     &  PAR(9), 0.27D0, 8D4, 20, 30, F(1), F(2), F(3), INFO)
+      WRITE (*, 20) F
+   20 FORMAT (2000ES25.16)
+      CALL FSFREE(IW, INFO)
+      END
+"""
+
+
+class Values(HostTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
+        sys.path.insert(0, str(ROOT / "python"))
+        try:
+            import faststrip
+            import numpy
+        finally:
+            sys.path.remove(str(ROOT / "python"))
+            del os.environ["FASTSTRIP_PREFIX"]
+        cls.faststrip, cls.numpy = faststrip, numpy
+        cls.write("gap.csv", "y_mm,h_mm,inv2R_per_mm\n"
+                  + "".join(f"{y!r},{h!r},{a!r}\n" for y, h, a in GAP))
+        cls.write("case.nml", CASE)
+        cls.write("values.f", F77)
+        cls.shell("gfortran -std=legacy values.f $(pkg-config --libs faststrip) -o values")
+
+    def table(self, name):
+        text = (self.folder / name).read_text(encoding="utf-8")
+        return list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
+
+    def program(self, way):
+        """Figures, strips and elements by the command line, which calls Fortran alone."""
+        normal, tangential, strips, points, (nx, ny) = way
+        words = [str(self.installed.prefix / "bin" / "faststrip"), "contact", "case.nml", "--normal",
+                 normal, "--tangential", tangential, "--strips-per-patch", str(strips),
+                 "--points-per-strip", str(points), "--fastsim-nx", str(nx), "--fastsim-ny", str(ny),
+                 "-o", "row.csv", "--strips", "strips.csv"]
+        if tangential not in ("polach", "linear"):
+            words += ["--fields", "fields.csv"]
+        subprocess.run(words, cwd=self.folder, check=True, stdin=subprocess.DEVNULL)
+        return self.table("row.csv")[0], self.table("strips.csv")
+
+    def close(self, found, wanted, what):
+        self.assertLessEqual(abs(float(found) - float(wanted)), 1e-9 * abs(float(wanted)) + 1e-12,
+                             (what, found, wanted))
+
+    def test_python_and_c(self):
+        y, h, a = (self.numpy.array(column) for column in zip(*GAP))
+        material = self.faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
+        for way in WAYS:
+            with self.subTest(way):
+                row, strips = self.program(way)
+                normal, tangential, n, points, grid = way
+                elements = tangential not in ("polach", "linear")
+                contact = self.faststrip.Contact(
+                    normal=normal, tangential=tangential, strips_per_patch=n,
+                    points_per_strip=points, fastsim_grid=grid, with_elements=elements)
+                contact.set_gap(y, h, a)
+                result = contact.solve(load=LOAD, creepage=CREEPAGE, mu=MU, material=material)
+                for name, column in zip(NAMES, COLUMNS):
+                    if row[column]:
+                        self.close(getattr(result, name), row[column], name)
+                self.assertEqual(result.n_patches, int(row["n_patches"]))
+                self.assertEqual(result.n_strips, len(strips))
+                ours = contact.strips()
+                for name, column in (("y_left", "y_left_mm"), ("y_right", "y_right_mm"),
+                                     ("half_length", "half_length_mm"), ("p0", "p0_MPa"),
+                                     ("patch", "patch")):
+                    for found, line in zip(getattr(ours, name), strips, strict=True):
+                        self.close(found, line[column], name)
+                if elements:
+                    self.check_elements(contact.elements(), self.table("fields.csv"))
+
+    def check_elements(self, ours, lines):
+        self.assertEqual(len(ours.x), len(lines))
+        for name, column in (("x", "x_mm"), ("y", "y_mm"), ("area", "area_mm2"), ("pn", "pn_MPa"),
+                             ("px", "px_MPa"), ("py", "py_MPa"), ("sx", "sx"), ("sy", "sy"),
+                             ("state", "state")):
+            for found, line in zip(getattr(ours, name), lines, strict=True):
+                self.close(found, line[column], name)
+
+    def test_f77(self):
+        numbers = {"strip": 1, "hertz": 2, "equal_area": 3, "faststrip": 1, "fastsim": 2,
+                   "fastsim-weighted": 6, "linear": 7, "polach": 9}
+        for way in WAYS:
+            with self.subTest(way):
+                row, strips = self.program(way)
+                lines = self.host(numbers[way[0]], numbers[way[1]], *way[2:4], *way[4])
+                self.assertEqual(lines[0][0], 0.0)
+                for found, name, column in zip(lines[0][1:], NAMES, COLUMNS):
+                    if row[column]:
+                        self.close(found, row[column], name)
+                self.assertEqual(lines[0][13:], [float(row["n_patches"]), len(strips)])
+                wanted = [float(line[column]) for line in strips for column in
+                          ("y_left_mm", "y_right_mm", "half_length_mm", "p0_MPa", "patch")]
+                self.assertEqual(len(lines[1]), len(wanted))
+                for found, value in zip(lines[1], wanted):
+                    self.close(found, value, "strips")
+
+    def host(self, *choices):
+        text = "".join(f"{y!r} {h!r} {a!r}\n" for y, h, a in GAP)
+        text += " ".join(str(choice) for choice in choices) + "\n"
+        text += " ".join(repr(value) for value in (E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL, MU, LOAD,
+                                                   *CREEPAGE)) + "\n"
+        done = subprocess.run([str(self.folder / "values")], input=text, cwd=self.folder,
+                              env=self.installed.environment, stdout=subprocess.PIPE,
+                              encoding="utf-8", check=True)
+        return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
+
+    def test_classics_of_both_against_formulas(self):
+        """Hertz by his equations, FASTSIM by its linear limit, and one face by the other."""
+        faststrip = self.faststrip
+        material = faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
+        _, _, kalker, hertz, forces = self.host(1, 1, 5, 5, 10, 10)
+        for found, wanted in zip(kalker, faststrip.kalker(1.7, 0.3), strict=True):
+            self.close(found, wanted, "kalker")
+        # Kalker's table of 1967 by a/b and nu: C11 > C22 here, C33 the smallest of all.
+        self.assertAlmostEqual(kalker[0], 5.1, delta=0.4)
+        self.assertAlmostEqual(kalker[1], 4.6, delta=0.5)
+        self.assertAlmostEqual(kalker[2], 2.2, delta=0.4)
+        self.assertLess(kalker[3], 1.0)
+        for found, wanted in zip(hertz, faststrip.hertz(1e-3, 3e-3, 5e4, material), strict=True):
+            self.close(found, wanted, "hertz")
+        a, b, penetration, pmax = hertz
+        self.assertGreater(a, 1.5 * b)
+        self.close(pmax, 1.5 * 5e4 / (math.pi * a * b), "pmax")
+        # Under the middle of an ellipsoidal pressure: 3/2 Q H times the mean of 1/r over the
+        # ellipse's rim, pi/2 of it (H = 1/(pi E*)).
+        compliance = ((1.0 - NU_WHEEL**2) / E_WHEEL + (1.0 - NU_RAIL**2) / E_RAIL) / math.pi
+        steps = [math.pi * (i + 0.5) / 2000 for i in range(2000)]
+        around = [math.hypot(a * math.sin(t), b * math.cos(t)) for t in steps]
+        k = sum(1.0 / r for r in around) * math.pi / 2000 / 2.0
+        self.close(penetration, 1.5 * 5e4 * compliance * k, "penetration")
+        sim = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), CREEPAGE, 0.27, 8e4,
+                                shear_modulus=7e4, grid=(20, 30))
+        for found, wanted in zip(forces, sim, strict=True):
+            self.close(found, wanted, "fastsim")
+        self.assertLess(forces[0], 0.0)
+        self.assertGreater(forces[1], 0.0)
+        self.assertNotAlmostEqual(forces[2], forces[1], delta=10.0)
+        tiny = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), (1e-7, 0.0, 0.0), 0.27, 8e4,
+                                 shear_modulus=7e4)
+        self.assertAlmostEqual(tiny[0] / (-kalker[0] * 7e4 * 24.0 * 1e-7), 1.0, delta=0.02)
+        shear = material.shear_modulus
+        self.close(1.0 / shear, 0.5 * (2.0 * (1.0 + NU_WHEEL) / E_WHEEL
+                                       + 2.0 * (1.0 + NU_RAIL) / E_RAIL), "shear modulus")
+
+    def test_a_copy_keeps_the_room_of_its_source(self):
+        y, h, a = (self.numpy.array(column) for column in zip(*GAP))
+        large, small = self.faststrip.Contact(max_points=500), self.faststrip.Contact(max_points=20)
+        small.set_gap(y[180:200], h[180:200], a[180:200])
+        large.copy_from(small)
+        large.set_gap(y, h, a)
+        other = self.faststrip.Contact()
+        other.set_gap(y, h, a)
+        self.assertEqual(large.solve(load=LOAD), other.solve(load=LOAD))
+
+
+if __name__ == "__main__":
+    unittest.main()
