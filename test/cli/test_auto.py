@@ -99,3 +99,25 @@ class Auto(ProgramTest):
         self.assertNotEqual(chosen["penetration_mm"],
                             self.good(*norm, "--error-target", "2e-2")[0]["penetration_mm"])
         self.assertLess(float(chosen["est_err_penetration"]), 2e-4)
+
+    def test_smaller_tolerances_of_the_pressure_take_more_strips(self):
+        self.write("gap.csv", gap_text(lambda y: 2e-3 * y * y + 5e-5 * y**3))
+        self.write("case.nml", gap_case())
+        strips = []
+        for tolerance in ("0.1", "0.0055", "0.0045", "0.0029"):
+            row = self.good("contact", "case.nml", "--normal", "auto", "--target", "pmax",
+                            "--tolerance", tolerance, "--strips", "strips.csv")[0]
+            strips.append(len(self.read("strips.csv")))
+            self.assertTrue(row["choice"].startswith(f"strip {strips[-1]}:"), row["choice"])
+        self.assertEqual(strips, sorted(set(strips)))
+
+    def test_a_law_gives_way_where_elements_are_wanted_and_nothing_else_does(self):
+        self.write("gap.csv", gap_text(lambda y: 2e-3 * y * y))
+        for spin, wide, without, with_field in (("1e-6", "0.1", "polach", "fastsim"),
+                                                ("6e-4", "0.05", "faststrip", "faststrip")):
+            self.write("case.nml", gap_case(motion=f"cksi = 1e-5, cphi_rad_per_mm = {spin}"))
+            words = ("contact", "case.nml", "--normal", "auto", "--tolerance", wide)
+            self.assertIn(f" + {without}", self.good(*words)[0]["choice"])
+            row = self.good(*words, "--fields", "field.csv")[0]
+            self.assertIn(f" + {with_field} ", row["choice"])
+            self.assertGreater(len(self.read("field.csv")), 20)

@@ -98,9 +98,10 @@ class Values(HostTest):
     def program(self, way):
         """Figures, strips and elements by the command line, which calls Fortran alone."""
         normal, tangential, strips, points, (nx, ny) = way
-        words = [str(self.installed.prefix / "bin" / "faststrip"), "contact", "case.nml", "--normal",
-                 normal, "--tangential", tangential, "--strips-per-patch", str(strips),
-                 "--points-per-strip", str(points), "--fastsim-nx", str(nx), "--fastsim-ny", str(ny),
+        words = [str(self.installed.prefix / "bin" / "faststrip"), "contact", "case.nml",
+                 "--normal", normal, "--tangential", tangential,
+                 "--strips-per-patch", str(strips), "--points-per-strip", str(points),
+                 "--fastsim-nx", str(nx), "--fastsim-ny", str(ny),
                  "-o", "row.csv", "--strips", "strips.csv"]
         if tangential not in ("polach", "linear"):
             words += ["--fields", "fields.csv"]
