@@ -10,7 +10,7 @@ from plot_samples import (
     strips_text, sweep_row, sweep_text,
 )
 
-from faststrip_plots import panels, results, style
+from faststrip_plots import panels, results, scales, style
 from faststrip_plots.tables import InputError, read_table
 
 
@@ -46,6 +46,23 @@ class Styles(unittest.TestCase):
             style.save(figure, str(folder.path / "a.png"), ["faststrip 1", None, "faststrip 2",
                                                             "faststrip 1"])
         self.assertEqual(figure.get_supxlabel(), "faststrip 1; faststrip 2")
+
+
+class Scales(unittest.TestCase):
+    def test_what_has_no_logarithm_leaves_a_hole(self):
+        found = scales.positive(np.array([2.0, 0.0, -3.0, math.nan, 1e-300]))
+        self.assertEqual(list(np.isnan(found)), [False, True, True, True, False])
+        self.assertEqual((found[0], found[4]), (2.0, 1e-300))
+
+    def test_the_exponent_of_a_power_with_a_factor(self):
+        x = np.array([1.0, 2.0, 5.0, -1.0, 0.0])
+        self.assertAlmostEqual(scales.power(x, 7.0 * np.abs(x) ** -1.5 * np.sign(x + 0.5)), -1.5)
+        self.assertTrue(math.isnan(scales.power(x[:1], x[:1])))
+
+    def test_groups_in_the_order_of_their_first_rows(self):
+        found = scales.groups(["b", "a", "b"], [1, 1, 1])
+        self.assertEqual([(key, list(rows)) for key, rows in found],
+                         [(("b", 1), [0, 2]), (("a", 1), [1])])
 
 
 class Tables(unittest.TestCase):
