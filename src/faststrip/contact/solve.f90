@@ -19,7 +19,8 @@ module faststrip_contact_solve
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
-    use faststrip_normal_limitations, only: default_resolution, name_resolution, add_limitation
+    use faststrip_normal_limitations, only: default_resolution, name_resolution, add_limitation, &
+                                            check_penetration, name_steps
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve, &
                                       strip_solve_penetration, strips_auto, strips_auto_most
@@ -368,9 +369,16 @@ contains
             normal%y_max = hertz%y + hertz%b
             normal%x_max = hertz%a
             normal%n_patches = 1
+            call check_penetration(curve, normal%penetration, status)
+            if (is_error(status)) then
+                normal = normal_result_t()
+                return
+            end if
             n = case%methods%strips_per_patch
             if (n == strips_auto) n = auto_hertz_strips
             call hertz_strips(hertz, n, workspace%strips, status)
+            if (is_error(status)) return
+            call name_steps(curve, hertz%penetration, workspace%strips, status)
         end associate
     end subroutine solve_hertz
 

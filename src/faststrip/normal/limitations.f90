@@ -12,7 +12,12 @@
 !>   moves them along one
 !>   normal; the slope's square, 4 %, is what is left out. The gap does not tell by how much the
 !>   surfaces turn together, as wheel flange and rail corner do: that takes `gap_t%turn`, which
-!>   gaps made from profiles have.
+!>   gaps made from profiles have. Likewise a step of the gap in a patch or at its end, a wall or
+!>   a body's edge, if it is higher than 1 % of the penetration or steep beside the patch: the
+!>   pressures at its foot are not bounded, and no strip is short enough for them.
+!>
+!> Nor can bodies be pressed together and apart: a penetration that is not positive is named as an
+!> overlap, or is an error where a step leads there, as to a fill value below the gap.
 !>
 !> Of several limitations the status has the code of the first that applies here, and all of the
 !> words there is room for:
@@ -23,14 +28,16 @@ module faststrip_normal_limitations
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 message_length, st_edge_of_data, st_flat_along_x, st_conformal, &
-                                st_under_resolved, &
-                                st_no_finite_patch, st_ok
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn
+                                st_under_resolved, st_no_finite_patch, st_ok, st_out_of_range, &
+                                st_overlap_left, first_error
+    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn, &
+                                           largest_step
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: check_curvature, name_limitations, name_resolution, add_limitation
+    public :: check_curvature, check_penetration, name_limitations, name_steps, name_step
+    public :: name_resolution, add_limitation
     public :: default_resolution
 
     !> Estimated relative error of the largest pressure up to which a solution is called resolved. At
@@ -39,6 +46,13 @@ module faststrip_normal_limitations
 
     real(wp), parameter :: doubtful_slope = 0.2_wp
     real(wp), parameter :: doubtful_turn = 20.0_wp*pi/180.0_wp
+    ! Height of a step over the penetration. Lower ones change it by less than 0.5 %.
+    real(wp), parameter :: doubtful_step = 0.01_wp
+    ! Slope of a step over penetration by half the patch's width. With 0.5 the largest pressure is
+    ! off by up to 20 %, with 0.1 by less than 1 %.
+    real(wp), parameter :: doubtful_steepness = 0.2_wp
+    ! Of all heights' range: a step as high as this leads to a fill value, and not over noise.
+    real(wp), parameter :: fill_step = 0.5_wp
 
 contains
 
@@ -53,6 +67,71 @@ contains
                         //'most '//trim(number_text(maxval(curve%inv2r(:curve%n)))) &
                         //' 1/mm: no finite patch along x')
     end subroutine check_curvature
+
+    !> Name or refuse a solution in which the bodies are not pressed together: they overlap before
+    !> any load. Where a step of the gap leads there, as to a fill value, there is no result.
+    pure subroutine check_penetration(curve, penetration, status)
+        type(gap_curve_t), intent(in) :: curve  !! the gap that was solved
+        real(wp), intent(in) :: penetration     !! approach D, from h = 0, mm
+        type(status_t), intent(inout) :: status !! `st_out_of_range`, or `st_overlap_left`
+
+        character(len=message_length) :: words
+        real(wp) :: highest, steepest, y
+
+        if (penetration > 0.0_wp .or. status%code >= first_error) return
+        words = 'penetration under a load must be positive, got '//trim(number_text(penetration)) &
+                //' mm: the lowest gap is '//trim(number_text(curve%h_lowest))//' mm, at y = ' &
+                //trim(number_text(curve%y_lowest))//' mm'
+        call largest_step(curve, curve%y(1), curve%y(curve%n), highest, steepest, y)
+        if (highest >= abs(penetration) .and. highest >= fill_step*(maxval(curve%h(:curve%n)) &
+                                                                    - curve%h_lowest)) then
+            call set_status(status, st_out_of_range, words)
+        else
+            call add_limitation(status, st_overlap_left, trim(words))
+        end if
+    end subroutine check_penetration
+
+    !> Add to a status that a step of the gap lies in a patch.
+    pure subroutine name_steps(curve, depth, strips, status)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        real(wp), intent(in) :: depth                !! penetration from the lowest height, mm
+        type(contact_strips_t), intent(in) :: strips !! its solution
+        type(status_t), intent(inout) :: status      !! limitations so far
+
+        integer :: k, first
+        logical :: is_named
+
+        first = 1
+        do k = 1, strips%n
+            if (k < strips%n) then
+                if (strips%patch(k + 1) == strips%patch(k)) cycle
+            end if
+            call name_step(curve, depth, 0.5_wp*(strips%y_right(k) - strips%y_left(first)), &
+                           strips%y_left(first), strips%y_right(k), status, is_named)
+            if (is_named) return
+            first = k + 1
+        end do
+    end subroutine name_steps
+
+    !> The same for one patch, or a part of it.
+    pure subroutine name_step(curve, depth, half_width, y_from, y_to, status, is_named)
+        type(gap_curve_t), intent(in) :: curve  !! the gap that was solved
+        real(wp), intent(in) :: depth           !! penetration from the lowest height, mm
+        real(wp), intent(in) :: half_width      !! of the patch, mm
+        real(wp), intent(in) :: y_from, y_to    !! where to look for a step, mm
+        type(status_t), intent(inout) :: status !! limitations so far
+        logical, intent(out) :: is_named        !! is there such a step?
+
+        real(wp) :: step, steepest, y
+
+        call largest_step(curve, y_from, y_to, step, steepest, y)
+        is_named = step > doubtful_step*depth &
+                   .or. steepest*half_width > doubtful_steepness*depth
+        if (is_named) &
+            call add_limitation(status, st_conformal, 'half-space doubtful: a step of ' &
+                                //trim(number_text(step))//' mm of the gap in a patch, at y = ' &
+                                //trim(number_text(y))//' mm')
+    end subroutine name_step
 
     !> Add to a status what the gap in the patches brings along: `st_edge_of_data`,
     !> `st_flat_along_x`, `st_conformal`, or instead of it the error `st_no_finite_patch`.

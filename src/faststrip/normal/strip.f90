@@ -24,7 +24,8 @@ module faststrip_normal_strip
     use faststrip_material, only: check_compliance
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
-    use faststrip_normal_limitations, only: check_curvature, name_limitations, add_limitation, &
+    use faststrip_normal_limitations, only: check_curvature, check_penetration, &
+                                            name_limitations, name_steps, add_limitation, &
                                             default_resolution
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_strip_equations, only: effort_work, step_work
@@ -95,8 +96,8 @@ contains
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, room for too few strips), `st_out_of_range` and
-    !> `st_linear_algebra` (a contact beyond all proportion), `st_no_finite_patch` (a contact
-    !> that is flat or hollow along x).
+    !> `st_linear_algebra` (a contact beyond all proportion; a penetration that is not positive),
+    !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
     !> `faststrip_normal_lattice` gave the answer; `st_more_strips`, more strips than asked were used,
     !> because those did not settle or are fewer than three;
@@ -247,6 +248,13 @@ contains
                                 //'by more than 1 % of the penetration: a rough gap, or one that ' &
                                 //'is cut off')
         call name_limitations(workspace%curve, strips, status)
+        if (.not. is_error(status)) &
+            call name_steps(workspace%curve, penetration, strips, status)
+        call check_penetration(workspace%curve, result%penetration, status)
+        if (is_error(status)) then
+            workspace%old%n = 0
+            result = normal_result_t()
+        end if
         if (options%strips_per_patch /= strips_auto &
             .and. levels(n_settled) > options%strips_per_patch .and. .not. is_error(status)) &
             call add_limitation(status, st_more_strips, trim(count_text(levels(n_settled))) &
@@ -332,6 +340,11 @@ contains
         call set_status(status, st_fallback_used, &
                         'the ends of the contact patches did not settle: fixed lattice used')
         call name_limitations(workspace%curve, strips, status)
+        if (.not. is_error(status)) &
+            call name_steps(workspace%curve, penetration - workspace%curve%h_lowest, strips, &
+                            status)
+        call check_penetration(workspace%curve, penetration, status)
+        if (is_error(status)) result = normal_result_t()
     end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.

@@ -15,7 +15,7 @@ module faststrip_normal_variational
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_edge_of_data, &
                                 st_no_contact, st_no_convergence, st_not_finite, &
-                                st_out_of_range, st_workspace_too_small
+                                st_out_of_range, st_overlap_left, st_workspace_too_small
     use faststrip_material, only: check_compliance
     use faststrip_influence_rectangle, only: rectangle_potential
     use faststrip_numerics_convolution, only: convolution_t, reserve_convolution, &
@@ -24,6 +24,7 @@ module faststrip_normal_variational
     use faststrip_profile_gap, only: gap_t
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
+    use faststrip_normal_limitations, only: check_penetration, name_step, add_limitation
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_variational_estimate, only: raise_estimates
     use faststrip_normal_variational_grid, only: contact_grid_t, size_grid, element_x, element_y, &
@@ -53,6 +54,9 @@ module faststrip_normal_variational
     integer, parameter :: max_levels = 12         ! of spacing, for a target
     integer, parameter :: first_elements = 6      ! across the shorter half of the first level
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
+    ! Height of the gap's lowest place below the elements' middles, over the penetration. A parabola
+    ! has less with three rows of elements; what is more is a needle, as of a fill value.
+    real(wp), parameter :: tolerated_miss = 0.1_wp
     real(wp), parameter :: spacing_unit = 0.1_wp  ! mm; with a target, spacings are this by 2^k
 
     ! Sizes beyond which nothing is promised.
@@ -139,8 +143,11 @@ contains
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, no memory), `st_out_of_range` (more elements than
-    !> allowed, a contact beyond all proportion), `st_no_convergence`.
-    !> Named limitation: `st_edge_of_data`, the contact runs to the end of the gap's points.
+    !> allowed, a contact beyond all proportion, a penetration that is not positive),
+    !> `st_no_convergence`.
+    !> Named limitations: `st_edge_of_data`, the contact runs to the end of the gap's points;
+    !> `st_overlap_left`, the gap is much lower somewhere between the elements' middles;
+    !> `st_conformal`, a step of the gap in the contact, see `faststrip_normal_limitations`.
     subroutine norm_solve(workspace, compliance, load, options, result, status, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
@@ -342,9 +349,40 @@ contains
             dx = 0.5_wp*dx
             dy = 0.5_wp*dy
         end do
-        if (reaches_end_of_data(workspace%curve, workspace%grid)) &
-            call set_status(status, st_edge_of_data, 'the contact runs to the end of the gap data')
+        call name_what_is_left(workspace%curve, workspace%grid, result%penetration, status)
+        call check_penetration(workspace%curve, result%penetration, status)
+        if (is_error(status)) result = normal_result_t()
     end subroutine solve_gap
+
+    !> Add to a status what the solution does not hold.
+    pure subroutine name_what_is_left(curve, grid, approach, status)
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_grid_t), intent(in) :: grid
+        real(wp), intent(in) :: approach
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: y, missed, half_width
+        integer :: j
+        logical :: is_named
+
+        missed = minval(grid%height) - curve%h_lowest
+        if (missed > tolerated_miss*(approach - minval(grid%height))) &
+            call add_limitation(status, st_overlap_left, 'the gap is ' &
+                                //trim(number_text(missed))//' mm lower at y = ' &
+                                //trim(number_text(curve%y_lowest)) &
+                                //' mm than at the middle of any element')
+        if (reaches_end_of_data(curve, grid)) &
+            call add_limitation(status, st_edge_of_data, &
+                                'the contact runs to the end of the gap data')
+        half_width = 0.5_wp*grid%dy*count(any(grid%pressure > 0.0_wp, dim=1))
+        do j = 1, grid%ny
+            if (.not. any(grid%pressure(:, j) > 0.0_wp)) cycle
+            y = element_y(grid, j)
+            call name_step(curve, approach - curve%h_lowest, half_width, y - 0.5_wp*grid%dy, &
+                           y + 0.5_wp*grid%dy, status, is_named)
+            if (is_named) exit
+        end do
+    end subroutine name_what_is_left
 
     !> Solve on grids of one spacing, each larger than the one before, until it holds the contact.
     subroutine solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &

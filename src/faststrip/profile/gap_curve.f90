@@ -1,22 +1,24 @@
 !> The undeformed gap as a curve: values between its points, its lowest point, and the intervals
 !> in which it stays below a level.
 !>
-!> The height h(y) is the C2 cubic spline through the points; the longitudinal term A = 1/(2R),
-!> which jumps where a profile's radius jumps, is linear between them. The spline is cut once into
-!> monotone pieces, so that the level sets are found exactly, however small they are beside the
-!> distance of the points.
+!> The height h(y) is the C2 cubic spline through the points, cut where they hold a step or a kink
+!> (a wall, a fill value, the end of a body), so that it does not swing on its two sides
+!> (`faststrip_numerics_torn_spline`); the longitudinal term A = 1/(2R), which jumps where a
+!> profile's radius jumps, is linear between them. The curve is cut once into monotone pieces, so
+!> that the level sets are found exactly, however small they are beside the distance of the points.
 module faststrip_profile_gap_curve
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                 st_workspace_too_small, st_bad_argument
     use faststrip_profile_gap, only: gap_t, check_gap, check_gap_points
-    use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot
+    use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size, &
+                                              tame_interval
     implicit none
     private
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
     public :: gap_at, gap_curvature, level_intervals
-    public :: gap_inv2r, largest_turn, first_point_from
+    public :: gap_inv2r, largest_turn, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
     real(wp), parameter :: flattest_ratio = 0.03_wp
@@ -28,13 +30,17 @@ module faststrip_profile_gap_curve
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
         real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
         real(wp), allocatable :: y(:), h(:)    !! points, mm
-        real(wp), allocatable :: slope(:)      !! h' at the points
+        real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
+        real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
+        logical, allocatable :: is_step(:)     !! is interval i a step, which no curve goes through?
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
         real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
                                                !! positive nowhere
         logical :: turn_is_known = .false.     !! does `turn` count?
         real(wp), allocatable :: turn(:)       !! of the surfaces from the tangent plane, rad
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
+        real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
+        logical, allocatable :: is_torn(:)     !! does a step or a kink touch the point?
         real(wp), allocatable :: work(:)       !! for the spline's linear system
     end type gap_curve_t
 
@@ -55,12 +61,16 @@ contains
         curve%n_pieces = 0
         if (allocated(curve%y)) then
             if (size(curve%y) >= max_points) return
-            deallocate (curve%y, curve%h, curve%slope, curve%inv2r, curve%turn, curve%y_node, &
-                        curve%h_node, curve%work)
+            deallocate (curve%y, curve%h, curve%slope_from, curve%slope_to, curve%inv2r, &
+                        curve%turn, curve%y_node, curve%h_node, curve%bend, curve%work, &
+                        curve%is_step, curve%is_torn)
         end if
-        allocate (curve%y(max_points), curve%h(max_points), curve%slope(max_points), &
-                  curve%inv2r(max_points), curve%turn(max_points), curve%y_node(3*max_points), &
-                  curve%h_node(3*max_points), curve%work(4*max_points), source=0.0_wp)
+        allocate (curve%y(max_points), curve%h(max_points), curve%slope_from(max_points), &
+                  curve%slope_to(max_points), curve%inv2r(max_points), curve%turn(max_points), &
+                  curve%y_node(3*max_points), curve%h_node(3*max_points), &
+                  curve%bend(max_points), curve%work(torn_spline_work_size(max_points)), &
+                  source=0.0_wp)
+        allocate (curve%is_step(max_points), curve%is_torn(max_points), source=.false.)
     end subroutine reserve_gap_curve
 
     !> Take over a gap: check it, fit the spline, cut it into monotone pieces. Allocates nothing.
@@ -111,8 +121,9 @@ contains
         curve%inv2r(:n) = inv2r
         curve%least_inv2r = flattest_ratio*usual_inv2r(inv2r)
         curve%turn_is_known = .false.
-        call spline_setup(curve%y(:n), curve%h(:n), spline_not_a_knot, curve%slope(:n), &
-                          curve%work, status)
+        call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
+                               curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
+                               curve%is_step(:n), curve%work, status)
         if (is_error(status)) return
         curve%n = n
         call cut_into_monotone_pieces(curve)
@@ -158,23 +169,27 @@ contains
     pure subroutine cut_into_monotone_pieces(curve)
         type(gap_curve_t), intent(inout) :: curve
 
-        real(wp) :: c1, c2, c3, dy, secant, root(2)
+        real(wp) :: dy, root(2), extremum(2)
         integer :: i, j, m, n_roots
+        logical :: is_tamed
 
         m = 1
         curve%y_node(1) = curve%y(1)
         curve%h_node(1) = curve%h(1)
         do i = 1, curve%n - 1
             dy = curve%y(i + 1) - curve%y(i)
-            secant = curve%h(i + 1) - curve%h(i)
-            c1 = curve%slope(i)*dy
-            c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
-            c2 = secant - c1 - c3
-            call unit_interval_roots(3.0_wp*c3, 2.0_wp*c2, c1, n_roots, root)
+            call find_extrema(curve, i, n_roots, root, extremum)
+            if (n_roots > 0) then
+                call tame_interval(i, curve%y(:curve%n), curve%h(:curve%n), &
+                                   curve%bend(:curve%n), minval(extremum(:n_roots)), &
+                                   maxval(extremum(:n_roots)), curve%slope_from(i), &
+                                   curve%slope_to(i), is_tamed)
+                if (is_tamed) call find_extrema(curve, i, n_roots, root, extremum)
+            end if
             do j = 1, n_roots
                 m = m + 1
                 curve%y_node(m) = curve%y(i) + root(j)*dy
-                curve%h_node(m) = curve%h(i) + root(j)*(c1 + root(j)*(c2 + root(j)*c3))
+                curve%h_node(m) = extremum(j)
             end do
             m = m + 1
             curve%y_node(m) = curve%y(i + 1)
@@ -192,6 +207,24 @@ contains
         curve%y_lowest = curve%y_node(i)
         if (j > i) curve%y_lowest = 0.5_wp*(curve%y_node(i) + curve%y_node(j))
     end subroutine cut_into_monotone_pieces
+
+    !> Places and heights of the extrema inside interval i.
+    pure subroutine find_extrema(curve, i, n, root, extremum)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        integer, intent(out) :: n
+        real(wp), intent(out) :: root(2), extremum(2) ! in 0 to 1; mm
+
+        real(wp) :: c1, c2, c3, dy, secant
+
+        dy = curve%y(i + 1) - curve%y(i)
+        secant = curve%h(i + 1) - curve%h(i)
+        c1 = curve%slope_from(i)*dy
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
+        c2 = secant - c1 - c3
+        call unit_interval_roots(3.0_wp*c3, 2.0_wp*c2, c1, n, root)
+        extremum = curve%h(i) + root*(c1 + root*(c2 + root*c3))
+    end subroutine find_extrema
 
     !> Roots of a t^2 + b t + c strictly inside (0, 1), ascending.
     pure subroutine unit_interval_roots(a, b, c, n, root)
@@ -277,6 +310,37 @@ contains
         turn = maxval(curve%turn(first:last)) - minval(curve%turn(first:last))
     end function largest_turn
 
+    !> The steps of the gap that lie between two places or reach into that range. Their height is
+    !> over what the slopes beside them lead to; zero if there is none.
+    pure subroutine largest_step(curve, y_from, y_to, highest, steepest, y)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y_from         !! left place, mm
+        real(wp), intent(in) :: y_to           !! right place, mm
+        real(wp), intent(out) :: highest       !! of the steps, mm
+        real(wp), intent(out) :: steepest      !! height of a step over its length
+        real(wp), intent(out) :: y             !! lower end of the highest, mm
+
+        real(wp) :: step, dy, slope
+        integer :: i
+
+        highest = 0.0_wp
+        steepest = 0.0_wp
+        y = y_from
+        do i = interval_of(curve, y_from), curve%n - 1
+            if (curve%y(i) >= y_to) exit
+            if (.not. curve%is_step(i) .or. curve%y(i + 1) <= y_from) cycle
+            ! The intervals at the ends of the points are no steps.
+            dy = curve%y(i + 1) - curve%y(i)
+            slope = 0.5_wp*(merge(0.0_wp, curve%slope_to(i - 1), curve%is_step(i - 1)) &
+                            + merge(0.0_wp, curve%slope_from(i + 1), curve%is_step(i + 1)))
+            step = abs(curve%h(i + 1) - curve%h(i) - slope*dy)
+            steepest = max(steepest, step/dy)
+            if (step <= highest) cycle
+            highest = step
+            y = curve%y(merge(i, i + 1, curve%h(i) < curve%h(i + 1)))
+        end do
+    end subroutine largest_step
+
     !> Half the second derivative of the height, the B of a Hertzian gap `A x^2 + B y^2`, 1/mm.
     pure real(wp) function gap_curvature(curve, y) result(b)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
@@ -286,11 +350,13 @@ contains
         real(wp) :: t, dy, secant, c2, c3
 
         i = interval_of(curve, y)
+        ! At the foot of a step the curvature is that of the side which is no step.
+        if (curve%is_step(i) .and. y <= curve%y(i) .and. i > 1) i = i - 1
         dy = curve%y(i + 1) - curve%y(i)
         t = min(max((y - curve%y(i))/dy, 0.0_wp), 1.0_wp)
         secant = curve%h(i + 1) - curve%h(i)
-        c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
-        c2 = secant - curve%slope(i)*dy - c3
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
+        c2 = secant - curve%slope_from(i)*dy - c3
         b = (c2 + 3.0_wp*c3*t)/dy**2
     end function gap_curvature
 
@@ -403,8 +469,8 @@ contains
 
         dy = curve%y(i + 1) - curve%y(i)
         secant = curve%h(i + 1) - curve%h(i)
-        c1 = curve%slope(i)*dy
-        c3 = (curve%slope(i) + curve%slope(i + 1))*dy - 2.0_wp*secant
+        c1 = curve%slope_from(i)*dy
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
         h = curve%h(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
     end function height
 end module faststrip_profile_gap_curve
