@@ -10,7 +10,7 @@ module faststrip_app_fuzz_run
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
-    use faststrip_normal_limitations, only: add_limitation
+    use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
     use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
@@ -127,6 +127,7 @@ contains
         integer(int64) :: before, after, rate
         integer :: max_strips
 
+        contact%estimate = .false. ! `estimate` does
         contact%material = material
         contact%load = case%load
         contact%gap = case%gap
@@ -234,9 +235,11 @@ contains
 
         call certify_strips(workspace%solver%curve, normal_compliance(material), &
                             workspace%strips, verdict%result, certificate, status)
-        if (.not. is_error(status)) &
-            verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                               certificate%est_err_area]
+        if (is_error(status)) return
+        verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &
+                           certificate%est_err_area]
+        call name_resolution(verdict%est_err(1), verdict%est_err(2), verdict%est_err(3), &
+                             default_resolution, verdict%status)
     end subroutine estimate
 
     logical function exception_raised()

@@ -21,7 +21,7 @@ module faststrip_app_normal_stage
     type :: normal_stage_t
         type(contact_methods_t) :: methods !! what was asked for
         type(workspace_t) :: workspace     !! with the strips of the last contact
-        real(wp) :: resolution_limit = default_resolution !! largest est_err_pmax of a resolved one
+        real(wp) :: resolution_limit = default_resolution !! largest estimated error of a resolved one
     end type normal_stage_t
 
     !> What presses the bodies together.
@@ -106,6 +106,8 @@ contains
         call certify_strips(stage%workspace%solver%curve, normal_compliance(material), &
                             stage%workspace%strips, normal, certificate, estimate)
         is_certified = .not. is_error(estimate)
-        if (is_certified) call name_resolution(certificate%est_err_pmax, stage%resolution_limit, status)
+        if (is_certified) &
+            call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &
+                                 certificate%est_err_area, stage%resolution_limit, status)
     end subroutine certify
 end module faststrip_app_normal_stage

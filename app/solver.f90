@@ -127,7 +127,9 @@ contains
             outcome%is_certified = .true.
             outcome%is_estimated = solver%norm%workspace%is_estimated
             if (outcome%is_estimated) &
-                call name_resolution(outcome%certificate%est_err_pmax, &
+                call name_resolution(outcome%certificate%est_err_penetration, &
+                                     outcome%certificate%est_err_pmax, &
+                                     outcome%certificate%est_err_area, &
                                      solver%methods%resolution_limit, status)
         else
             call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)

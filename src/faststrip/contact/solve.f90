@@ -70,7 +70,7 @@ module faststrip_contact_solve
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
         logical :: estimate = .true.       !! are the errors of strips estimated? Costs about a step
         real(wp) :: resolution_limit = default_resolution
-            !! `st_under_resolved` names an estimated relative error of pmax above this, > 0
+            !! `st_under_resolved` names an estimated relative error above this, > 0
     end type contact_case_t
 
     !> Figures of one contact.
@@ -337,7 +337,8 @@ contains
                             workspace%strips, normal, certificate, estimate)
         is_estimated = .not. is_error(estimate)
         if (is_estimated) then
-            call name_resolution(certificate%est_err_pmax, case%resolution_limit, status)
+            call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &
+                                 certificate%est_err_area, case%resolution_limit, status)
         else
             call add_limitation(status, st_under_resolved, 'no error can be estimated: ' &
                                 //trim(estimate%message))

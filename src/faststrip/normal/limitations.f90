@@ -40,8 +40,8 @@ module faststrip_normal_limitations
     public :: name_resolution, add_limitation
     public :: default_resolution
 
-    !> Estimated relative error of the largest pressure up to which a solution is called resolved. At
-    !> 5 % twice, at 20 % half as many random gaps are named.
+    !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 % half
+    !> as many random gaps are named.
     real(wp), parameter :: default_resolution = 0.1_wp
 
     real(wp), parameter :: doubtful_slope = 0.2_wp
@@ -186,16 +186,33 @@ contains
         end if
     end subroutine name_limitations
 
-    !> Add `st_under_resolved` to a status if an estimate of the error of the largest pressure is above
-    !> a limit, or no number.
-    pure subroutine name_resolution(est_err_pmax, limit, status)
-        real(wp), intent(in) :: est_err_pmax    !! estimated, relative
+    !> Add `st_under_resolved` to a status if an estimated error is above a limit, or no number.
+    pure subroutine name_resolution(penetration, pmax, area, limit, status)
+        real(wp), intent(in) :: penetration     !! estimated relative error of the penetration
+        real(wp), intent(in) :: pmax            !! of the largest pressure
+        real(wp), intent(in) :: area            !! of the area
         real(wp), intent(in) :: limit           !! largest that is called resolved
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
 
-        if (est_err_pmax <= limit .or. is_error(status)) return
-        call add_limitation(status, st_under_resolved, 'the estimated error of pmax is above ' &
-                            //trim(number_text(limit))//': '//trim(number_text(est_err_pmax)))
+        character(len=15) :: what
+        real(wp) :: estimate
+
+        if (is_error(status)) return
+        if (.not. pmax <= limit) then
+            what = 'pmax'
+            estimate = pmax
+        else if (.not. penetration <= limit) then
+            what = 'the penetration'
+            estimate = penetration
+        else if (.not. area <= limit) then
+            what = 'the area'
+            estimate = area
+        else
+            return
+        end if
+        call add_limitation(status, st_under_resolved, 'the estimated error of '//trim(what) &
+                            //' is above '//trim(number_text(limit))//': ' &
+                            //trim(number_text(estimate)))
     end subroutine name_resolution
 
     !> Add a limitation to a status: the first one gives the code, the words are strung together.

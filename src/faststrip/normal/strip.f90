@@ -87,7 +87,7 @@ module faststrip_normal_strip
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         real(wp) :: resolution_limit = default_resolution
-            !! `strips_auto` goes on until the estimated error of pmax is not above this
+            !! `strips_auto` goes on until no estimated error is above this
     end type strip_options_t
 
 contains
@@ -266,7 +266,7 @@ contains
                                 'fewer strips than asked: more did not settle')
     end subroutine solve
 
-    !> Is the estimated error of the largest pressure not above a limit?
+    !> Are the estimated errors not above a limit?
     logical function is_resolved(workspace, compliance, strips, result, limit)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance, limit
@@ -277,7 +277,9 @@ contains
         type(status_t) :: status
 
         call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
-        is_resolved = .not. is_error(status) .and. certificate%est_err_pmax <= limit
+        is_resolved = .not. is_error(status) &
+                      .and. max(certificate%est_err_penetration, certificate%est_err_pmax, &
+                                certificate%est_err_area) <= limit
     end function is_resolved
 
     !> By which numbers of strips the asked one is reached.
