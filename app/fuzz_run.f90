@@ -8,10 +8,10 @@ module faststrip_app_fuzz_run
                                 st_out_of_range
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
-    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve
+    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve, estimate_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
     use faststrip_contact_methods, only: normal_strip
@@ -233,8 +233,8 @@ contains
         type(certificate_t) :: certificate
         type(status_t) :: status
 
-        call certify_strips(workspace%solver%curve, normal_compliance(material), &
-                            workspace%strips, verdict%result, certificate, status)
+        call estimate_strips(workspace%solver, normal_compliance(material), &
+                             workspace%strips, verdict%result, certificate, status)
         if (is_error(status)) return
         verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &
                            certificate%est_err_area]

@@ -4,8 +4,9 @@ module faststrip_app_normal_stage
     use faststrip_status, only: status_t, is_error
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t, check_gap
-    use faststrip_normal_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_resolution, default_resolution
+    use faststrip_normal_strip, only: estimate_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
                                          normal_strip, tangential_faststrip
@@ -103,8 +104,8 @@ contains
 
         is_certified = .false.
         if (stage%methods%normal /= normal_strip) return
-        call certify_strips(stage%workspace%solver%curve, normal_compliance(material), &
-                            stage%workspace%strips, normal, certificate, estimate)
+        call estimate_strips(stage%workspace%solver, normal_compliance(material), &
+                             stage%workspace%strips, normal, certificate, estimate)
         is_certified = .not. is_error(estimate)
         if (is_certified) &
             call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &

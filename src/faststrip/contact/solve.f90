@@ -15,14 +15,14 @@ module faststrip_contact_solve
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_profile_gap, only: gap_t, min_gap_points
     use faststrip_profile_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
-    use faststrip_normal_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
     use faststrip_normal_limitations, only: default_resolution, name_resolution, add_limitation, &
                                             check_penetration, name_steps
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, strip_solve, &
+                                      reserve_strip_workspace, strip_solve, estimate_strips, &
                                       strip_solve_penetration, strips_auto, strips_auto_most
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
@@ -116,7 +116,7 @@ contains
         ! Tried as a whole first: what the parts find missing would stop the program.
         numbers = 20_int64*max_points + 100_int64*room
         if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < room) &
-            numbers = numbers + 8_int64*room*room
+            numbers = numbers + 8_int64*room*room + 400000_int64
         allocate (trial(numbers), stat=failure)
         if (failure /= 0) then
             call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
@@ -333,8 +333,8 @@ contains
 
         type(status_t) :: estimate
 
-        call certify_strips(workspace%solver%curve, normal_compliance(case%material), &
-                            workspace%strips, normal, certificate, estimate)
+        call estimate_strips(workspace%solver, normal_compliance(case%material), &
+                             workspace%strips, normal, certificate, estimate)
         is_estimated = .not. is_error(estimate)
         if (is_estimated) then
             call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &

@@ -1,31 +1,27 @@
-!> Normal contact by strips on a lattice with an active set: slower to settle and coarser at the
-!> ends of a patch than `faststrip_normal_strip`, but with an answer for every gap.
+!> Normal contact by strips on a lattice: coarser at the ends of a patch than
+!> `faststrip_normal_strip`, but with an answer for every gap.
 !>
-!> A patch is divided into even cells. For given strip lengths the pressures are the solution of
-!> a linear complementarity problem on the centre lines: a strip either presses and its gap is
-!> closed, or it carries nothing and its gap is open. It is solved by an active set that turns to
-!> only dropping strips when it takes too long; the load makes sure that one is left. The lengths
-!> of those that press move by Newton's method towards closing the gap at the exact tip,
+!> Ranges of y are divided into even cells, these along x into elements of constant pressure
+!> whose pressures solve a convex problem (`faststrip_normal_lattice_elements`). There is one
+!> solution, whatever the unit of length, the side from which one looks, or the rounding. It
+!> does not take the pressure along x for semi-elliptic; only what is handed over is: each cell
+!> that presses becomes a strip with its load and, as far as a semi-ellipse can, its second moment
+!> and its pressure in the middle.
 !>
-!>     A_k xd_k^2 = D - h_k - H sum_s p0_s I_ks(xd_k),
-!>
-!> and where that fails each by a step of its own that shrinks when it turns around. Whenever
-!> this is stopped, the pressures are positive and carry the load. The lattice is then laid anew
-!> over the patches found, whose ends the gap half a cell beyond brackets, and over places where
-!> the deformed surfaces overlap between and beyond them.
-!>
-!> The work is bounded: 80 steps of the lengths on as many cells as strips are asked for, fewer on
-!> more cells, which are at most half as many again and ten. With 31 strips that takes up to 20 ms,
-!> mostly 3, on a core that does nothing else.
+!> The first lattice, a coarse one, lies where the undeformed gap is below the penetration, the
+!> next ones over the patches of the one before, and over places where the deformed surfaces
+!> overlap. Three to five lattices are laid and none has more cells than half as many again as
+!> strips are asked for, and ten: the work is bounded. Gaps that need it take 30 ms in the mean and
+!> 0.15 s at most.
 !>
 !> Measured errors, mean/max, against CONTACT (0.1 mm) in the 20 contacts of the paper's section 5
 !> and against 25 Hertz ellipses of a/b = 0.004 to 100 (`faststrip bench robust`):
 !>
 !>     n    20 contacts: penetration   pmax          Hertz: penetration   pmax
-!>     5      0.57 / 1.3 %             9.2 / 34 %       0.81 / 1.3 %       0.40 / 1.0 %
-!>     9      0.20 / 0.44 %            1.4 / 9.8 %      0.30 / 0.70 %      0.16 / 0.56 %
-!>     15     0.09 / 0.19 %            0.4 / 3.0 %      0.12 / 0.28 %      0.07 / 0.24 %
-!>     31     0.02 / 0.12 %            0.2 / 1.5 %      0.03 / 0.09 %      0.03 / 0.09 %
+!>     5      0.69 / 1.7 %             7.1 / 28 %       0.38 / 0.93 %      1.3 / 2.6 %
+!>     9      0.17 / 0.61 %            2.4 / 23 %       0.12 / 0.34 %      0.39 / 0.75 %
+!>     15     0.02 / 0.09 %            0.4 / 2.4 %      0.06 / 0.15 %      0.17 / 0.31 %
+!>     31     0.01 / 0.02 %            0.2 / 1.8 %      0.04 / 0.19 %      0.08 / 0.42 %
 !>
 !> The largest are of a small second patch about to meet the first. Loads are exact to rounding.
 module faststrip_normal_lattice
@@ -36,68 +32,59 @@ module faststrip_normal_lattice
                                 st_no_contact, st_out_of_range, st_edge_of_data, st_overlap_left, &
                                 st_linear_algebra, st_workspace_too_small
     use faststrip_material, only: check_compliance
-    use faststrip_influence_row, only: center_influence_column, &
-                                       center_influence_column_gradient, &
-                                       influence_column_gradient
-    use faststrip_numerics_lu, only: lu_factor, lu_solve
+    use faststrip_influence_row, only: center_influence_column
+    use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
+                                                 solve_elements, element_columns
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_limitations, only: check_curvature
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_lattice_estimate, only: lattice_errors_t, lattice_figures_t, &
+                                                 lattice_figures, estimate_errors
+    use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
     public :: lattice_workspace_t, reserve_lattice, lattice_solve, lattice_solve_penetration
-    public :: most_lattice_strips
+    public :: lattice_errors, lattice_errors_t, forget_lattice_errors, most_lattice_strips
 
     !> More strips across the largest patch are not used, however many are asked for.
     integer, parameter :: most_lattice_strips = 101
 
-    integer, parameter :: most_cells = 162       ! all patches together
+    integer, parameter :: most_cells = 110       ! all patches together
     real(wp), parameter :: cells_per_strip = 1.5_wp ! all patches together, of the strips asked
     integer, parameter :: spare_cells = 10       ! and so many more
-    real(wp), parameter :: enough_cells = 0.7_wp ! that press, of the strips asked for
+    integer, parameter :: coarse_cells = 15      ! at most across the widest range of the first
     integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
     integer, parameter :: fewest_cells = 9       ! across a patch, if there is room
     integer, parameter :: max_ranges = 64
-    integer, parameter :: max_layings = 10
-    integer, parameter :: max_length_steps = 40  ! of one lattice
-    integer, parameter :: most_plain_steps = 80  ! of all lattices, on as many cells as strips
-                                                 ! are asked for; fewer on more cells
-    integer, parameter :: fewest_steps = 12      ! in any case
-    integer, parameter :: max_block_rounds = 8   ! then strips are added one by one
-    integer, parameter :: max_adding_rounds = 16 ! then they are only dropped
-    integer, parameter :: max_failures = 2       ! of Newton's steps on one lattice
+    integer, parameter :: fewest_layings = 3, max_layings = 5
     integer, parameter :: block = 64             ! points evaluated together
-    real(wp), parameter :: loose_tolerance = 1.0e-2_wp, tight_tolerance = 1.0e-5_wp ! of ln xd
-    real(wp), parameter :: largest_length_step = 0.7_wp ! of ln xd
-    real(wp), parameter :: shortest_ratio = 0.1_wp   ! of a strip to its longer neighbour
-    real(wp), parameter :: end_tolerance = 0.02_wp   ! of a cell
+    ! Added before a number of cells is cut to an integer: widths of ranges often are as small
+    ! integers to each other, and a half would leave the number to the rounding.
+    real(wp), parameter :: cells_rounding = 0.5369_wp
+    real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
+    real(wp), parameter :: reach_margin = 1.3_wp ! of a cell, over the length found last
+    real(wp), parameter :: depth_margin = 1.05_wp ! the penetration may still rise by
+    real(wp), parameter :: least_reach = 0.02_wp ! penetration, of all, that gives a cell's length
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
     real(wp), parameter :: named_overlap = 0.01_wp ! the same, told to the caller
     real(wp), parameter :: start_level = 0.55_wp     ! of the penetration: virtual penetration
     real(wp), parameter :: start_factor = 0.6_wp     ! of the plane-strain pressure
-    real(wp), parameter :: flattest = 1.0e-9_wp      ! smallest A = 1/(2R) used, 1/mm
+    real(wp), parameter :: same = 1.0e-6_wp          ! lengths that differ by less, relatively
     real(wp), parameter :: smallest_penetration = 1.0e-60_wp, largest_penetration = 1.0e60_wp
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: lattice_workspace_t
         private
         integer :: max_strips = 0
+        type(lattice_errors_t) :: errors ! of the last solution
+        type(elements_t) :: elements
         integer :: n = 0           ! cells
+        integer :: n_old = 0       ! that pressed on the lattice before
         integer :: n_ranges = 0    ! ranges of y, each divided into even cells
         real(wp) :: y_from(max_ranges) = 0.0_wp, y_to(max_ranges) = 0.0_wp ! mm
         integer :: cells(max_ranges) = 0
-        integer :: steps = 0       ! of the lengths, all lattices together
-        real(wp) :: work = 0.0_wp  ! spent, and how much may be; see `step_work`
-        real(wp) :: most_work = 0.0_wp
         real(wp), allocatable :: y_left(:), y_right(:), y(:), height(:), inv2r(:), p0(:)
-        real(wp), allocatable :: half_length(:), factor(:), last_step(:), tip(:)
-        real(wp), allocatable :: old_y(:), old_half_length(:)
-        real(wp), allocatable :: at_x(:), at_y(:) ! tips of the strips that press
-        ! Displacements on the centre lines and their derivatives in the sources' ln xd
-        real(wp), allocatable :: influence(:, :), influence_slope(:, :)
-        real(wp), allocatable :: matrix(:, :), column(:, :), tips(:, :) ! of a linear system
-        integer, allocatable :: pivot(:), at(:)
+        real(wp), allocatable :: half_length(:), reach(:), old_y(:), old_half_length(:)
         logical, allocatable :: presses(:)
     end type lattice_workspace_t
 
@@ -117,22 +104,16 @@ contains
         if (workspace%max_strips >= min(max_strips, most_cells)) return
         if (allocated(workspace%p0)) deallocate ( &
             workspace%y_left, workspace%y_right, workspace%y, workspace%height, workspace%inv2r, &
-            workspace%p0, workspace%half_length, workspace%factor, workspace%last_step, &
-            workspace%tip, workspace%old_y, workspace%old_half_length, workspace%at_x, &
-            workspace%at_y, workspace%influence, workspace%influence_slope, workspace%matrix, &
-            workspace%column, workspace%tips, workspace%pivot, workspace%at, workspace%presses)
+            workspace%p0, workspace%half_length, workspace%reach, workspace%old_y, &
+            workspace%old_half_length, workspace%presses)
         associate (m => min(max_strips, most_cells))
             allocate (workspace%y_left(m), workspace%y_right(m), workspace%y(m), &
                       workspace%height(m), workspace%inv2r(m), workspace%p0(m), &
-                      workspace%half_length(m), workspace%factor(m), workspace%last_step(m), &
-                      workspace%tip(m), workspace%old_y(m), workspace%old_half_length(m), &
-                      workspace%at_x(m), workspace%at_y(m), source=0.0_wp)
-            allocate (workspace%influence(m, m), workspace%influence_slope(m, m), &
-                      workspace%matrix(2*m + 1, 2*m + 1), workspace%column(2*m + 1, 2), &
-                      workspace%tips(m, 3), source=0.0_wp)
-            allocate (workspace%pivot(2*m + 1), workspace%at(m), source=0)
+                      workspace%half_length(m), workspace%reach(m), workspace%old_y(m), &
+                      workspace%old_half_length(m), source=0.0_wp)
             allocate (workspace%presses(m), source=.false.)
         end associate
+        call reserve_elements(workspace%elements, min(max_strips, most_cells))
         workspace%max_strips = min(max_strips, most_cells)
     end subroutine reserve_lattice
 
@@ -199,6 +180,20 @@ contains
         call solve(workspace, curve, compliance, depth, .false., n_strips, strips, depth, status)
     end subroutine lattice_solve_penetration
 
+    !> Forget them: the next answer is not of a lattice.
+    pure subroutine forget_lattice_errors(workspace)
+        type(lattice_workspace_t), intent(inout) :: workspace !! as before otherwise
+
+        workspace%errors = lattice_errors_t()
+    end subroutine forget_lattice_errors
+
+    !> Estimated relative errors of the last solution.
+    pure type(lattice_errors_t) function lattice_errors(workspace) result(errors)
+        type(lattice_workspace_t), intent(in) :: workspace !! after a solution
+
+        errors = workspace%errors
+    end function lattice_errors
+
     subroutine check_input(workspace, curve, compliance, target, n_strips, strips, status)
         type(lattice_workspace_t), intent(in) :: workspace
         type(gap_curve_t), intent(in) :: curve
@@ -239,39 +234,42 @@ contains
 
         low = smallest_penetration
         high = largest_penetration
-        do i = 1, 60
+        do i = 1, 70
             depth = sqrt(low)*sqrt(high)
             if (start_load(curve, compliance, depth) < load) then
                 low = depth
             else
                 high = depth
             end if
-            if (high < 1.2_wp*low) exit
+            if (high - low <= 2.0_wp*epsilon(1.0_wp)*low) exit
         end do
     end subroutine start_depth
 
+    !> That load; a gap straight between the ends of its monotone pieces lets it rise evenly, so
+    !> that one penetration belongs to it.
     pure real(wp) function start_load(curve, compliance, depth) result(load)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
 
-        integer, parameter :: n_points = 8
-        real(wp) :: y_from(max_ranges), y_to(max_ranges), h, inv2r, level, width
-        integer :: i, j, n
+        real(wp) :: level, low, high, width
+        integer :: j
 
-        level = curve%h_lowest + start_level*depth
-        call level_intervals(curve, level, y_from, y_to, n)
+        level = start_level*depth
         load = 0.0_wp
-        do i = 1, n
-            width = (y_to(i) - y_from(i))/n_points
-            do j = 1, n_points
-                call gap_at(curve, y_from(i) + (j - 0.5_wp)*width, h, inv2r)
-                load = load + max(level - h, 0.0_wp)*width
-            end do
+        do j = 1, curve%n_pieces
+            width = curve%y_node(j + 1) - curve%y_node(j)
+            low = min(curve%h_node(j), curve%h_node(j + 1)) - curve%h_lowest
+            high = max(curve%h_node(j), curve%h_node(j + 1)) - curve%h_lowest
+            if (level >= high) then
+                load = load + width*(level - 0.5_wp*(low + high))
+            else if (level > low) then
+                load = load + width*((level - low)*(0.5_wp*((level - low)/(high - low))))
+            end if
         end do
         load = start_factor*(load/compliance)
     end function start_load
 
-    !> Lay lattices until the ends of the patches settle; keep the best.
+    !> Lay lattices until nothing overlaps outside the patches.
     subroutine solve(workspace, curve, compliance, target, by_load, n_strips, strips, depth, &
                      status)
         type(lattice_workspace_t), intent(inout) :: workspace
@@ -284,11 +282,13 @@ contains
         real(wp), intent(inout) :: depth ! penetration above the lowest height: first guess, result
         type(status_t), intent(out) :: status
 
-        real(wp) :: move, overlap, worth, best_worth, best_depth, best_overlap, residual, tolerance
-        integer :: laying, best_laying, room, wanted
-        logical :: done
+        real(wp) :: overlap
+        integer :: laying, room, wanted
+        logical :: solved
+        type(lattice_figures_t) :: before, last
 
         call clear_status(status)
+        workspace%errors = lattice_errors_t()
         if (depth <= 2.0_wp*smallest_penetration &
             .or. depth >= 0.5_wp*largest_penetration) then
             call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
@@ -300,46 +300,40 @@ contains
                    nint(cells_per_strip*wanted) + spare_cells)
         call first_ranges(workspace, curve, depth)
         workspace%n = 0
-        workspace%steps = 0
-        workspace%work = 0.0_wp
-        workspace%most_work = most_plain_steps*step_work(max(wanted, room/2), 2)
-        best_worth = huge(1.0_wp)
-        best_depth = depth
-        best_overlap = 0.0_wp
-        best_laying = 0
-        tolerance = loose_tolerance
         do laying = 1, max_layings
-            call lay(workspace, curve, wanted, room, depth)
-            call settle_lengths(workspace, compliance, target, by_load, tolerance, depth, &
-                                residual, done)
-            if (.not. done) exit
-            call next_ranges(workspace, curve, compliance, depth, move, overlap)
-            worth = move + 10.0_wp*overlap + residual &
-                    + max(0.0_wp, 1.0_wp - count(workspace%presses(:workspace%n)) &
-                                           /(enough_cells*wanted)) &
-                    + max(0.0_wp, 1.0_wp - smallest_patch(workspace) &
-                                           /(enough_cells*min(fewest_cells, wanted)))
-            if (worth < 0.9_wp*best_worth) then
-                best_worth = worth
-                best_depth = depth
-                best_overlap = overlap
-                best_laying = laying
-                call record(workspace, strips)
+            if (laying == 1) then
+                call lay(workspace, curve, min(wanted, coarse_cells), room)
+            else
+                call lay(workspace, curve, min(wanted + 1, room), room)
             end if
-            if (laying > best_laying + 3) exit
-            if (move < end_tolerance .and. overlap < overlap_tolerance) then
-                if (tolerance <= tight_tolerance) exit
-                tolerance = tight_tolerance
-            end if
-            if (is_exhausted(workspace)) exit
+            call set_reach(workspace, depth)
+            associate (n => workspace%n, elements => workspace%elements)
+                call place_elements(elements, workspace%y_left(:n), workspace%y_right(:n), &
+                                    workspace%height(:n), workspace%inv2r(:n), &
+                                    workspace%reach(:n))
+                call solve_elements(elements, compliance, target, by_load, depth, solved)
+                if (.not. solved) exit
+                call element_columns(elements, n, workspace%p0(:n), workspace%half_length(:n))
+                workspace%presses(:n) = workspace%p0(:n) > 0.0_wp
+            end associate
+            call record(workspace, strips)
+            before = last
+            last = lattice_figures(strips, depth)
+            call next_ranges(workspace, curve, compliance, depth, &
+                             merge(first_growth, growth, laying == 1), overlap)
+            if (laying >= fewest_layings .and. overlap < overlap_tolerance &
+                .and. 2*count(workspace%presses(:workspace%n)) >= workspace%n) exit
         end do
-        depth = best_depth
-        if (strips%n == 0) then
+        if (solved) then
+            call find_waves(workspace, curve, compliance, depth, strips)
+            workspace%errors = estimate_errors(before, last, strips, workspace%reach)
+        end if
+        if (.not. solved) then
             call set_status(status, st_linear_algebra, &
-                            'the influence numbers of the lattice are singular')
-        else if (best_overlap > named_overlap) then
+                            'the pressures of the lattice have no solution')
+        else if (overlap > named_overlap) then
             call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
-                            // trim(number_text(100.0_wp*best_overlap)) // ' % of the penetration')
+                            // trim(number_text(100.0_wp*overlap)) // ' % of the penetration')
         else if (strips%y_left(1) <= curve%y(1) &
                  .or. strips%y_right(strips%n) >= curve%y(curve%n)) then
             call set_status(status, st_edge_of_data, &
@@ -347,8 +341,8 @@ contains
         end if
     end subroutine solve
 
-    !> The first ranges are where the gap is below 0.55 D; one range from the first to the last
-    !> if there are too many.
+    !> The first ranges are where the gap is below the penetration; one range from the first to the
+    !> last if there are too many.
     pure subroutine first_ranges(workspace, curve, depth)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
@@ -357,7 +351,7 @@ contains
         real(wp) :: level
         integer :: n, j
 
-        level = curve%h_lowest + start_level*depth
+        level = curve%h_lowest + depth
         call level_intervals(curve, level, workspace%y_from, workspace%y_to, n)
         if (n == max_ranges) then
             do j = curve%n_pieces + 1, 2, -1
@@ -369,37 +363,44 @@ contains
         workspace%n_ranges = n
     end subroutine first_ranges
 
-    !> Divide the ranges into even cells, with lengths from the last lattice.
-    pure subroutine lay(workspace, curve, wanted, room, depth)
+    !> Divide the ranges into even cells, and keep the lengths of the lattice before.
+    pure subroutine lay(workspace, curve, wanted, room)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
-        integer, intent(in) :: wanted, room
-        real(wp), intent(in) :: depth
+        integer, intent(in) :: wanted, room ! cells across the widest range, and of all
 
-        real(wp) :: widest, width, h, a, y
-        integer :: r, k, i, n_old, fewest, share, near
+        real(wp) :: widest, width, nearest, h
+        integer :: r, k, i, n, fewest, share
 
-        n_old = 0
+        n = 0
         do k = 1, workspace%n
             if (.not. workspace%presses(k)) cycle
-            n_old = n_old + 1
-            workspace%old_y(n_old) = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
-            workspace%old_half_length(n_old) = workspace%half_length(k)
+            n = n + 1
+            workspace%old_y(n) = workspace%y(k)
+            workspace%old_half_length(n) = workspace%half_length(k)
         end do
+        workspace%n_old = n
         associate (from => workspace%y_from, to => workspace%y_to, cells => workspace%cells, &
                    m => workspace%n_ranges)
             do while (m > max(1, room/range_cells))
-                r = minloc(from(2:m) - to(:m - 1), dim=1)
-                to(r:m - 1) = to(r + 1:m)
-                from(r + 1:m - 1) = from(r + 2:m)
-                m = m - 1
+                ! All that are as near to each other, or the order would count.
+                nearest = (1.0_wp + same)*minval(from(2:m) - to(:m - 1))
+                n = 1
+                do r = 2, m
+                    if (from(r) - to(r - 1) > nearest) then
+                        n = n + 1
+                        from(n) = from(r)
+                    end if
+                    to(n) = to(r)
+                end do
+                m = n
             end do
             widest = maxval(to(:m) - from(:m))
             fewest = min(fewest_cells, wanted)
             do share = wanted, 1, -1
                 fewest = min(fewest, share)
                 do r = 1, m
-                    cells(r) = max(fewest, nint(share*((to(r) - from(r))/widest)))
+                    cells(r) = max(fewest, int(share*((to(r) - from(r))/widest) + cells_rounding))
                 end do
                 if (sum(cells(:m)) <= room) exit
             end do
@@ -412,390 +413,56 @@ contains
                     workspace%y_right(i) = from(r) + k*width
                     if (k == cells(r)) workspace%y_right(i) = to(r)
                     if (k > 1) workspace%y_right(i - 1) = workspace%y_left(i)
-                    y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
-                    call gap_at(curve, y, h, a)
-                    workspace%y(i) = y
-                    workspace%height(i) = h - curve%h_lowest
-                    workspace%inv2r(i) = max(a, flattest)
-                    if (n_old > 0) then
-                        near = minloc(abs(workspace%old_y(:n_old) - y), dim=1)
-                        workspace%half_length(i) = workspace%old_half_length(near)
-                    else
-                        h = max(start_level*depth - workspace%height(i), 0.01_wp*depth)
-                        workspace%half_length(i) = sqrt(h/workspace%inv2r(i))
-                    end if
                 end do
             end do
         end associate
         workspace%n = i
-        workspace%presses(:i) = .true.
+        do k = 1, i
+            workspace%y(k) = 0.5_wp*(workspace%y_left(k) + workspace%y_right(k))
+            call gap_at(curve, workspace%y(k), h, workspace%inv2r(k))
+            workspace%height(k) = h - curve%h_lowest
+        end do
     end subroutine lay
 
-    !> Alternate between pressures for given lengths and steps of the lengths: those of Newton's
-    !> method, and each strip's own after Newton has failed.
-    subroutine settle_lengths(workspace, compliance, target, by_load, tolerance, depth, &
-                              residual, done)
-        type(lattice_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance, target
-        logical, intent(in) :: by_load
-        real(wp), intent(in) :: tolerance
-        real(wp), intent(inout) :: depth
-        real(wp), intent(out) :: residual ! last change of a length, relative
-        logical, intent(out) :: done
-
-        real(wp) :: before
-        integer :: i, k, m, n, rounds, failures
-        logical :: found
-
-        n = workspace%n
-        workspace%factor(:n) = 1.0_wp
-        workspace%last_step(:n) = 0.0_wp
-        residual = huge(1.0_wp)
-        failures = 0
-        do i = 1, max_length_steps
-            call fill_centre_lines(workspace, compliance)
-            call find_pressures(workspace, target, by_load, depth, rounds, done)
-            if (.not. done) return
-            m = 0
-            do k = 1, n
-                if (.not. workspace%presses(k)) cycle
-                m = m + 1
-                workspace%at(m) = k
-                workspace%at_x(m) = workspace%half_length(k)
-                workspace%at_y(m) = workspace%y(k)
-            end do
-            call fill_newton(workspace, compliance, by_load, depth, m)
-            before = residual
-            call own_steps(workspace, depth, m, residual)
-            workspace%steps = workspace%steps + 1
-            workspace%work = workspace%work + step_work(m, rounds)
-            if (residual < tolerance .or. i == max_length_steps) exit
-            if (is_exhausted(workspace)) exit
-            if (residual > 0.9_wp*before) failures = failures + 1
-            if (residual < 0.5_wp*before) failures = 0
-            found = .false.
-            if (failures < max_failures) call newton_steps(workspace, m, found)
-            do k = 1, m
-                associate (half_length => workspace%half_length(workspace%at(k)))
-                    if (found) then
-                        half_length = half_length*exp(workspace%tip(k))
-                    else
-                        half_length = half_length*exp(max(-largest_length_step, &
-                            min(largest_length_step, workspace%factor(workspace%at(k)) &
-                                                     *workspace%last_step(workspace%at(k)))))
-                    end if
-                end associate
-            end do
-            do k = 1, n
-                workspace%half_length(k) = max(workspace%half_length(k), &
-                                               shortest_length(workspace, k))
-            end do
-        end do
-    end subroutine settle_lengths
-
-    !> What a step of the lengths costs, in operations of linear algebra; an influence number off
-    !> the centre line takes the time of about 400.
-    pure real(wp) function step_work(m, rounds) result(work)
-        integer, intent(in) :: m      ! strips that press
-        integer, intent(in) :: rounds ! systems solved for the pressures
-
-        work = 400.0_wp*real(m, wp)**2 + (16.0_wp + 2.0_wp*rounds)/3.0_wp*real(m, wp)**3
-    end function step_work
-
-    !> Is it time to take the lattice as it is?
-    pure logical function is_exhausted(workspace)
-        type(lattice_workspace_t), intent(in) :: workspace
-
-        is_exhausted = workspace%steps >= fewest_steps .and. workspace%work > workspace%most_work
-    end function is_exhausted
-
-    !> Displacements on all centre lines by a unit of pressure on each strip.
-    subroutine fill_centre_lines(workspace, compliance)
-        type(lattice_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-
-        integer :: n, s
-
-        n = workspace%n
-        do s = 1, n
-            call center_influence_column_gradient( &
-                workspace%half_length(s), workspace%y_left(s), workspace%y_right(s), &
-                workspace%y(:n), workspace%influence(:n, s), workspace%influence_slope(:n, s))
-            workspace%influence(:n, s) = compliance*workspace%influence(:n, s)
-            workspace%influence_slope(:n, s) = compliance*workspace%half_length(s) &
-                                               *workspace%influence_slope(:n, s)
-        end do
-    end subroutine fill_centre_lines
-
-    !> Gaps at the tips of the strips that press, and the system of Newton's method: unknowns are
-    !> the changes of p0 over the largest, of ln xd, and of the penetration over itself.
-    subroutine fill_newton(workspace, compliance, by_load, depth, m)
-        type(lattice_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance, depth
-        logical, intent(in) :: by_load
-        integer, intent(in) :: m ! strips that press, `at(:m)`
-
-        real(wp) :: p_scale, p, force, largest
-        integer :: i, j, k, s
-
-        p_scale = maxval(workspace%p0(:workspace%n))
-        do i = 1, m
-            k = workspace%at(i)
-            workspace%tip(i) = 1.0_wp - workspace%height(k)/depth
-        end do
-        associate (a => workspace%matrix, tips => workspace%tips)
-            a(:2*m + 1, 2*m + 1) = -1.0_wp
-            a(2*m + 1, :) = 0.0_wp
-            do i = 1, m
-                k = workspace%at(i)
-                a(m + 1:2*m, m + i) = 0.0_wp
-            end do
-            do j = 1, m
-                s = workspace%at(j)
-                p = workspace%p0(s)
-                call influence_column_gradient( &
-                    workspace%half_length(s), workspace%y_left(s), workspace%y_right(s), &
-                    workspace%at_x(:m), workspace%at_y(:m), tips(:m, 1), tips(:m, 2), tips(:m, 3))
-                do i = 1, m
-                    k = workspace%at(i)
-                    a(i, j) = workspace%influence(k, s)*(p_scale/depth)
-                    a(i, m + j) = workspace%influence_slope(k, s)*(p/depth)
-                    a(m + i, j) = compliance*(p_scale/depth)*tips(i, 1)
-                    a(m + i, m + j) = a(m + i, m + j) &
-                        + compliance*(p/depth)*workspace%half_length(s)*tips(i, 3)
-                    workspace%tip(i) = workspace%tip(i) - compliance*(p/depth)*tips(i, 1)
-                end do
-                do i = 1, m
-                    k = workspace%at(i)
-                    a(m + i, m + i) = a(m + i, m + i) &
-                        + compliance*(p/depth)*workspace%half_length(k)*tips(i, 2)
-                end do
-            end do
-            do i = 1, m
-                k = workspace%at(i)
-                a(m + i, m + i) = a(m + i, m + i) &
-                    + 2.0_wp*workspace%inv2r(k)*(workspace%half_length(k)**2/depth)
-            end do
-            if (.not. by_load) then
-                a(2*m + 1, 2*m + 1) = 1.0_wp
-                return
-            end if
-            a(2*m + 1, 2*m + 1) = 0.0_wp
-            largest = maxval(workspace%half_length(workspace%at(:m)) &
-                             *(workspace%y_right(workspace%at(:m)) &
-                               - workspace%y_left(workspace%at(:m))))
-            do j = 1, m
-                s = workspace%at(j)
-                force = workspace%half_length(s) &
-                        *((workspace%y_right(s) - workspace%y_left(s))/largest)
-                a(2*m + 1, j) = force
-                a(2*m + 1, m + j) = force*(workspace%p0(s)/p_scale)
-            end do
-        end associate
-    end subroutine fill_newton
-
-    !> The steps in ln xd that would close the gap at each tip if all else stayed, with factors
-    !> that shrink where a step turns around.
-    subroutine own_steps(workspace, depth, m, residual)
+    !> How far the cells go along x, mm: to where the undeformed gap is the penetration, but not
+    !> far beyond the lengths of the lattice before.
+    pure subroutine set_reach(workspace, depth)
         type(lattice_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: depth
-        integer, intent(in) :: m
-        real(wp), intent(out) :: residual ! largest step
 
-        real(wp) :: step, rise
-        integer :: i, k
+        real(wp) :: length, share
+        integer :: k, i
 
-        residual = 0.0_wp
-        do i = 1, m
-            k = workspace%at(i)
-            rise = workspace%inv2r(k)*(workspace%half_length(k)**2/depth)
-            step = 0.5_wp*log(max(workspace%tip(i)/rise, 0.2_wp))
-            workspace%tip(i) = workspace%tip(i) - rise
-            if (step < 0.0_wp .and. workspace%half_length(k) &
-                <= 1.001_wp*shortest_length(workspace, k)) then
-                ! It stays as short as may be.
-                workspace%last_step(k) = 0.0_wp
-                workspace%tip(i) = 0.0_wp
-                workspace%matrix(m + i, :2*m + 1) = 0.0_wp
-                workspace%matrix(m + i, m + i) = 1.0_wp
-                cycle
-            end if
-            residual = max(residual, abs(step))
-            if (step*workspace%last_step(k) < 0.0_wp) then
-                workspace%factor(k) = max(0.5_wp*workspace%factor(k), 0.05_wp)
-            else
-                workspace%factor(k) = min(1.2_wp*workspace%factor(k), 2.0_wp)
-            end if
-            workspace%last_step(k) = step
-        end do
-    end subroutine own_steps
-
-    !> Newton's steps in ln xd, in the place of the gaps at the tips.
-    subroutine newton_steps(workspace, m, found)
-        type(lattice_workspace_t), intent(inout) :: workspace
-        integer, intent(in) :: m
-        logical, intent(out) :: found
-
-        real(wp) :: largest
-        logical :: singular
-
-        found = .false.
-        workspace%column(:m, 1) = 0.0_wp
-        workspace%column(m + 1:2*m, 1) = workspace%tip(:m)
-        workspace%column(2*m + 1, 1) = 0.0_wp
-        call lu_factor(2*m + 1, workspace%matrix, workspace%pivot, singular)
-        if (singular) return
-        call lu_solve(2*m + 1, workspace%matrix, workspace%pivot, workspace%column(:, 1))
-        largest = maxval(abs(workspace%column(m + 1:2*m, 1)))
-        if (.not. largest < huge(1.0_wp)) return
-        workspace%tip(:m) = workspace%column(m + 1:2*m, 1) &
-                            *min(1.0_wp, largest_length_step/max(largest, tiny(1.0_wp)))
-        found = .true.
-    end subroutine newton_steps
-
-    !> Least length of a strip: one far shorter than a neighbour would find no way back.
-    pure real(wp) function shortest_length(workspace, k) result(shortest)
-        type(lattice_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: k
-
-        shortest = 0.0_wp
-        if (k > 1) then
-            if (workspace%presses(k - 1)) shortest = workspace%half_length(k - 1) &
-                                                     *sqrt(workspace%inv2r(k - 1))
-        end if
-        if (k < workspace%n) then
-            if (workspace%presses(k + 1)) shortest = max(shortest, workspace%half_length(k + 1) &
-                                                                   *sqrt(workspace%inv2r(k + 1)))
-        end if
-        shortest = shortest_ratio*shortest/sqrt(workspace%inv2r(k))
-    end function shortest_length
-
-    !> Pressures for given lengths: closed gap where a strip presses, open gap where not.
-    subroutine find_pressures(workspace, target, by_load, depth, rounds, done)
-        type(lattice_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: target
-        logical, intent(in) :: by_load
-        real(wp), intent(inout) :: depth
-        integer, intent(out) :: rounds ! systems solved
-        logical, intent(out) :: done
-
-        real(wp) :: force, load_per_depth, load_of_heights, overlap, deepest
-        integer :: n, m, i, j, k, add
-        logical :: changed, singular
-
-        n = workspace%n
-        done = .false.
-        do rounds = 1, max_adding_rounds + n + 1
-            m = 0
-            do k = 1, n
-                if (.not. workspace%presses(k)) cycle
-                m = m + 1
-                workspace%at(m) = k
-            end do
-            do j = 1, m
-                do i = 1, m
-                    workspace%matrix(i, j) = workspace%influence(workspace%at(i), workspace%at(j))
-                end do
-                workspace%column(j, 1) = 1.0_wp
-                workspace%column(j, 2) = workspace%height(workspace%at(j))/depth
-            end do
-            call lu_factor(m, workspace%matrix, workspace%pivot, singular)
-            if (singular) return
-            call lu_solve(m, workspace%matrix, workspace%pivot, workspace%column(:, 1))
-            call lu_solve(m, workspace%matrix, workspace%pivot, workspace%column(:, 2))
-            load_per_depth = 0.0_wp
-            load_of_heights = 0.0_wp
-            do i = 1, m
-                k = workspace%at(i)
-                force = strip_load(1.0_wp, workspace%half_length(k), &
-                                   workspace%y_right(k) - workspace%y_left(k))
-                load_per_depth = load_per_depth + force*workspace%column(i, 1)
-                load_of_heights = load_of_heights + force*workspace%column(i, 2)*depth
-            end do
-            workspace%column(:m, 2) = workspace%column(:m, 2)*depth
-            if (by_load) then
-                if (load_per_depth <= 0.0_wp) return
-                depth = (target + load_of_heights)/load_per_depth
-            else
-                depth = target
-            end if
-            workspace%p0(:n) = 0.0_wp
-            do i = 1, m
-                workspace%p0(workspace%at(i)) = depth*workspace%column(i, 1) &
-                                                - workspace%column(i, 2)
-            end do
-            changed = .false.
-            if (m > 1) then
-                do i = 1, m
-                    k = workspace%at(i)
-                    if (workspace%p0(k) > 0.0_wp) cycle
-                    workspace%presses(k) = .false.
-                    changed = .true.
-                end do
-            else if (workspace%p0(workspace%at(1)) <= 0.0_wp) then
-                return
-            end if
-            if (changed) then
-                if (.not. any(workspace%presses(:n))) return
-                cycle
-            end if
-            if (rounds > max_adding_rounds) exit
-            ! Strips that carry nothing have to press where they overlap: all of them at first,
-            ! later only the one that overlaps most.
-            add = 0
-            deepest = 1.0e-9_wp*depth
-            do k = 1, n
-                if (workspace%presses(k)) cycle
-                overlap = depth - workspace%height(k) &
-                          - dot_product(workspace%influence(k, :n), workspace%p0(:n))
-                if (overlap <= deepest) cycle
-                add = k
-                if (rounds > max_block_rounds) then
-                    deepest = overlap
-                else
-                    workspace%presses(k) = .true.
-                end if
-            end do
-            if (add == 0) exit
-            workspace%presses(add) = .true.
-        end do
-        done = all(workspace%p0(:n) > 0.0_wp .eqv. workspace%presses(:n))
-    end subroutine find_pressures
-
-    !> Strips across the patch that has the fewest.
-    pure integer function smallest_patch(workspace) result(fewest)
-        type(lattice_workspace_t), intent(in) :: workspace
-
-        integer :: k, n
-
-        fewest = workspace%n
-        n = 0
         do k = 1, workspace%n
-            if (.not. workspace%presses(k)) cycle
-            n = n + 1
-            if (k < workspace%n) then
-                if (workspace%presses(k + 1) &
-                    .and. workspace%y_left(k + 1) <= workspace%y_right(k)) cycle
+            workspace%reach(k) = sqrt(max(depth_margin*depth - workspace%height(k), &
+                                          least_reach*depth)/workspace%inv2r(k))
+            if (workspace%n_old == 0) cycle
+            i = count(workspace%old_y(:workspace%n_old) <= workspace%y(k))
+            if (i == 0 .or. i == workspace%n_old) then
+                length = workspace%old_half_length(max(i, 1))
+            else
+                share = (workspace%y(k) - workspace%old_y(i)) &
+                        /(workspace%old_y(i + 1) - workspace%old_y(i))
+                length = (1.0_wp - share)*workspace%old_half_length(i) &
+                         + share*workspace%old_half_length(i + 1)
             end if
-            fewest = min(fewest, n)
-            n = 0
+            workspace%reach(k) = min(workspace%reach(k), reach_margin*length)
         end do
-    end function smallest_patch
+    end subroutine set_reach
 
-    !> The ranges of the next lattice: the patches found, with their ends carried on, and places
-    !> where the surfaces overlap.
-    subroutine next_ranges(workspace, curve, compliance, depth, move, overlap)
+    !> The ranges of the next lattice: the patches found, somewhat wider, and places where the
+    !> surfaces overlap.
+    subroutine next_ranges(workspace, curve, compliance, depth, grow, overlap)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
-        real(wp), intent(out) :: move    ! largest move of an end, in cells
+        real(wp), intent(in) :: grow     ! each way, in cells
         real(wp), intent(out) :: overlap ! deepest outside the patches, of the penetration
 
-        real(wp) :: from(2*max_ranges), to(2*max_ranges), finest, widest
+        real(wp) :: from(2*max_ranges), to(2*max_ranges), finest
         integer :: first, last, k, m
 
         m = 0
-        move = 0.0_wp
         overlap = 0.0_wp
         last = 0
         do
@@ -804,19 +471,18 @@ contains
                 if (workspace%presses(first)) exit
                 first = first + 1
             end do
-            if (first > workspace%n) exit
+            if (first > workspace%n .or. m == max_ranges) exit
             last = first
             do while (last < workspace%n)
                 if (.not. workspace%presses(last + 1) &
                     .or. workspace%y_left(last + 1) > workspace%y_right(last)) exit
                 last = last + 1
             end do
-            if (m == max_ranges) exit
             m = m + 1
-            call carry_on(workspace, curve, compliance, depth, first, last, 1, from(m), move, &
-                          overlap)
-            call carry_on(workspace, curve, compliance, depth, last, first, -1, to(m), move, &
-                          overlap)
+            from(m) = max(curve%y(1), workspace%y_left(first) &
+                          - grow*(workspace%y_right(first) - workspace%y_left(first)))
+            to(m) = min(curve%y(curve%n), workspace%y_right(last) &
+                        + grow*(workspace%y_right(last) - workspace%y_left(last)))
         end do
         call add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
         ! In the order of y, joined where they meet.
@@ -829,8 +495,7 @@ contains
                 first = first - 1
             end do
         end do
-        widest = maxval(to(:m) - from(:m))
-        finest = 1.0e-3_wp*widest
+        finest = 1.0e-3_wp*maxval(to(:m) - from(:m))
         workspace%n_ranges = 0
         do k = 1, m
             last = workspace%n_ranges
@@ -846,97 +511,6 @@ contains
         end do
     end subroutine next_ranges
 
-    !> Where the squared length, carried on from the strips at an end of a patch, vanishes.
-    !>
-    !> Half a cell beyond the last strip the gap tells more than the curve through the lengths:
-    !> where it is open the end lies before, where the surfaces overlap it lies beyond.
-    subroutine carry_on(workspace, curve, compliance, depth, outer, inner, inward, y_end, move, &
-                        overlap)
-        type(lattice_workspace_t), intent(in) :: workspace
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, depth
-        integer, intent(in) :: outer, inner ! the strips at this end and at the other
-        integer, intent(in) :: inward       ! 1 at a left end, -1 at a right one
-        real(wp), intent(out) :: y_end
-        real(wp), intent(inout) :: move, overlap
-
-        real(wp) :: width, middle, q2, q3, bend, slope, discriminant, s, reach, y(1), beyond(1)
-        integer :: n
-
-        n = abs(inner - outer) + 1
-        width = workspace%y_right(outer) - workspace%y_left(outer)
-        s = 0.5_wp
-        if (n >= 2) then
-            ! q = 1 + slope s + bend s^2, s in cells outwards from the middle of the outer strip
-            q2 = (workspace%half_length(outer + inward)/workspace%half_length(outer))**2
-            slope = 1.0_wp - q2
-            bend = 0.0_wp
-            if (n >= 3) then
-                q3 = (workspace%half_length(outer + 2*inward)/workspace%half_length(outer))**2
-                bend = 0.5_wp*(1.0_wp - 2.0_wp*q2 + q3)
-                slope = slope + bend
-            end if
-            discriminant = slope**2 - 4.0_wp*bend
-            s = 2.0_wp
-            if (discriminant >= 0.0_wp .and. slope < 0.0_wp) then
-                s = 2.0_wp/(sqrt(discriminant) - slope)
-            else if (bend < 0.0_wp) then
-                s = 2.0_wp/(sqrt(discriminant) - slope)
-            end if
-            s = max(0.0_wp, min(2.0_wp, s))
-        end if
-        middle = workspace%y(outer)
-        y = max(curve%y(1), min(curve%y(curve%n), middle - inward*width))
-        call find_overlaps(workspace, curve, compliance, depth, y, beyond)
-        if (abs(y(1) - middle) > 0.75_wp*width) then
-            overlap = max(overlap, beyond(1)/depth)
-            if (beyond(1) <= 0.0_wp) then
-                s = min(s, 1.0_wp)
-            else
-                reach = 1.0_wp
-                do while (beyond(1) > overlap_tolerance*depth .and. reach < 100.0_wp)
-                    s = max(s, reach)
-                    reach = 1.5_wp*reach
-                    y = max(curve%y(1), min(curve%y(curve%n), middle - inward*reach*width))
-                    call find_overlaps(workspace, curve, compliance, depth, y, beyond)
-                    overlap = max(overlap, beyond(1)/depth)
-                end do
-            end if
-        end if
-        s = min(s, 0.5_wp + farthest_out(workspace, outer, inward)/width)
-        y_end = middle - inward*s*width
-        y_end = max(curve%y(1), min(curve%y(curve%n), y_end))
-        if (inward > 0) then
-            move = max(move, abs(y_end - workspace%y_left(outer))/width)
-        else
-            move = max(move, abs(y_end - workspace%y_right(outer))/width)
-        end if
-        if (n < 3) move = max(move, 1.0_wp) ! such a patch needs a finer lattice
-    end subroutine carry_on
-
-    !> How far an end may move out, mm: not half-way to the next patch as long as more than a cell
-    !> lies between them, so that patches about to meet stay apart.
-    pure real(wp) function farthest_out(workspace, outer, inward) result(farthest)
-        type(lattice_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: outer, inward ! as in `carry_on`
-
-        real(wp), parameter :: share = 0.45_wp
-        real(wp) :: between
-        integer :: k
-
-        farthest = 1.0e100_wp
-        k = outer
-        do
-            k = k - inward
-            if (k < 1 .or. k > workspace%n) return
-            if (workspace%presses(k)) exit
-        end do
-        between = abs(workspace%y(k) - workspace%y(outer)) - 0.5_wp*( &
-                  workspace%y_right(k) - workspace%y_left(k) &
-                  + workspace%y_right(outer) - workspace%y_left(outer))
-        if (between > workspace%y_right(outer) - workspace%y_left(outer)) farthest = share*between
-    end function farthest_out
-
     !> Add a range around the deepest overlap of each stretch outside the strips that press.
     subroutine add_overlaps(workspace, curve, compliance, depth, from, to, m, overlap)
         type(lattice_workspace_t), intent(in) :: workspace
@@ -947,16 +521,17 @@ contains
         real(wp), intent(inout) :: overlap
 
         integer :: r, n_solved
-        real(wp) :: low, high, solved_from(size(from)), solved_to(size(to))
+        real(wp) :: low, high, widest, solved_from(size(from)), solved_to(size(to))
 
         n_solved = m
         solved_from(:m) = from(:m)
         solved_to(:m) = to(:m)
+        widest = maxval(to(:m) - from(:m))
         low = curve%y(1)
         do r = 1, n_solved + 1
             high = curve%y(curve%n)
             if (r <= n_solved) high = solved_from(r)
-            if (high > low .and. m < size(from)) &
+            if (high - low > same*widest .and. m < size(from)) &
                 call add_overlap(workspace, curve, compliance, depth, low, high, from, to, m, &
                                  overlap)
             if (r <= n_solved) low = max(low, solved_to(r))
@@ -1074,6 +649,26 @@ contains
             overlap = overlap - compliance*workspace%p0(s)*influence(:size(y))
         end do
     end subroutine find_overlaps
+
+    !> The pressures that would close the gap at the edges of the strips, MPa, into `reach`.
+    subroutine find_waves(workspace, curve, compliance, depth, strips)
+        type(lattice_workspace_t), intent(inout) :: workspace
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, depth
+        type(contact_strips_t), intent(in) :: strips
+
+        real(wp) :: overlap(3), left, right
+        integer :: k
+
+        do k = 1, strips%n
+            left = strips%y_left(k)
+            right = strips%y_right(k)
+            call find_overlaps(workspace, curve, compliance, depth, &
+                               [left, 0.5_wp*(left + right), right], overlap)
+            workspace%reach(k) = abs(0.5_wp*(overlap(1) + overlap(3)) - overlap(2)) &
+                                 /(2.0_wp*compliance*(right - left))
+        end do
+    end subroutine find_waves
 
     !> Hand over the strips that press.
     pure subroutine record(workspace, strips)

@@ -23,7 +23,8 @@ module faststrip_normal_strip
                                 st_workspace_too_small
     use faststrip_material, only: check_compliance
     use faststrip_normal_certificate, only: certificate_t, certify_strips
-    use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration
+    use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration, &
+                                        lattice_errors, lattice_errors_t, forget_lattice_errors
     use faststrip_normal_limitations, only: check_curvature, check_penetration, &
                                             name_limitations, name_steps, add_limitation, &
                                             default_resolution
@@ -45,6 +46,7 @@ module faststrip_normal_strip
 
     public :: strip_options_t, strip_workspace_t
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
+    public :: estimate_strips
     public :: fewest_strips, strips_auto, strips_auto_most
 
     !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
@@ -175,6 +177,7 @@ contains
         integer :: level, levels(most_levels), n_levels, first_counted, n_settled
         logical :: near, resumed, scratch, settled
 
+        call forget_lattice_errors(workspace%lattice)
         call plan_levels(options%strips_per_patch, levels, n_levels, first_counted)
         near = options%warm_start .and. workspace%old%n > 0
         resumed = near
@@ -265,6 +268,27 @@ contains
             call add_limitation(status, st_fewer_strips, &
                                 'fewer strips than asked: more did not settle')
     end subroutine solve
+
+    !> How wrong the last solution of a workspace is: by its certificate, and by the estimate of the
+    !> lattice that was fallen back to. Nothing is allocated. Errors: those of `certify_strips`.
+    pure subroutine estimate_strips(workspace, compliance, strips, result, certificate, status)
+        type(strip_workspace_t), intent(in) :: workspace !! with the gap that was solved
+        real(wp), intent(in) :: compliance               !! H of eq. (4), 1/MPa
+        type(contact_strips_t), intent(in) :: strips     !! the solution
+        type(normal_result_t), intent(in) :: result      !! its figures
+        type(certificate_t), intent(out) :: certificate  !! residuals and estimated errors
+        type(status_t), intent(out) :: status            !! how it ended
+
+        type(lattice_errors_t) :: errors
+
+        call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
+        if (is_error(status)) return
+        errors = lattice_errors(workspace%lattice)
+        if (.not. errors%is_known) return
+        certificate%est_err_penetration = errors%est_err_penetration
+        certificate%est_err_pmax = errors%est_err_pmax
+        certificate%est_err_area = errors%est_err_area
+    end subroutine estimate_strips
 
     !> Are the estimated errors not above a limit?
     logical function is_resolved(workspace, compliance, strips, result, limit)
