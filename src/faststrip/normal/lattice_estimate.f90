@@ -7,7 +7,7 @@
 !> And a patch may end anywhere in its last cell.
 !>
 !>     penetration   2 |difference| + 0.2/n^2 + 0.03 mean wave
-!>     pmax          1.2 |difference| + 1/n^2 + 0.6 largest wave where p0 > pmax/2
+!>     pmax          1.2 |difference| + 1/n^2 + 1.1 largest wave where p0 > pmax/2
 !>     area          3.3 |difference| + 0.9 (area of the strips at the ends)
 !>
 !> each over the value itself or pmax, n the strips of the patch with the largest pressure. The
@@ -39,7 +39,7 @@ module faststrip_normal_lattice_estimate
 
     ! Of penetration, pmax and area; with half of them every second estimate is too small.
     real(wp), parameter :: difference(3) = [2.0_wp, 1.2_wp, 3.3_wp]
-    real(wp), parameter :: smooth(2) = [0.2_wp, 1.0_wp], waves(2) = [0.03_wp, 0.6_wp]
+    real(wp), parameter :: smooth(2) = [0.2_wp, 1.0_wp], waves(2) = [0.03_wp, 1.1_wp]
     real(wp), parameter :: ends = 0.9_wp
     real(wp), parameter :: high_pressure = 0.5_wp ! of pmax: a wave there counts for it
 
