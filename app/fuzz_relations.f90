@@ -27,7 +27,9 @@ module faststrip_app_fuzz_relations
     real(wp), parameter :: load_factor = 1.02_wp
     real(wp), parameter :: least_slack = 2.0e-3_wp   ! of the penetration, where the load changes
     real(wp), parameter :: wall_height = 10.0_wp     ! over the penetration
-    integer, parameter :: points_between = 4         ! the contact and a wall
+    ! Points between the contact and a wall: what the spline feels of it falls by 3.7 from each to
+    ! the next, to 1e-7 over so many.
+    integer, parameter :: points_between = 12
 
 contains
 

@@ -317,9 +317,8 @@ contains
 
             real(wp) :: allowed
 
-            allowed = max(min(bend(i), bend(i + 1)), 0.0_wp)
-            if (is_lowest(i)) allowed = max(allowed, bend(i))
-            if (is_lowest(i + 1)) allowed = max(allowed, bend(i + 1))
+            ! As far as the bend at either end lets a parabola fall below them.
+            allowed = max(bend(i), bend(i + 1), 0.0_wp)
             floor_of = min(gap%h(i), gap%h(i + 1)) - 0.25_wp*allowed*(gap%y(i + 1) - gap%y(i))**2
         end function floor_of
 
@@ -335,14 +334,6 @@ contains
             call report_badness(verdict, judge_curve, &
                                 max(lowest_term - inv2r, inv2r - raised)/(rounding*largest_term))
         end subroutine hold_term
-
-        !> Is a point lower than both its neighbours?
-        pure logical function is_lowest(i)
-            integer, intent(in) :: i
-
-            is_lowest = i > 1 .and. i < n
-            if (is_lowest) is_lowest = gap%h(i) <= min(gap%h(i - 1), gap%h(i + 1))
-        end function is_lowest
     end subroutine judge_gap_curve
 
     !> `ok` means that the solution's own estimates are small.
