@@ -162,7 +162,7 @@ contains
             if (judge == judge_outside) allowance = free
         case ('edge_of_data')
             if (judge == judge_norm_pmax) allowance = free
-            if (judge == judge_middle) allowance = 3.0_wp
+            if (judge == judge_middle .or. judge == judge_centre) allowance = 3.0_wp
         case ('flat_along_x', 'under_resolved', 'fewer_strips')
             if (judge == judge_middle .or. judge == judge_monotone) allowance = 3.0_wp
             if (any(judge == of_norm)) allowance = 3.0_wp
