@@ -5,12 +5,13 @@
 !> and the status carries a message of fixed length that names the offending value. Nothing is
 !> allocated, printed or stopped.
 module faststrip_status
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use faststrip_kinds, only: wp
     implicit none
     private
 
     public :: status_t, set_status, clear_status, is_error, status_word, number_text, count_text
-    public :: message_length, first_error
+    public :: add_words, message_length, first_error
     public :: st_ok
     public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
     public :: st_flat_along_x, st_conformal, st_target_missed, st_under_resolved, st_more_strips
@@ -124,13 +125,58 @@ contains
         end select
     end function status_word
 
-    !> A number as short text for a message: six significant digits; NaN and Inf by name.
+    !> Add words to a text of fixed length; words beyond its end are cut.
+    !>
+    !> Unlike `//` with `trim` this takes no memory, which words of limitations may not.
+    pure subroutine add_words(text, words)
+        character(len=*), intent(inout) :: text !! blank-padded
+        character(len=*), intent(in) :: words   !! begin with a blank where one is wanted
+
+        text(len_trim(text) + 1:) = words
+    end subroutine add_words
+
+    !> A number as short text for a message: six significant digits, as by the format `g0.6`; NaN
+    !> and Inf by name. Without `write`, which takes memory of the Fortran run-time library.
     pure function number_text(value) result(text)
         real(wp), intent(in) :: value  !! any double, also NaN or infinite
         character(len=14) :: text      !! left-adjusted, blank-padded
 
-        write (text, '(g0.6)') value
-        text = adjustl(text)
+        character(len=6) :: digits
+        real(wp) :: scaled
+        integer :: exponent ! of ten, the digits taken as 0.123456
+
+        text = ''
+        if (ieee_is_nan(value)) then
+            text = 'NaN'
+            return
+        end if
+        if (sign(1.0_wp, value) < 0.0_wp) text = '-'
+        if (.not. ieee_is_finite(value)) then
+            call add_words(text, 'Inf')
+            return
+        end if
+        scaled = abs(value)
+        exponent = merge(6, 1, scaled > 0.0_wp)
+        do while (scaled >= 999999.5_wp)
+            scaled = scaled/10.0_wp
+            exponent = exponent + 1
+        end do
+        do while (scaled > 0.0_wp .and. scaled < 99999.95_wp)
+            scaled = scaled*10.0_wp
+            exponent = exponent - 1
+        end do
+        digits = six_digits(nint(scaled))
+        if (exponent < 0 .or. exponent > 6) then
+            call add_words(text, '0.'//digits//'E')
+            if (exponent > 0) call add_words(text, '+')
+            call add_words(text, count_text(exponent))
+        else if (exponent == 0) then
+            call add_words(text, '0.'//digits)
+        else
+            call add_words(text, digits(:exponent))
+            call add_words(text, '.')
+            call add_words(text, digits(exponent + 1:))
+        end if
     end function number_text
 
     !> A whole number as text for a message. Of fixed length: for the length of any other gfortran
@@ -139,6 +185,46 @@ contains
         integer, intent(in) :: n  !! any integer
         character(len=11) :: text !! left-adjusted, blank-padded
 
-        write (text, '(i0)') n
+        character(len=11) :: backwards
+        integer :: rest, i, length
+
+        ! Below zero, where there is one more number than above.
+        rest = n
+        if (n > 0) rest = -n
+        length = 0
+        do
+            length = length + 1
+            backwards(length:length) = digit(-mod(rest, 10))
+            rest = rest/10
+            if (rest == 0) exit
+        end do
+        if (n < 0) then
+            length = length + 1
+            backwards(length:length) = '-'
+        end if
+        text = ''
+        do i = 1, length
+            text(i:i) = backwards(length + 1 - i:length + 1 - i)
+        end do
     end function count_text
+
+    !> A number from 0 to 999999 with leading zeros.
+    pure function six_digits(n) result(text)
+        integer, intent(in) :: n
+        character(len=6) :: text
+
+        integer :: rest, i
+
+        rest = n
+        do i = 6, 1, -1
+            text(i:i) = digit(mod(rest, 10))
+            rest = rest/10
+        end do
+    end function six_digits
+
+    pure character(len=1) function digit(n)
+        integer, intent(in) :: n ! 0 to 9
+
+        digit = achar(iachar('0') + n)
+    end function digit
 end module faststrip_status

@@ -7,8 +7,8 @@
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                count_text, st_bad_argument, st_under_resolved, &
+    use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                message_length, st_bad_argument, st_under_resolved, &
                                 st_workspace_too_small
     use faststrip_material, only: material_t, check_material, normal_compliance
     use faststrip_creepage, only: creepage_t
@@ -19,7 +19,8 @@ module faststrip_contact_solve
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
                                       hertz_strips
-    use faststrip_normal_limitations, only: default_resolution, name_resolution, add_limitation, &
+    use faststrip_normal_limitations, only: default_resolution, check_resolution, &
+                                            name_resolution, add_limitation, &
                                             check_penetration, name_steps
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve, estimate_strips, &
@@ -265,11 +266,8 @@ contains
         is_estimated = .false.
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
-        if (.not. case%resolution_limit > 0.0_wp) then
-            call set_status(status, st_bad_argument, 'the resolution limit must be above 0, got ' &
-                            // number_text(case%resolution_limit))
-            return
-        end if
+        call check_resolution(case%resolution_limit, status)
+        if (is_error(status)) return
         call check_material(case%material, status)
         if (is_error(status)) return
         if (allocated(case%gap%y)) then
@@ -314,8 +312,9 @@ contains
         if (is_error(status)) return
         if (case%estimate) &
             call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
-        is_estimated = is_estimated .and. case%methods%normal == normal_strip
         if (case%methods%normal == normal_strip) return
+        is_estimated = .false.
+        certificate = certificate_t()
         call replace_by_ellipses( &
             merge(equal_area, equal_moments, case%methods%normal == normal_equal_area), &
             workspace%solver%curve, workspace%strips, normal, ellipses)
@@ -331,6 +330,7 @@ contains
         logical, intent(out) :: is_estimated
         type(status_t), intent(inout) :: status
 
+        character(len=message_length) :: words
         type(status_t) :: estimate
 
         call estimate_strips(workspace%solver, normal_compliance(case%material), &
@@ -340,8 +340,9 @@ contains
             call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &
                                  certificate%est_err_area, case%resolution_limit, status)
         else
-            call add_limitation(status, st_under_resolved, 'no error can be estimated: ' &
-                                //trim(estimate%message))
+            words = 'no error can be estimated:'
+            words(len_trim(words) + 2:) = estimate%message
+            call add_limitation(status, st_under_resolved, words)
         end if
     end subroutine estimate_errors
 

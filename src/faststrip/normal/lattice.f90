@@ -28,9 +28,9 @@ module faststrip_normal_lattice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
-                                st_no_contact, st_out_of_range, st_edge_of_data, st_overlap_left, &
-                                st_linear_algebra, st_workspace_too_small
+                                add_words, st_bad_argument, st_bad_load, st_bad_material, &
+                                st_not_finite, st_no_contact, st_out_of_range, st_edge_of_data, &
+                                st_overlap_left, st_linear_algebra, st_workspace_too_small
     use faststrip_material, only: check_compliance
     use faststrip_influence_row, only: center_influence_column
     use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
@@ -333,7 +333,8 @@ contains
                             'the pressures of the lattice have no solution')
         else if (overlap > named_overlap) then
             call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
-                            // trim(number_text(100.0_wp*overlap)) // ' % of the penetration')
+                            // number_text(100.0_wp*overlap))
+            call add_words(status%message, ' % of the penetration')
         else if (strips%y_left(1) <= curve%y(1) &
                  .or. strips%y_right(strips%n) >= curve%y(curve%n)) then
             call set_status(status, st_edge_of_data, &

@@ -24,12 +24,17 @@
 !>
 !>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, more_strips,
 !>     fewer_strips, under_resolved
+!>
+!> Words of limitations are put together without taking memory: a solution with one is no rarer
+!> than one without where gaps were measured.
 module faststrip_normal_limitations
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                message_length, st_edge_of_data, st_flat_along_x, st_conformal, &
-                                st_under_resolved, st_no_finite_patch, st_ok, st_out_of_range, &
-                                st_overlap_left, first_error
+                                add_words, message_length, st_bad_argument, st_edge_of_data, &
+                                st_flat_along_x, st_conformal, st_under_resolved, &
+                                st_no_finite_patch, st_ok, st_out_of_range, st_overlap_left, &
+                                first_error
     use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn, &
                                            largest_step
     use faststrip_normal_strips, only: contact_strips_t
@@ -38,7 +43,7 @@ module faststrip_normal_limitations
 
     public :: check_curvature, check_penetration, name_limitations, name_steps, name_step
     public :: name_resolution, add_limitation
-    public :: default_resolution
+    public :: default_resolution, check_resolution
 
     !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 % half
     !> as many random gaps are named.
@@ -140,6 +145,7 @@ contains
         type(contact_strips_t), intent(in) :: strips !! its solution
         type(status_t), intent(inout) :: status      !! limitations so far, no error
 
+        character(len=message_length) :: words
         real(wp) :: lowest, highest, y, h_left, h_right, inv2r, slope, turn
         integer :: k, first
 
@@ -173,16 +179,19 @@ contains
                             //' 1/mm: no finite patch along x')
             return
         end if
-        if (lowest < curve%least_inv2r) &
-            call add_limitation(status, st_flat_along_x, 'inv2r of ' &
-                                //trim(number_text(lowest))//' 1/mm in the contact raised to ' &
-                                //trim(number_text(curve%least_inv2r)))
+        if (lowest < curve%least_inv2r) then
+            words = 'inv2r of '//number_text(lowest)
+            call add_words(words, ' 1/mm in the contact raised to '//number_text(curve%least_inv2r))
+            call add_limitation(status, st_flat_along_x, words)
+        end if
         if (turn > doubtful_turn) then
-            call add_limitation(status, st_conformal, 'half-space doubtful: the surfaces turn by ' &
-                                //trim(number_text(turn*180.0_wp/pi))//' degrees over a patch')
+            words = 'half-space doubtful: the surfaces turn by '//number_text(turn*180.0_wp/pi)
+            call add_words(words, ' degrees over a patch')
+            call add_limitation(status, st_conformal, words)
         else if (slope > doubtful_slope) then
-            call add_limitation(status, st_conformal, 'half-space doubtful: a slope of ' &
-                                //trim(number_text(slope))//' of the gap in a patch')
+            words = 'half-space doubtful: a slope of '//number_text(slope)
+            call add_words(words, ' of the gap in a patch')
+            call add_limitation(status, st_conformal, words)
         end if
     end subroutine name_limitations
 
@@ -194,6 +203,7 @@ contains
         real(wp), intent(in) :: limit           !! largest that is called resolved
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
 
+        character(len=message_length) :: words
         character(len=15) :: what
         real(wp) :: estimate
 
@@ -210,10 +220,26 @@ contains
         else
             return
         end if
-        call add_limitation(status, st_under_resolved, 'the estimated error of '//trim(what) &
-                            //' is above '//trim(number_text(limit))//': ' &
-                            //trim(number_text(estimate)))
+        words = 'the estimated error of '//what
+        call add_words(words, ' is above '//number_text(limit))
+        call add_words(words, ': '//number_text(estimate))
+        call add_limitation(status, st_under_resolved, words)
     end subroutine name_resolution
+
+    !> Refuse a limit for `name_resolution` that no estimate can be compared with.
+    pure subroutine check_resolution(limit, status)
+        real(wp), intent(in) :: limit         !! largest relative error that is called resolved
+        type(status_t), intent(out) :: status !! `st_bad_argument`: not above 0, or NaN
+
+        call clear_status(status)
+        if (ieee_is_nan(limit)) then
+            call set_status(status, st_bad_argument, &
+                            'the resolution limit must be above 0, got NaN')
+        else if (limit <= 0.0_wp) then
+            call set_status(status, st_bad_argument, 'the resolution limit must be above 0, got ' &
+                            //number_text(limit))
+        end if
+    end subroutine check_resolution
 
     !> Add a limitation to a status: the first one gives the code, the words are strung together.
     pure subroutine add_limitation(status, code, words)
@@ -223,8 +249,9 @@ contains
 
         if (status%code == st_ok) then
             call set_status(status, code, words)
-        else if (len_trim(status%message) + 2 + len(words) <= message_length) then
-            status%message = trim(status%message)//'; '//words
+        else if (len_trim(status%message) + 2 + len_trim(words) <= message_length) then
+            call add_words(status%message, ';')
+            status%message(len_trim(status%message) + 2:) = words
         end if
     end subroutine add_limitation
 end module faststrip_normal_limitations

@@ -16,7 +16,7 @@ module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                count_text, &
+                                count_text, add_words, message_length, &
                                 st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
                                 st_no_contact, st_fewer_strips, &
                                 st_fallback_used, st_overlap_left, st_more_strips, &
@@ -171,6 +171,7 @@ contains
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
+        character(len=message_length) :: words
         type(patches_t) :: patches
         type(normal_result_t) :: coarser
         real(wp) :: penetration
@@ -259,10 +260,12 @@ contains
             result = normal_result_t()
         end if
         if (options%strips_per_patch /= strips_auto &
-            .and. levels(n_settled) > options%strips_per_patch .and. .not. is_error(status)) &
-            call add_limitation(status, st_more_strips, trim(count_text(levels(n_settled))) &
-                                //' strips used where '//trim(count_text(options%strips_per_patch)) &
-                                //' were asked, which did not settle')
+            .and. levels(n_settled) > options%strips_per_patch .and. .not. is_error(status)) then
+            words = count_text(levels(n_settled))
+            call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
+            call add_words(words, ' were asked, which did not settle')
+            call add_limitation(status, st_more_strips, words)
+        end if
         ! Of itself, auto asks for as many as are resolved.
         if (.not. (settled .or. options%strips_per_patch == strips_auto .or. is_error(status))) &
             call add_limitation(status, st_fewer_strips, &
