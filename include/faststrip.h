@@ -19,7 +19,8 @@
  *
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
- * is written than its header knows. A case larger than the library knows is refused (100). */
+ * is written than its header knows. A case larger than the library knows is refused (100). Also for
+ * an older program errors are estimated, and too large ones named (FASTSTRIP_UNDER_RESOLVED). */
 #ifndef FASTSTRIP_H
 #define FASTSTRIP_H
 
@@ -43,7 +44,7 @@ enum faststrip_status {
     FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
     FASTSTRIP_CONFORMAL = 6,     /* the surfaces turn much within it: half-space doubtful */
     FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
-    FASTSTRIP_UNDER_RESOLVED = 8, /* the estimated error of the pressure is above the limit */
+    FASTSTRIP_UNDER_RESOLVED = 8, /* the estimated error of pmax is above resolution_limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
@@ -103,6 +104,8 @@ typedef struct faststrip_case {
     double cksi;          /* longitudinal creepage about y = 0 */
     double ceta;          /* lateral creepage */
     double cphi;          /* spin, rad/mm */
+    int estimate;         /* 1: the errors of strips are estimated, which costs about one step */
+    double resolution_limit; /* FASTSTRIP_UNDER_RESOLVED: est_err_pmax is above this; > 0 */
 } faststrip_case;
 
 /* Figures of one contact. */
@@ -124,6 +127,13 @@ typedef struct faststrip_result {
     int n_strips;
     int n_elements;
     int iterations;        /* of the normal solution */
+    int is_estimated;      /* 1: the five below are known; 0: zero, not asked for or of ellipses */
+    int strips_across;     /* strips across the patch that has most; 0: no strips */
+    double est_err_penetration; /* estimated error over penetration - h_lowest, not negative */
+    double est_err_pmax;   /* estimated relative error of pmax, not negative */
+    double est_err_area;   /* estimated relative error of the area, not negative */
+    double residual_inside; /* largest gap left in the patches over penetration - h_lowest */
+    double overlap_outside; /* largest overlap beside them over penetration - h_lowest */
 } faststrip_result;
 
 typedef struct faststrip_workspace faststrip_workspace;

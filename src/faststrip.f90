@@ -33,6 +33,7 @@ module faststrip
     use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
                                       hertz_solve_gap_penetration, hertz_strips
+    use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &

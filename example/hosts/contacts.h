@@ -20,10 +20,11 @@ static double next(uint64_t *state)
     return (double)(*state >> 11) / 9007199254740992.0;
 }
 
-/* Ellipses, lopsided patches, kinks, two patches; by load or penetration; all methods. */
+/* Ellipses, lopsided patches, kinks, two patches; some of them rough; by load or penetration; all
+ * methods. */
 static void make_example(uint64_t number, example *e)
 {
-    uint64_t state = number * 2654435761u + 12345u;
+    uint64_t state = number * 2654435761u + 12345u, noise = number;
     double curvature, other, middle, slope;
     int kind, i;
 
@@ -41,6 +42,7 @@ static void make_example(uint64_t number, example *e)
         if (kind == 1 && d > 0.0) e->h[i] = other * d * d;
         if (kind == 2) e->h[i] += slope * fabs(d);
         if (kind == 3) e->h[i] = 0.02 * curvature * (d * d - 40.0) * (d * d - 40.0);
+        if (number % 7 == 6) e->h[i] += 2e-3 * next(&noise);
     }
     faststrip_default_case(&e->contact, sizeof e->contact);
     e->contact.strips_per_patch = 5 + 2 * (int)(3.0 * next(&state));
@@ -73,7 +75,10 @@ static uint64_t bits_of(int status, const faststrip_result *result)
 {
     const double figures[] = {result->load, result->penetration, result->area, result->pmax,
                               result->y_min, result->y_max, result->x_max, result->fx, result->fy,
-                              result->mz, result->friction_power, result->stick_fraction};
+                              result->mz, result->friction_power, result->stick_fraction,
+                              result->est_err_penetration, result->est_err_pmax,
+                              result->est_err_area, result->residual_inside,
+                              result->overlap_outside};
     uint64_t bits = (uint64_t)status, word;
     size_t i;
 

@@ -119,6 +119,13 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("n_patches", step, 0, r.n_patches);
     put("iterations", step, 0, r.iterations);
     put("n_elements", step, 0, r.n_elements);
+    put("is_estimated", step, 0, r.is_estimated);
+    put("strips_across", step, 0, r.strips_across);
+    put("est_err_penetration", step, 0, r.est_err_penetration);
+    put("est_err_pmax", step, 0, r.est_err_pmax);
+    put("est_err_area", step, 0, r.est_err_area);
+    put("residual_inside", step, 0, r.residual_inside);
+    put("overlap_outside", step, 0, r.overlap_outside);
     show_arrays(workspace, step);
     put("result_n_strips", step, 0, r.n_strips);
 }
@@ -182,6 +189,8 @@ static void defaults(void)
     put("default_cksi", 0, 0, c.cksi);
     put("default_ceta", 0, 0, c.ceta);
     put("default_cphi", 0, 0, c.cphi);
+    put("default_estimate", 0, 0, c.estimate);
+    put("default_resolution_limit", 0, 0, c.resolution_limit);
 }
 
 int main(void)
@@ -213,6 +222,8 @@ int main(void)
         c.by_load = whole();
         c.with_elements = whole();
         has_turn = whole();
+        c.estimate = whole();
+        c.resolution_limit = number();
         n = whole();
         for (i = 0; i < 20; i++) demand[i / 10][i % 10] = number();
         for (i = 0; i < n; i++) {

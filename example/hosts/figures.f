@@ -1,12 +1,13 @@
 C     The same figures by the F77 face; see figures.f90. Contacts with a
-C     turn are left out: this face does not take it.
+C     turn are left out, which this face does not take, and limits that
+C     FSLIMT refuses.
       PROGRAM FIGURE
       INTEGER MPTS, MOST
       PARAMETER (MPTS = 400, MOST = 6000)
       INTEGER NC, IC, IOPT(9), IW(8), IW2(8), NORM, NTAN, NS, NP, NX,
-     &  NY, IBYL, IEL, ITURN, N, I, INFO
+     &  NY, IBYL, IEL, ITURN, IEST, N, I, INFO
       DOUBLE PRECISION D(20), Y(MPTS), H(MPTS), A(MPTS), T, PAR(9),
-     &  X(11), F(4)
+     &  X(11), F(4), RLIM
       CHARACTER*20 SNORM, STAN, TEXT
       CALL FSDFLT(IOPT, PAR)
       CALL PUT('default_normal', 0, 0, 0, DBLE(IOPT(1)))
@@ -34,12 +35,12 @@ C     turn are left out: this face does not take it.
       READ (*, *) NC
       DO 40 IC = 1, NC
         READ (*, *) SNORM, STAN, NORM, NTAN, NS, NP, NX, NY, IBYL, IEL,
-     &    ITURN, N
+     &    ITURN, IEST, RLIM, N
         READ (*, *) D
         DO 20 I = 1, N
           READ (*, *) Y(I), H(I), A(I), T
    20   CONTINUE
-        IF (ITURN .EQ. 1) GO TO 40
+        IF (ITURN .EQ. 1 .OR. RLIM .LE. 0.0D0) GO TO 40
         IOPT(1) = NORM
         IOPT(2) = NTAN
         IOPT(3) = NS
@@ -53,6 +54,11 @@ C     turn are left out: this face does not take it.
         IF (INFO .NE. 0) STOP 3
         CALL FSINIT(IOPT, N, IW2, 8, INFO)
         IF (INFO .NE. 0) STOP 4
+C       By default errors are estimated, and named above 0.1.
+        IF (IEST .EQ. 0 .OR. RLIM .NE. 0.1D0) THEN
+          CALL FSLIMT(IW, IEST, RLIM, INFO)
+          IF (INFO .NE. 0) STOP 8
+        END IF
         CALL SOLVE(IW, IOPT, D(1), IC, 1, N, Y, H, A)
         CALL FSCOPY(IW, IW2, INFO)
         IF (INFO .NE. 0) STOP 5
@@ -95,7 +101,7 @@ C     turn are left out: this face does not take it.
 C     The first step by FSCONT, the others by FSSOLV.
       SUBROUTINE SOLVE(IW, IOPT, D, IC, IS, N, Y, H, A)
       INTEGER IW(8), IOPT(9), IC, IS, N, INFO
-      DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14)
+      DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14), ERR(7)
       CHARACTER*256 TEXT
       PAR(1) = D(1)
       PAR(2) = D(2)
@@ -128,6 +134,15 @@ C     The first step by FSCONT, the others by FSSOLV.
       CALL PUT('friction_power', IC, IS, 0, RES(11))
       CALL PUT('stick_fraction', IC, IS, 0, RES(12))
       CALL PUT('n_patches', IC, IS, 0, RES(13))
+      CALL FSERRS(IW, ERR, INFO)
+      IF (INFO .NE. 0) STOP 9
+      CALL PUT('est_err_penetration', IC, IS, 0, ERR(1))
+      CALL PUT('est_err_pmax', IC, IS, 0, ERR(2))
+      CALL PUT('est_err_area', IC, IS, 0, ERR(3))
+      CALL PUT('residual_inside', IC, IS, 0, ERR(4))
+      CALL PUT('overlap_outside', IC, IS, 0, ERR(5))
+      CALL PUT('is_estimated', IC, IS, 0, ERR(6))
+      CALL PUT('strips_across', IC, IS, 0, ERR(7))
       CALL ARRAYS(IW, IC, IS)
       CALL PUT('result_n_strips', IC, IS, 0, RES(14))
       END

@@ -14,7 +14,7 @@ program figures
     type(status_t) :: status
     character(len=method_name_length) :: normal, tangential
     real(wp) :: demand(10, 2), row(4)
-    integer :: n_contacts, contact, numbers(2), by_load, elements, has_turn, n, k
+    integer :: n_contacts, contact, numbers(2), by_load, elements, has_turn, estimate, n, k
 
     call defaults()
     call words()
@@ -23,11 +23,12 @@ program figures
         case = contact_case_t()
         read (*, *) normal, tangential, numbers, case%methods%strips_per_patch, &
             case%methods%points_per_strip, case%methods%fastsim_nx, case%methods%fastsim_ny, &
-            by_load, elements, has_turn, n
+            by_load, elements, has_turn, estimate, case%resolution_limit, n
         read (*, *) demand
         case%methods%normal = normal_method(normal)
         case%methods%tangential = tangential_method(tangential)
         case%by_load = by_load == 1
+        case%estimate = estimate == 1
         allocate (case%gap%y(n), case%gap%h(n), case%gap%inv2r(n))
         if (has_turn == 1) allocate (case%gap%turn(n))
         do k = 1, n
@@ -95,6 +96,13 @@ contains
         call put('n_patches', step, 0, real(result%normal%n_patches, wp))
         call put('iterations', step, 0, real(result%normal%iterations, wp))
         call put('n_elements', step, 0, real(field%n, wp))
+        call put('is_estimated', step, 0, merge(1.0_wp, 0.0_wp, result%is_estimated))
+        call put('strips_across', step, 0, real(result%normal%strips_across, wp))
+        call put('est_err_penetration', step, 0, result%certificate%est_err_penetration)
+        call put('est_err_pmax', step, 0, result%certificate%est_err_pmax)
+        call put('est_err_area', step, 0, result%certificate%est_err_area)
+        call put('residual_inside', step, 0, result%certificate%residual_inside)
+        call put('overlap_outside', step, 0, result%certificate%overlap_outside)
         call show_arrays(workspace, field, step)
     end subroutine solve
 
@@ -197,6 +205,8 @@ contains
         call put('default_cksi', 0, 0, case%creepage%cksi)
         call put('default_ceta', 0, 0, case%creepage%ceta)
         call put('default_cphi', 0, 0, case%creepage%cphi)
+        call put('default_estimate', 0, 0, merge(1.0_wp, 0.0_wp, case%estimate))
+        call put('default_resolution_limit', 0, 0, case%resolution_limit)
     end subroutine defaults
 
     subroutine words()

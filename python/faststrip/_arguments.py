@@ -77,6 +77,22 @@ def number(name: str, value: Any) -> float:
     return found
 
 
+def above_zero(name: str, value: Any) -> float:
+    """A number above 0, of Python or numpy; infinity will do."""
+    must = "a number above 0"
+    if _not_a_real_number(value):
+        raise refused(name, must, value)
+    try:
+        found = float(value)
+    except OverflowError:
+        found = math.inf if value > 0 else -math.inf
+    except (TypeError, ValueError):
+        raise refused(name, must, value) from None
+    if not found > 0.0:
+        raise refused(name, must, value)
+    return found
+
+
 def numbers(names: Sequence[str], values: Sequence[Any]) -> List[float]:
     """Finite numbers, each with a name."""
     return [value if type(value) is float and math.isfinite(value) else number(name, value)

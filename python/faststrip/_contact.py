@@ -12,7 +12,17 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import array, as_long_as, flag, number, numbers, refused, several, whole
+from ._arguments import (
+    above_zero,
+    array,
+    as_long_as,
+    flag,
+    number,
+    numbers,
+    refused,
+    several,
+    whole,
+)
 from ._interrupt import interruptible
 from ._library import (
     BAD_ARGUMENT,
@@ -98,10 +108,26 @@ class Result:
     n_strips: int
     n_elements: int
     iterations: int
+    strips_across: int
+    """strips across the patch that has most; 0: no strips"""
+    est_err_penetration: Optional[float]
+    """estimated error over the depth, penetration less the gap's lowest height; like the four below
+    None where it is not known: of ellipses, or with ``estimate=False``"""
+    est_err_pmax: Optional[float]
+    """estimated relative error of pmax"""
+    est_err_area: Optional[float]
+    """estimated relative error of the area"""
+    residual_inside: Optional[float]
+    """largest gap that is left inside the patches, over the depth"""
+    overlap_outside: Optional[float]
+    """largest overlap outside of them, over the depth"""
 
 
 # What a result takes from the library's struct: by its names, whatever their order there.
-_figures_of = operator.attrgetter(*(field.name for field in fields(Result)[2:]))
+ESTIMATES = 5
+_figures_of = operator.attrgetter(*(field.name for field in fields(Result)[2:-ESTIMATES]))
+_estimates_of = operator.attrgetter(*(field.name for field in fields(Result)[-ESTIMATES:]))
+_NO_ESTIMATES = (None,) * ESTIMATES
 
 
 class Strips(NamedTuple):
@@ -183,15 +209,18 @@ class Contact:
     normal: ``strip`` (any patch), ``hertz``, ``equal_area`` or ``equal_moments``;
     tangential: ``faststrip``, ``fastsim``, ``none``; to compare with, ``faststrip-paper``,
     ``faststrip-corrected``, ``fastsim-elliptic``, ``fastsim-weighted`` and, for forces alone,
-    ``linear``, ``she``, ``polach``. strips_per_patch is 1 to 1000, or ``auto``. Use one Contact per
-    thread; calls release Python's lock while they compute. Ctrl-C ends a call; after that the
-    contact needs a gap again.
+    ``linear``, ``she``, ``polach``. strips_per_patch is 1 to 1000, or ``auto``. estimate: are the
+    errors of strips estimated, which costs about one step? A result whose estimated relative error
+    of pmax is above resolution_limit is called ``under_resolved``. Use one Contact per thread;
+    calls release Python's lock while they compute. Ctrl-C ends a call; after that the contact needs
+    a gap again.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",
                  strips_per_patch: Union[int, str] = 15, points_per_strip: int = 15,
                  fastsim_grid: Tuple[int, int] = (50, 50), with_elements: bool = False,
-                 max_points: int = 1000) -> None:
+                 max_points: int = 1000, estimate: bool = True,
+                 resolution_limit: float = 0.1) -> None:
         self._workspace: Optional[_Workspace] = None
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
@@ -205,6 +234,8 @@ class Contact:
         case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
         case.fastsim_nx, case.fastsim_ny = _grid_of("fastsim_grid", fastsim_grid)
         case.with_elements = flag("with_elements", with_elements)
+        case.estimate = flag("estimate", estimate)
+        case.resolution_limit = above_zero("resolution_limit", resolution_limit)
         self._make_room(whole("max_points", max_points, *GAP_POINTS))
 
     def _make_room(self, max_points: int) -> None:
@@ -322,7 +353,8 @@ class Contact:
         figures = Figures()
         status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
                             long=self._long)
-        return Result(status, word_of(status), *_figures_of(figures))
+        return Result(status, word_of(status), *_figures_of(figures),
+                      *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES))
 
     def strips(self) -> Strips:
         """The strips of the last contact."""

@@ -53,6 +53,8 @@ class Case(ctypes.Structure):
         *((name, c_double) for name in (
             "e_wheel", "e_rail", "nu_wheel", "nu_rail", "mu", "load", "penetration", "cksi",
             "ceta", "cphi")),
+        ("estimate", c_int),
+        ("resolution_limit", c_double),
     ]
 
 
@@ -64,7 +66,11 @@ class Figures(ctypes.Structure):
         *((name, c_double) for name in (
             "load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
             "friction_power", "stick_fraction")),
-        *((name, c_int) for name in ("n_patches", "n_strips", "n_elements", "iterations")),
+        *((name, c_int) for name in ("n_patches", "n_strips", "n_elements", "iterations",
+                                     "is_estimated", "strips_across")),
+        *((name, c_double) for name in (
+            "est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
+            "overlap_outside")),
     ]
 
 

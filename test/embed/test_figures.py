@@ -3,6 +3,7 @@ without symmetry, all creepages, every method, every field of every struct and a
 
 import math
 import os
+import random
 import sys
 import unittest
 
@@ -11,6 +12,8 @@ from installed import HOSTS, ROOT, HostTest
 NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
 TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
               "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
+ESTIMATES = ("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
+             "overlap_outside")
 FORCES_ONLY = {"linear", "she", "polach"}
 # Bodies, friction, load, penetration, creepages: no two alike, the second demand unlike the first.
 FIRST = (2.1e5, 1.43e5, 0.27, 0.335, 0.31, 7.3e4, 0.061, 1.3e-3, -7e-4, 1.7e-4)
@@ -48,8 +51,33 @@ def gap(height, first, last, n):
     return rows
 
 
+def rough_gap():
+    """An ellipse's gap, a point every 0.1 mm, with 0.5 um of noise."""
+    source = random.Random(5)
+    rows = ((0.1 * i, source.gauss(0.0, 5e-4)) for i in range(-150, 151))
+    return [(y, 2e-3 * y * y + noise, 1.0 / 920.0, 0.0) for y, noise in rows]
+
+
+# Estimate errors, and the limit from which on they are named: the default, others for a rough gap.
+USUAL = (1, 0.1)
+ROUGH = (USUAL, (1, 1e9), (0, 0.1), (1, 0.02))
+
+
 def contacts():
-    """normal, tangential, strips, points, nx, ny, by load, elements, turn, demands, gap."""
+    """normal, tangential, strips, points, nx, ny, by load, elements, turn, estimate, limit,
+    demands, gap: the rough ones first."""
+    for estimate in ROUGH:
+        yield ("strip", "faststrip", 15, 6, 7, 11, 1, 0, 0, *estimate, FIRST, SECOND, rough_gap())
+    for *numbers, first, second, rows in smooth_contacts():
+        yield (*numbers, *USUAL, first, second, rows)
+    usual = gap(lopsided, -14.0, 17.0, 201)
+    for normal in NORMAL:
+        for estimate in ((0, 0.1), (1, 1e-9), (1, -0.1)):
+            yield (normal, "faststrip", 8, 6, 7, 11, 1, 0, 0, *estimate, FIRST, SECOND, usual)
+
+
+def smooth_contacts():
+    """The same without estimate and limit."""
     usual = gap(lopsided, -14.0, 17.0, 201)
     for normal in NORMAL:
         for tangential in TANGENTIAL:
@@ -128,7 +156,7 @@ class Figures(HostTest):
         """In most contacts no two figures are equal, so that none can stand for another."""
         names = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
                  "friction_power", "stick_fraction", "n_patches", "n_strips", "iterations",
-                 "n_elements")
+                 "n_elements", *ESTIMATES)
         apart = 0
         for contact in range(1, len(self.contacts) + 1):
             values = [self.wanted[name, contact, 1, 0] for name in names]
@@ -136,9 +164,25 @@ class Figures(HostTest):
             apart += len(set(values)) == len(names)
         self.assertGreater(apart, 5)
         statuses = {value for key, value in self.wanted.items() if key[0] == "status"}
-        self.assertLessEqual({0.0, 2.0, 6.0, 105.0}, statuses)
+        self.assertLessEqual({0.0, 2.0, 6.0, 8.0, 100.0, 105.0}, statuses)
+        self.assertGreater(sum(value not in (0.0, self.wanted["n_strips", *key[1:]])
+                               for key, value in self.wanted.items() if key[0] == "strips_across"),
+                           9)
         self.assertGreater(sum(key[0] == "element_px" and value != 0.0
                                for key, value in self.wanted.items()), 1000)
+
+    def test_a_rough_gap_is_told_unless_it_is_not_to_be(self):
+        found = [[self.wanted[name, contact, 1, 0] for name in (*ESTIMATES, "is_estimated")]
+                 for contact in range(1, len(ROUGH) + 1)]
+        self.assertEqual([self.wanted["status", contact, 1, 0]
+                          for contact in range(1, len(ROUGH) + 1)], [8.0, 0.0, 0.0, 8.0])
+        self.assertGreater(found[0][1], 0.1)
+        self.assertEqual(found[1], found[0])
+        self.assertEqual(found[2], [0.0] * 6)
+        self.assertIn("above 0.200000E-1: ", self.wanted["message", 4, 1, 0])
+        refused = {self.wanted["message", contact, 1, 0]
+                   for contact, row in enumerate(self.contacts, 1) if row[10] < 0.0}
+        self.assertEqual(refused, {"the resolution limit must be above 0, got -0.100000"})
 
     def test_c(self):
         self.shell(f"gcc -O1 -Wall -Wextra -Werror '{HOSTS}/figures.c'"
@@ -151,9 +195,12 @@ class Figures(HostTest):
                    " $(pkg-config --libs faststrip) -o by_f77")
         turning = {i for i, row in enumerate(self.contacts, 1) if row[8]}
         self.assertEqual(len(turning), 2)
+        # FSLIMT refuses at once what a limit cannot be: test_legacy.
+        refused = {i for i, row in enumerate(self.contacts, 1) if row[10] < 0.0}
         self.same(figures(self.shell("./by_f77 <contacts.txt")),
-                  lambda name, contact: name in ("shear_modulus", "iterations",
-                                                 "default_penetration") or contact in turning)
+                  lambda name, contact: name in (
+                      "shear_modulus", "iterations", "default_penetration", "default_estimate",
+                      "default_resolution_limit") or contact in turning or contact in refused)
 
     def test_python(self):
         found = {}
@@ -163,11 +210,19 @@ class Figures(HostTest):
         self.same(found, lambda name, contact: name.startswith("default_") or name == "word")
 
     def by_python(self, found, number, normal, tangential, strips, points, nx, ny, by_load,
-                  elements, turn, first, second, rows):
+                  elements, turn, estimate, limit, first, second, rows):
         faststrip = self.faststrip
         options = {"normal": normal, "tangential": tangential, "strips_per_patch": strips or "auto",
                    "points_per_strip": points, "fastsim_grid": (nx, ny),
-                   "with_elements": elements == 1, "max_points": len(rows)}
+                   "with_elements": elements == 1, "max_points": len(rows),
+                   "estimate": estimate == 1, "resolution_limit": limit}
+        if limit <= 0.0:
+            # Refused at once, by a name of its own.
+            with self.assertRaisesRegex(faststrip.FaststripError,
+                                        f"resolution_limit .*got {limit}"):
+                faststrip.Contact(**options)
+            found.update((key, value) for key, value in self.wanted.items() if key[1] == number)
+            return
         contact, copy = faststrip.Contact(**options), faststrip.Contact(**options)
         y, h, inv2r, turns = zip(*rows)
         contact.set_gap(y, h, inv2r, turns if turn else None)
@@ -194,7 +249,8 @@ class Figures(HostTest):
                 found["message", number, step, 0] = problem.message
                 for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
                              "fy", "mz", "friction_power", "stick_fraction", "n_patches",
-                             "iterations", "n_elements"):
+                             "iterations", "n_elements", "strips_across", "is_estimated",
+                             *ESTIMATES):
                     found[name, number, step, 0] = 0.0
             else:
                 self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
@@ -202,7 +258,10 @@ class Figures(HostTest):
                 found["message", number, step, 0] = self.wanted["message", number, step, 0]
                 for name, value in vars(result).items():
                     if name not in ("word", "n_strips"):
-                        found[name, number, step, 0] = value
+                        found[name, number, step, 0] = 0.0 if value is None else value
+                known = {getattr(result, name) is not None for name in ESTIMATES}
+                self.assertEqual(len(known), 1)
+                found["is_estimated", number, step, 0] = float(known.pop())
                 found["result_n_strips", number, step, 0] = result.n_strips
             show_arrays(of, step)
 
@@ -254,7 +313,10 @@ class Figures(HostTest):
             normal=NORMAL[int(self.wanted["default_normal", 0, 0, 0]) - 1],
             tangential=TANGENTIAL[int(self.wanted["default_tangential", 0, 0, 0])],
             strips_per_patch=int(self.wanted["default_strips_per_patch", 0, 0, 0]),
-            points_per_strip=int(self.wanted["default_points_per_strip", 0, 0, 0]))
+            points_per_strip=int(self.wanted["default_points_per_strip", 0, 0, 0]),
+            estimate=self.wanted["default_estimate", 0, 0, 0] == 1.0)
+        self.assertEqual(told._case.resolution_limit,
+                         self.wanted["default_resolution_limit", 0, 0, 0])
         results = []
         for contact, friction in ((bare, {}), (told, {"mu": self.wanted["default_mu", 0, 0, 0]})):
             contact.set_gap(y, h, inv2r)

@@ -48,6 +48,8 @@ class Hosts(HostTest):
         found = self.findings("./host older")
         self.assertEqual(found["wrong"], [0])
         self.assertGreater(found["sizes"][0], 10)
+        # Those that know a load.
+        self.assertGreater(found["named"][0], 2)
 
     def test_forked_processes_make_workspaces(self):
         self.assertEqual(self.findings("./host forked"), {"children": [300], "wrong": [0]})
@@ -60,6 +62,9 @@ class Hosts(HostTest):
         found = self.findings("./counting quiet")
         self.assertGreater(found["solved"][0], 450)
         self.assertEqual(found["solving"], [0])
+        # Not for the words of limitations either.
+        self.assertGreater(found["rough"][0], 20)
+        self.assertGreater(found["limited"][0], found["rough"][0])
         self.assertEqual(found["files"], [0])
         # The counters do count: a workspace is many arrays, a line of findings one call.
         self.assertGreater(found["making"][0], 20)

@@ -14,8 +14,8 @@ from installed import ROOT, HostTest
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
           "ld-linux-x86-64"}
-F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fscopy fsfree"
-                " fsmsg fslast".split())
+F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
+                " fscopy fsfree fsmsg fslast".split())
 
 
 def command(*words):

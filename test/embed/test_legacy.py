@@ -11,9 +11,13 @@ R0, S, CONE = 460.0, 750.0, 0.05
 
 ERRORS = """\
       PROGRAM ERRORS
-      INTEGER IOPT(9), IW(8), IW2(8), N, INFO, K(400)
-      DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3)
+      INTEGER IOPT(9), IW(8), IW2(8), N, I, INFO, K(400), BITS(2)
+      DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3),
+     &  ERR(7), ERR2(7), Z, IEEE
       CHARACTER*12 TEXT
+      CHARACTER*80 LONG
+      EQUIVALENCE (IEEE, BITS)
+      DATA BITS /0, 2146959360/
       DATA Y /-2.0D0, -1.0D0, 0.0D0, 1.0D0, 2.0D0, 3.0D0/
       DATA H /0.4D0, 0.1D0, 0.0D0, 0.1D0, 0.4D0, 0.9D0/, A /6*1.0D-3/
       CALL FSDFLT(IOPT, PAR)
@@ -56,8 +60,56 @@ ERRORS = """\
       WRITE (*, *) 'copied', INFO
       CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
       WRITE (*, *) 'again', INFO
+      CALL FSERRS(IW, ERR, INFO)
+      WRITE (*, *) 'errors', INFO
+      WRITE (*, *) 'known', NINT(ERR(6)*1000 + ERR(7) - RES(14))
+      WRITE (*, *) 'small', INT(ERR(2)*10)
+      CALL FSCOPY(IW, IW2, INFO)
+      CALL FSERRS(IW2, ERR2, INFO)
+      N = 0
+      DO 10 I = 1, 7
+        IF (ERR(I) .NE. ERR2(I)) N = N + 1
+   10 CONTINUE
+      WRITE (*, *) 'differ', N
+      Z = 0.0D0
+      CALL FSLIMT(IW, 1, Z, INFO)
+      WRITE (*, *) 'zero', INFO
+      CALL FSLAST(IW, LONG)
+      WRITE (*, *) 'limit', INDEX(LONG, 'must be above 0, got 0.00000')
+      CALL FSLIMT(IW, 0, -1.0D0, INFO)
+      WRITE (*, *) 'below', INFO
+      CALL FSLIMT(IW, 0, IEEE, INFO)
+      WRITE (*, *) 'nan', INFO
+      CALL FSLAST(IW, LONG)
+      WRITE (*, *) 'named', INDEX(LONG, 'got NaN')
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      CALL FSERRS(IW, ERR2, INFO)
+      WRITE (*, *) 'kept', NINT(ERR2(6))
+      CALL FSLIMT(IW, 1, 1.0D-6, INFO)
+      WRITE (*, *) 'strict', INFO
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'rough', INFO
+      CALL FSCOPY(IW, IW2, INFO)
+      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'alike', INFO
+      CALL FSLIMT(IW, 0, 1.0D-6, INFO)
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'off', INFO
+      CALL FSERRS(IW, ERR, INFO)
+      N = 0
+      DO 20 I = 1, 6
+        IF (ERR(I) .NE. 0.0D0) N = N + 1
+   20 CONTINUE
+      WRITE (*, *) 'unknown', N
+      CALL FSGAP(IW2, 5, Y, H, A, INFO)
+      CALL FSERRS(IW2, ERR2, INFO)
+      WRITE (*, *) 'anew', NINT(ERR2(6) + ERR2(7)) + INFO
       CALL FSFREE(IW2, INFO)
       WRITE (*, *) 'freed', INFO
+      CALL FSERRS(IW2, ERR2, INFO)
+      WRITE (*, *) 'gone', INFO
+      CALL FSLIMT(IW2, 1, 0.1D0, INFO)
+      WRITE (*, *) 'went', INFO
       CALL FSFREE(IW2, INFO)
       WRITE (*, *) 'twice', INFO
       CALL FSCOPY(IW, IW2, INFO)
@@ -75,6 +127,9 @@ ERRORS = """\
 ANSWERS = {
     "query": 8000, "short": 110, "points": 100, "unmade": 100, "blank": 1, "made": 0,
     "gapless": 110, "negative": 100, "long": 110, "loadless": 105, "words": 1, "word": 1,
+    "errors": 0, "known": 1000, "small": 0, "differ": 0, "zero": 100, "limit": 22, "below": 100,
+    "nan": 100, "named": 39, "kept": 1, "strict": 0, "rough": 8, "alike": 8, "off": 0, "unknown": 0,
+    "anew": 0, "gone": 100, "went": 100,
     "solved": 0, "strips": 0, "few": 110, "elements": 0, "copied": 0, "again": 0, "freed": 0,
     "twice": 100, "nowhere": 100, "flat": 100, "ratio": 109, "saddle": 107,
 }

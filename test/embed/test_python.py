@@ -285,6 +285,16 @@ class Contacts(HostTest):
             with self.subTest(value=value):
                 self.refused("bad_argument", contact, says="with_elements must be True or False",
                              with_elements=value)
+            self.refused("bad_argument", contact, says="estimate must be True or False",
+                         estimate=value)
+        for value in (0.0, -0.0, -0.1, float("nan"), -np.inf, -10**400, np.float32("nan"), None,
+                      "0.1", b"1", True, 1j, [0.1], np.array([0.1]), np.ma.masked, object()):
+            with self.subTest(resolution_limit=value):
+                self.refused("bad_argument", contact, resolution_limit=value,
+                             says="resolution_limit must be a number above 0, got ")
+        for value in (1, 10**400, np.inf, np.float32(0.5), np.array(0.5), decimal.Decimal("0.5")):
+            made = self.contact(resolution_limit=value)
+            self.assertEqual(made.solve(load=1e5), self.contact().solve(load=1e5))
         for name in ("normal", "tangential"):
             for value in (None, 1, [], "Strip", ""):
                 self.refused("bad_argument", contact, says=f"no {name} method {value!r}",
@@ -298,6 +308,21 @@ class Contacts(HostTest):
                            fastsim_grid=(value, value), with_elements=np.True_)
             made.set_gap(self.y[::100], 2e-3 * self.y[::100]**2, 1e-3)
             self.assertEqual(made.solve(load=1e3).n_strips, 7)
+
+    def test_errors_are_estimated_of_strips_and_unless_told_otherwise(self):
+        names = ("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
+                 "overlap_outside")
+        result = self.contact().solve(load=1e5)
+        estimates = [getattr(result, name) for name in names]
+        self.assertEqual({type(value) for value in estimates}, {float})
+        self.assertTrue(0.0 < result.est_err_pmax <= 0.1, result)
+        self.assertEqual(result.strips_across, 15)
+        self.assertEqual(self.contact(resolution_limit=1e-6).solve(load=1e5).word, "under_resolved")
+        for options, across in (({"estimate": False, "resolution_limit": 1e-6}, 15),
+                                ({"normal": "hertz"}, 0), ({"normal": "equal_area"}, 15)):
+            other = self.contact(**options).solve(load=1e5)
+            self.assertEqual((other.word, other.strips_across), ("ok", across))
+            self.assertEqual([getattr(other, name) for name in names], [None] * 5)
 
     def test_limits_are_those_of_the_library(self):
         sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ module faststrip_interop_c
     use faststrip_tangential_kalker, only: kalker_coefficients_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: contact_case_t, contact_result_t
+    use faststrip_contact_solve, only: contact_case_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
@@ -180,7 +180,6 @@ contains
         type(handle_t), pointer :: handle
         type(c_case_t) :: fields
         type(c_result_t) :: figures
-        type(contact_result_t) :: solution
         type(status_t) :: status
 
         call find_handle(workspace, handle, status)
@@ -192,9 +191,10 @@ contains
         code = handle%status%code
         if (is_error(handle%status)) return
         call take_case(fields, handle%case)
-        call handle_solve(handle, fields%with_elements /= 0, solution)
+        call handle_solve(handle, fields%with_elements /= 0)
         code = handle%status%code
-        associate (normal => solution%normal, tangential => solution%tangential)
+        associate (normal => handle%result%normal, tangential => handle%result%tangential, &
+                   certificate => handle%result%certificate)
             figures%load = normal%load
             figures%penetration = normal%penetration
             figures%area = normal%area
@@ -211,6 +211,13 @@ contains
             figures%n_strips = merge(handle%workspace%strips%n, 0, normal%n_patches > 0)
             figures%n_elements = handle%field%n
             figures%iterations = normal%iterations
+            figures%is_estimated = merge(1, 0, handle%result%is_estimated)
+            figures%strips_across = normal%strips_across
+            figures%est_err_penetration = certificate%est_err_penetration
+            figures%est_err_pmax = certificate%est_err_pmax
+            figures%est_err_area = certificate%est_err_area
+            figures%residual_inside = certificate%residual_inside
+            figures%overlap_outside = certificate%overlap_outside
         end associate
         call write_result(figures, fields%size, result)
     end function faststrip_solve
@@ -374,6 +381,8 @@ contains
         case%creepage = creepage_t(fields%cksi, fields%ceta, fields%cphi)
         case%methods = methods_of(fields)
         case%warm_start = fields%warm_start /= 0
+        case%estimate = fields%estimate /= 0
+        case%resolution_limit = fields%resolution_limit
     end subroutine take_case
 
     !> Tell how many there are, and refuse arrays that are missing or too short.

@@ -24,6 +24,8 @@ module faststrip_interop_c_structs
         integer(c_int) :: fastsim_nx, fastsim_ny, by_load, warm_start, with_elements
         real(c_double) :: e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration
         real(c_double) :: cksi, ceta, cphi
+        integer(c_int) :: estimate
+        real(c_double) :: resolution_limit
     end type c_case_t
 
     !> `faststrip_result` of the header.
@@ -32,11 +34,15 @@ module faststrip_interop_c_structs
         real(c_double) :: load, penetration, area, pmax, y_min, y_max, x_max
         real(c_double) :: fx, fy, mz, friction_power, stick_fraction
         integer(c_int) :: n_patches, n_strips, n_elements, iterations
+        integer(c_int) :: is_estimated, strips_across
+        real(c_double) :: est_err_penetration, est_err_pmax, est_err_area
+        real(c_double) :: residual_inside, overlap_outside
     end type c_result_t
 
     !> Bytes of case and result in every release that changed them, rising.
-    integer(c_size_t), parameter :: releases(2, 1) = reshape([ &
-        128_c_size_t, 120_c_size_t], [2, 1]) ! 0.1.0
+    integer(c_size_t), parameter :: releases(2, 2) = reshape([ &
+        128_c_size_t, 120_c_size_t, &            ! first
+        144_c_size_t, 168_c_size_t], [2, 2])     ! with estimated errors
 
     ! Members end at multiples of this; less than two pieces are no case.
     integer(c_size_t), parameter :: piece = 8, least_case = 2*piece
@@ -146,5 +152,7 @@ contains
         fields%cksi = defaults%creepage%cksi
         fields%ceta = defaults%creepage%ceta
         fields%cphi = defaults%creepage%cphi
+        fields%estimate = merge(1, 0, defaults%estimate)
+        fields%resolution_limit = defaults%resolution_limit
     end function default_case
 end module faststrip_interop_c_structs

@@ -25,7 +25,16 @@
 !> RES(8) Fx, N             RES(9) Fy, N               RES(10) Mz, N mm, all on the rail
 !> RES(11) friction power over rolling speed, N        RES(12) share in adhesion
 !> RES(13) number of patches                           RES(14) number of strips
+!> ERR(1) estimated error of the penetration, ERR(2) of the largest pressure, ERR(3) of the area,
+!>        all relative; that of the penetration to D - h_lowest, the depth below the lowest point
+!> ERR(4) largest gap that is left inside the patches, over that depth
+!> ERR(5) largest overlap outside of them, over that depth
+!> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of ellipses or by FSLIMT
+!> ERR(7) strips across the patch that has most, 0: no strips
 !> ```
+!>
+!> FSSOLV estimates errors unless FSLIMT switched that off, and says 8, under_resolved, where that
+!> of the largest pressure is above a limit. FSERRS has them.
 module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
     use faststrip_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
@@ -35,8 +44,9 @@ module faststrip_interop_f77
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t
     use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_normal_limitations, only: check_resolution
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: contact_case_t, contact_result_t
+    use faststrip_contact_solve, only: contact_case_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
@@ -44,9 +54,9 @@ module faststrip_interop_f77
     private
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
-    public :: fscopy, fsfree, fsmsg, fslast
+    public :: fslimt, fserrs, fscopy, fsfree, fsmsg, fslast
 
-    integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14
+    integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14, n_err = 7
 
     ! A workspace array: two marks around the handle.
     integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
@@ -204,7 +214,6 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
-        type(contact_result_t) :: result
 
         res = 0.0_c_double
         call find(iwork, handle, info)
@@ -219,10 +228,10 @@ contains
             case%methods = methods_of(iopt)
             case%warm_start = iopt(8) /= 0
         end associate
-        call handle_solve(handle, iopt(9) /= 0, result)
+        call handle_solve(handle, iopt(9) /= 0)
         info = handle%status%code
         if (is_error(handle%status)) return
-        associate (normal => result%normal, tangential => result%tangential)
+        associate (normal => handle%result%normal, tangential => handle%result%tangential)
             res = [normal%load, normal%penetration, normal%area, normal%pmax, normal%y_min, &
                    normal%y_max, normal%x_max, tangential%fx, tangential%fy, tangential%mz, &
                    tangential%friction_power, tangential%stick_fraction, &
@@ -319,9 +328,54 @@ contains
         end associate
     end subroutine fselem
 
+    !> CALL FSLIMT(IWORK, IEST, RLIM, INFO)
+    !>
+    !> Set for all further calls of FSSOLV whether errors are estimated, and from which estimated
+    !> error of the largest pressure on they say so (8, under_resolved). FSINIT sets 1 and 0.1. After
+    !> an error both are as they were.
+    subroutine fslimt(iwork, estimate, limit, info) bind(c, name='fslimt_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT
+        integer(c_int), intent(in) :: estimate       !! are errors estimated? 0 means no
+        real(c_double), intent(in) :: limit          !! relative, above 0
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        call check_resolution(limit, handle%status)
+        info = handle%status%code
+        if (is_error(handle%status)) return
+        handle%case%estimate = estimate /= 0
+        handle%case%resolution_limit = limit
+    end subroutine fslimt
+
+    !> CALL FSERRS(IWORK, ERR, INFO)
+    !>
+    !> The estimated errors of the last contact; zeros if there was none.
+    subroutine fserrs(iwork, err, info) bind(c, name='fserrs_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! with a solution
+        real(c_double), intent(out) :: err(n_err)    !! estimates
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+
+        err = 0.0_c_double
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        associate (certificate => handle%result%certificate)
+            err = [certificate%est_err_penetration, certificate%est_err_pmax, &
+                   certificate%est_err_area, certificate%residual_inside, &
+                   certificate%overlap_outside, &
+                   merge(1.0_c_double, 0.0_c_double, handle%result%is_estimated), &
+                   real(handle%result%normal%strips_across, c_double)]
+        end associate
+    end subroutine fserrs
+
     !> CALL FSCOPY(IFROM, ITO, INFO)
     !>
-    !> Copy gap and solution of one workspace into another, for a step that may be taken back.
+    !> Copy gap and solution of one workspace into another, and what FSLIMT set, for a step that may
+    !> be taken back.
     subroutine fscopy(from, to, info) bind(c, name='fscopy_')
         integer(c_int), intent(in) :: from(n_iwork) !! made by FSINIT
         integer(c_int), intent(in) :: to(n_iwork)   !! made by another call of FSINIT

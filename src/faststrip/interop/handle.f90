@@ -19,8 +19,10 @@ module faststrip_interop_handle
     !> One caller's workspace.
     type :: handle_t
         type(workspace_t) :: workspace
-        type(contact_case_t) :: case      !! filled in anew for every call, without a gap
+        type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
+                                          !! the F77 face sets how errors are estimated once
         type(tangential_field_t) :: field !! elements of the last contact, if room was made
+        type(contact_result_t) :: result  !! figures of the last contact
         type(status_t) :: status          !! of the last call
     end type handle_t
 
@@ -85,20 +87,21 @@ contains
         real(wp), intent(in) :: y(:), h(:), inv2r(:)    !! mm, mm, 1/mm
         real(wp), intent(in), optional :: turn(:)       !! rad
 
+        handle%result = contact_result_t()
         call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, turn)
     end subroutine handle_gap
 
-    !> Solve the handle's case on the gap that was handed over.
-    subroutine handle_solve(handle, with_field, result)
-        type(handle_t), intent(inout) :: handle       !! its status tells how it ended
-        logical, intent(in) :: with_field             !! are the elements wanted?
-        type(contact_result_t), intent(out) :: result !! figures
+    !> Solve the handle's case on the gap that was handed over; its result has the figures.
+    subroutine handle_solve(handle, with_field)
+        type(handle_t), intent(inout) :: handle !! its status tells how it ended
+        logical, intent(in) :: with_field       !! are the elements wanted?
 
         handle%field%n = 0
         if (with_field) then
-            call solve_contact(handle%workspace, handle%case, result, handle%status, handle%field)
+            call solve_contact(handle%workspace, handle%case, handle%result, handle%status, &
+                               handle%field)
         else
-            call solve_contact(handle%workspace, handle%case, result, handle%status)
+            call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         end if
     end subroutine handle_solve
 
@@ -109,7 +112,9 @@ contains
         type(handle_t), intent(inout) :: to !! becomes equal
 
         to%workspace = from%workspace
+        to%case = from%case
         to%field = from%field
+        to%result = from%result
         call clear_status(to%status)
     end subroutine copy_handle
 end module faststrip_interop_handle
