@@ -84,15 +84,16 @@ contains
         real(wp) :: highest, steepest, y
 
         if (penetration > 0.0_wp .or. status%code >= first_error) return
-        words = 'penetration under a load must be positive, got '//trim(number_text(penetration)) &
-                //' mm: the lowest gap is '//trim(number_text(curve%h_lowest))//' mm, at y = ' &
-                //trim(number_text(curve%y_lowest))//' mm'
+        words = 'penetration under a load must be positive, got '//number_text(penetration)
+        call add_words(words, ' mm: the lowest gap is '//number_text(curve%h_lowest))
+        call add_words(words, ' mm, at y = '//number_text(curve%y_lowest))
+        call add_words(words, ' mm')
         call largest_step(curve, curve%y(1), curve%y(curve%n), highest, steepest, y)
         if (highest >= abs(penetration) .and. highest >= fill_step*(maxval(curve%h(:curve%n)) &
                                                                     - curve%h_lowest)) then
             call set_status(status, st_out_of_range, words)
         else
-            call add_limitation(status, st_overlap_left, trim(words))
+            call add_limitation(status, st_overlap_left, words)
         end if
     end subroutine check_penetration
 
@@ -127,15 +128,17 @@ contains
         type(status_t), intent(inout) :: status !! limitations so far
         logical, intent(out) :: is_named        !! is there such a step?
 
+        character(len=message_length) :: words
         real(wp) :: step, steepest, y
 
         call largest_step(curve, y_from, y_to, step, steepest, y)
         is_named = step > doubtful_step*depth &
                    .or. steepest*half_width > doubtful_steepness*depth
-        if (is_named) &
-            call add_limitation(status, st_conformal, 'half-space doubtful: a step of ' &
-                                //trim(number_text(step))//' mm of the gap in a patch, at y = ' &
-                                //trim(number_text(y))//' mm')
+        if (.not. is_named) return
+        words = 'half-space doubtful: a step of '//number_text(step)
+        call add_words(words, ' mm of the gap in a patch, at y = '//number_text(y))
+        call add_words(words, ' mm')
+        call add_limitation(status, st_conformal, words)
     end subroutine name_step
 
     !> Add to a status what the gap in the patches brings along: `st_edge_of_data`,
