@@ -85,7 +85,7 @@ contains
         case%load = demand%load
         case%penetration = demand%penetration
         case%methods = stage%methods
-        case%estimate = .false. ! `certify` does
+        case%estimate = stage%methods%normal /= normal_strip ! of which `certify` does
         case%resolution_limit = stage%resolution_limit
         call solve_contact_normal(stage%workspace, case, normal, status)
     end subroutine solve_normal

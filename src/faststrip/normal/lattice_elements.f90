@@ -104,7 +104,9 @@ contains
                 end do
             end do
             do j = 1, e%n
-                e%s(j + 1:e%n, j) = e%s(j, j + 1:e%n)
+                do i = j + 1, e%n
+                    e%s(i, j) = e%s(j, i)
+                end do
             end do
         end associate
     end subroutine place_elements
@@ -230,7 +232,9 @@ contains
                 if (feasible .and. (stuck .or. tries > max_block_rounds)) then
                     e%presses(worst) = .true.
                 else if (tries <= max_block_rounds) then
-                    e%presses(e%at(:infeasible)) = .not. e%presses(e%at(:infeasible))
+                    do i = 1, infeasible
+                        e%presses(e%at(i)) = .not. e%presses(e%at(i))
+                    end do
                     if (.not. any(e%presses(:n))) &
                         e%presses(minloc(e%height(:n), dim=1)) = .true.
                 else
@@ -260,6 +264,7 @@ contains
         real(wp), intent(inout) :: depth
         logical, intent(out) :: singular
 
+        real(wp) :: carried(2) ! by unit pressures and by unit heights
         integer :: m, i, j, k
 
         m = 0
@@ -284,8 +289,13 @@ contains
         do j = 1, m
             e%column(j, :) = e%column(j, :)/sqrt(e%area(e%at(j)))
         end do
-        if (by_load) depth = (half_load + unit*dot_product(e%area(e%at(:m)), e%column(:m, 2))) &
-                             /dot_product(e%area(e%at(:m)), e%column(:m, 1))
+        if (by_load) then
+            carried = 0.0_wp
+            do j = 1, m
+                carried = carried + e%area(e%at(j))*e%column(j, :)
+            end do
+            depth = (half_load + unit*carried(2))/carried(1)
+        end if
         e%trial(:e%n) = 0.0_wp
         do j = 1, m
             e%trial(e%at(j)) = depth*e%column(j, 1) - unit*e%column(j, 2)

@@ -270,14 +270,20 @@ contains
         end do
         values(:m) = values(:m) - median(m - 1, trend)*places(:m)
         middle = median(m, values)
-        spread = median(m, abs(values(:m) - middle))
+        do i = 1, m
+            values(i) = abs(values(i) - middle)
+        end do
+        spread = median(m, values)
         if (spread < side%scatter) then
             side%c = middle
             side%scatter = spread
-            rest(:m) = abs(values(:m) - middle)
+            rest(:m) = values(:m)
         end if
-        side%uneven = median(m, rest(:m)*chords(:m))
         side%agrees = all(rest(:3) <= agreement*abs(side%c))
+        do i = 1, m
+            rest(i) = rest(i)*chords(i)
+        end do
+        side%uneven = median(m, rest)
 
     contains
 
