@@ -76,6 +76,13 @@ class Try:
     silent: bool = False        # nobody can read stderr
     user: int | None = None
 
+    def in_the_child(self):
+        """Signals that a parent ignores are not ignored by the program."""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+            signal.signal(number, signal.SIG_DFL)
+        if self.setup:
+            self.setup()
+
     def __str__(self):
         return " ".join(repr(word)[1:-1] if word.isprintable() else repr(word)
                         for word in map(str, self.words))
@@ -537,7 +544,7 @@ def run(attempt, limit):
         start = time.monotonic()
         process = subprocess.Popen(
             [PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, preexec_fn=attempt.setup, user=attempt.user,
+            stderr=subprocess.PIPE, preexec_fn=attempt.in_the_child, user=attempt.user,
             env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
         if attempt.during:
             attempt.during(process, folder)

@@ -1,5 +1,6 @@
 """A run that is ended leaves the old output, no other file, and one line."""
 
+import functools
 import resource
 import signal
 import subprocess
@@ -9,6 +10,14 @@ from cli_program import (BATCH_COLUMNS, PATIENCE, PROGRAM, ProgramTest, gap_case
                          parabola, without_progress)
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
+
+
+def as_from_a_shell(setup=None):
+    """In the child: signals that a parent ignores are not ignored here."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        signal.signal(number, signal.SIG_DFL)
+    if setup:
+        setup()
 
 
 class Signals(ProgramTest):
@@ -27,7 +36,8 @@ class Signals(ProgramTest):
         before = self.names()
         process = subprocess.Popen([PROGRAM, "batch", "cases.csv", "-o", "out.csv"],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   encoding="utf-8", preexec_fn=setup)
+                                   encoding="utf-8",
+                                   preexec_fn=functools.partial(as_from_a_shell, setup))
         while process.poll() is None and not any(
                 name.endswith(".tmp") and name not in before for name in self.names()):
             time.sleep(0.01)
