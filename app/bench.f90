@@ -152,7 +152,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(38) = [character(len=84) :: &
+        character(len=*), parameter :: lines(39) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -181,8 +181,9 @@ contains
             'Hertz on ellipses.', &
             'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
             '15 and 31 strips and auto against 401.', &
-            'certificate: how often estimated errors bound the true ones (minutes; with -o', &
-            'the shares on stdout).', &
+            'certificate: how often estimated errors bound the true ones, by family of gaps:', &
+            'ellipses exactly, all others by NORM on two grids (minutes; with -o FILE the', &
+            'shares on stdout).', &
             'scenes: the scenes of example/scenes by Hertz, strips, auto and Kalker''s methods.', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
             'contact and method. Columns of FILE: see reference/trade_methods.csv.', &

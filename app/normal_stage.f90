@@ -1,11 +1,11 @@
 !> The normal problem of one contact, by the method asked for.
 module faststrip_app_normal_stage
     use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
+    use faststrip_status, only: status_t, is_error, st_under_resolved
     use faststrip_material, only: material_t, normal_compliance
     use faststrip_profile_gap, only: gap_t, check_gap
     use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_limitations, only: name_resolution, default_resolution
+    use faststrip_normal_limitations, only: name_resolution, add_limitation, default_resolution
     use faststrip_normal_strip, only: estimate_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
@@ -107,8 +107,12 @@ contains
         call estimate_strips(stage%workspace%solver, normal_compliance(material), &
                              stage%workspace%strips, normal, certificate, estimate)
         is_certified = .not. is_error(estimate)
-        if (is_certified) &
+        if (is_certified) then
             call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &
                                  certificate%est_err_area, stage%resolution_limit, status)
+        else
+            call add_limitation(status, st_under_resolved, 'no error can be estimated: ' &
+                                // trim(estimate%message))
+        end if
     end subroutine certify
 end module faststrip_app_normal_stage

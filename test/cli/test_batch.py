@@ -88,7 +88,10 @@ class Batch(ProgramTest):
     def test_kalkers_method_against_contact(self):
         rows, results = self.batch_of_gaps("--normal", "norm", "--tangential", "tang",
                                            "--element-dx", "0.4", "--element-dy", "0.4")
-        self.assertEqual({row["status"] for row in results}, {"ok"})
+        for row in results:
+            self.assertEqual(row["status"], "under_resolved" if float(row["est_err_pmax"]) > 0.1
+                             else "ok", row["case"])
+        self.assertLessEqual([row["status"] for row in results].count("under_resolved"), 2)
         for name, mean, worst in (("Fx", 5e-4, 2e-3), ("Fy", 6e-4, 3e-3)):
             errors = [abs(float(own[f"{name}_N"]) - float(row[f"{name}_extrap_N"]))
                       / (0.3 * float(row["Fn_N"])) for row, own in zip(rows, results)]

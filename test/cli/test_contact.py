@@ -384,8 +384,9 @@ class GapFile(ProgramTest):
     def test_smoothing_is_told(self):
         rough = gap_text(lambda y: parabola(y) + 5e-4 * math.cos(1e5 * y * y))
         self.write("gap.csv", rough)
-        plain = self.contact()
-        self.assertEqual(plain["gap_change_um"], "")
+        self.write("case.nml", gap_case())
+        plain = self.solved("contact", "case.nml")
+        self.assertEqual((plain["status"], plain["gap_change_um"]), ("under_resolved", ""))
         row = self.contact("--smooth", "0.4", "--gap", "smooth.csv")
         self.assertGreater(float(row["gap_change_um"]), 0.1)
         self.assertLess(float(row["gap_change_um"]), 0.6)
@@ -395,6 +396,62 @@ class GapFile(ProgramTest):
         done = self.run_program("contact", "case.nml", "--smooth", "0.4")
         self.assertIn("# gap smoothed for a noise of 0.4", done.stdout)
         self.refused(2, "contact", "case.nml", "--smooth", "-1", says=["--smooth", "-1"])
+
+    def test_resolution_limit(self):
+        """Above the limit a row is `under_resolved`, whoever names the limit; its figures stay."""
+        rough = gap_text(lambda y: parabola(y) + 3e-4 * math.sin(1e5 * y * y))
+        self.write("gap.csv", rough)
+        self.write("case.nml", gap_case())
+        row = self.solved("contact", "case.nml")
+        self.assertEqual(row["status"], "under_resolved")
+        estimate = float(row["est_err_pmax"])
+        above, below = f"{1.01 * estimate:.6f}", f"{0.99 * estimate:.6f}"
+        other = self.contact("--resolution-limit", above)
+        self.assertEqual(other["status"], "ok")
+        self.same(other, row)
+        row = self.contact(extra=f"&numerics\n resolution_limit = {above}\n/\n")
+        self.assertEqual(row["status"], "ok")
+        self.write("case.nml", gap_case(extra=f"&numerics\n resolution_limit = {below}\n/\n"))
+        self.assertEqual(self.solved("contact", "case.nml")["status"], "under_resolved")
+        # The command line counts.
+        self.assertEqual(self.good("contact", "case.nml", "--resolution-limit", above)[0]["status"],
+                         "ok")
+        # Kalker's method says so too.
+        words = ("contact", "case.nml", "--normal", "norm", "--tangential", "none",
+                 "--resolution-limit")
+        row = self.good(*words, "1e9")[0]
+        self.assertEqual(row["status"], "ok")
+        limit = repr(0.5 * float(row["est_err_pmax"]))
+        self.assertEqual(self.solved(*words, limit)["status"], "under_resolved")
+
+    def test_resolution_limit_that_is_none(self):
+        self.write("case.nml", gap_case())
+        for wrong in ("0", "-0.1", "nan", "much"):
+            self.refused(2, "contact", "case.nml", "--resolution-limit", wrong,
+                         says=("--resolution-limit", wrong))
+        self.write("case.nml", gap_case(extra="&numerics\n resolution_limit = -0.1\n/\n"))
+        self.refused(1, "contact", "case.nml", says=("resolution_limit", "-0.1"))
+
+    def test_auto_goes_on_until_resolved(self):
+        few = self.contact("--strips-per-patch", "auto")
+        many = self.solved("contact", "case.nml", "--strips-per-patch", "auto",
+                           "--resolution-limit", "1e-9")
+        self.assertEqual((many["status"], many["strips_across"]), ("under_resolved", "81"))
+        self.assertLessEqual(int(few["strips_across"]), 41)
+
+    def test_strips_across_and_more_strips(self):
+        for asked, used in (("1", "3"), ("2", "3"), ("3", "3"), ("15", "15"), ("31", "31")):
+            self.write("case.nml", gap_case())
+            done = self.run_program("contact", "case.nml", "--strips-per-patch", asked,
+                                    "--resolution-limit", "1e9", "--strips", "s.csv")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            row = rows_of(done.stdout)[0]
+            self.assertEqual(row["strips_across"], used)
+            self.assertEqual(len(self.read("s.csv")), int(used))
+            self.assertEqual(row["status"], "ok" if asked == used else "more_strips")
+            said = "" if asked == used else f"{used} strips used where {asked} "
+            self.assertIn(said, done.stderr)
+            self.assertEqual(done.stderr == "", asked == used)
 
     def test_no_tension_in_a_conforming_gap(self):
         self.write("bumpy.csv", gap_text(bumpy))

@@ -28,7 +28,7 @@
 !> Words of limitations are put together without taking memory: a solution with one is no rarer
 !> than one without where gaps were measured.
 module faststrip_normal_limitations
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
     use faststrip_kinds, only: wp, pi
     use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                 add_words, message_length, st_bad_argument, st_edge_of_data, &
@@ -211,13 +211,13 @@ contains
         real(wp) :: estimate
 
         if (is_error(status)) return
-        if (.not. pmax <= limit) then
+        if (is_above(pmax)) then
             what = 'pmax'
             estimate = pmax
-        else if (.not. penetration <= limit) then
+        else if (is_above(penetration)) then
             what = 'the penetration'
             estimate = penetration
-        else if (.not. area <= limit) then
+        else if (is_above(area)) then
             what = 'the area'
             estimate = area
         else
@@ -227,6 +227,16 @@ contains
         call add_words(words, ' is above '//number_text(limit))
         call add_words(words, ': '//number_text(estimate))
         call add_limitation(status, st_under_resolved, words)
+
+    contains
+
+        !> A comparison with what is no number may trap.
+        pure logical function is_above(number)
+            real(wp), intent(in) :: number
+
+            is_above = .not. ieee_is_finite(number)
+            if (.not. is_above) is_above = number > limit
+        end function is_above
     end subroutine name_resolution
 
     !> Refuse a limit for `name_resolution` that no estimate can be compared with.
