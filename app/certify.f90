@@ -6,9 +6,11 @@
 !> truth: all strips share that their sections are taken for semi-ellipses. The gaps are held
 !> against CONTACT as well, on its grid.
 !>
-!> The certificate's factors were chosen on random contacts of a script, which drew noise, ripples,
-!> necks, slender, hollow and worn gaps and radii that vary along y from distributions of
-!> its own. The random gaps here are those of `faststrip fuzz`: the factors have not seen them.
+!> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
+!> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
+!> its own. The random gaps here are those of `faststrip fuzz`, unseen by these factors. Those of
+!> slopes and waves from strip to strip were settled with an eye on the same families, with seed 11;
+!> the gaps here are of another seed.
 module faststrip_app_certify
     use faststrip_kinds, only: wp
     use faststrip_status, only: status_t, is_error, st_ok, st_conformal
@@ -42,7 +44,7 @@ module faststrip_app_certify
                                                          '21', '31', '41', 'auto']
     integer, parameter :: extent_strips = 41 ! whose solution is the size of the truth's grids
     integer, parameter :: n_ellipses = 25, ellipse_points = 401
-    integer, parameter :: seed = 11
+    integer, parameter :: seed = 12 ! not 11, see above
     integer, parameter :: per_family = 24, most_drawn = 3000, most_random_points = 20000
 
     !> Families of random gaps whose solution is smooth, with pressures that are finite: no slopes
@@ -368,7 +370,8 @@ contains
                 call put_cell(study%writer, truth%doubt(q))
                 if (is_certain(truth%doubt(q), error(q))) then
                     call put_cell(study%writer, merge(1, 0, estimate(q) >= error(q)))
-                    call count_in(study%tally(estimator), family, solution, q, estimate(q), error(q))
+                    call count_in(study%tally(estimator), family, solution, q, estimate(q), &
+                                  error(q))
                 else
                     call put_cell(study%writer, '')
                     call count_out(study%tally(estimator), family, solution, q)

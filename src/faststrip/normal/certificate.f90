@@ -42,17 +42,18 @@
 !>                 max (p0_k + d_k)/pmax - max p0_k/pmax of all strips,
 !>                 0.40/n^2 )
 !>
-!> with C(a_k) = |a_k - (a_k-1 + a_k+1)/2|. The fourth difference is what steps instead of a wave of
-!> two to four strips are wrong by: steps that alternate by +-p stand for a wave of 1.17 p. Where
-!> A = 1/(2R) jumps or bends between strips the pressure u of a strip grows with x^2, to u' at its tip,
-!> and with its own, p0 sqrt(1 - (x/xd)^2), has a largest value of p0 + u' (1 - p0/(2 u'))^2 where u'
-!> is above p0/2. The last line is the discretisation error of ellipses, whose pressures are so smooth
-!> along y that all terms miss it.
+!> with C(a_k) = |a_k - (a_k-1 + a_k+1)/2|. The fourth difference is what steps instead of a wave
+!> of two to four strips are wrong by: steps that alternate by +-p stand for a wave of 1.17 p.
+!> Where A = 1/(2R) jumps or bends between strips the pressure u of a strip grows with x^2, to u'
+!> at its tip, and with its own, p0 sqrt(1 - (x/xd)^2), has a largest value of p0 + u' (1 - p0/(2
+!> u'))^2 where u' is above p0/2. The last line is the discretisation error of ellipses, whose
+!> pressures are so smooth along y that all terms miss it.
 !>
-!> The first factors were chosen on 800 random contacts of 16 families, solved by NORM on two
-!> grids, with 5 to 41 strips; those of s_k and of the differences of p0 follow from waves on a
-!> half-space, within a factor of two. `faststrip bench certificate` judges by other families than
-!> those.
+!> The factors of e_k, m_k and u_k were chosen on 800 random contacts of 16 families, solved by NORM
+!> on two grids, with 5 to 41 strips. Those of s_k and of the fourth difference would be 1 and 0.010
+!> for waves of two strips on a half-space; that of s_k was lowered with an eye on families of
+!> `faststrip fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a tenth
+!> larger in the median. `faststrip bench certificate` judges them.
 !> All factors are of experience, no bounds in the strict sense.
 module faststrip_normal_certificate
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -300,9 +301,9 @@ contains
     end function pressure_wave
 
     !> The pressure that heights in strip k ask for which it does not resolve, and how far a
-    !> longitudinal term that it does not resolve raises the largest pressure above its own. The smooth
-    !> curve meets the gap where it is sampled: in its middle, at its edges and in its neighbours'
-    !> middles.
+    !> longitudinal term that it does not resolve raises the largest pressure above its own. The
+    !> smooth curve meets the gap where it is sampled: in its middle, at its edges and in its
+    !> neighbours' middles.
     pure subroutine find_unresolved(curve, compliance, strips, k, pressure, rise)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance

@@ -123,8 +123,8 @@ contains
         end do
     end subroutine divide_differences
 
-    !> The largest of minus the integral above at the given points of the gap that lie in the strip. At
-    !> least zero. If these are all there are nothing differs beyond them. If not it differs
+    !> The largest of minus the integral above at the given points of the gap that lie in the strip.
+    !> At least zero. If these are all there are nothing differs beyond them. If not it differs
     !> by as much as at the point itself, and the points near the first and the last one, which
     !> have neighbours on one side, are left out.
     pure real(wp) function largest_response(curve, value, node, coefficient, y_from, y_to, &
