@@ -22,7 +22,8 @@ module faststrip_app_certify_truth
 
     integer, parameter :: most_elements = 200000 ! of the finer grid
 
-    ! What the truth may be wrong by: so much of the error, or so much of the figure. Estimates with 41
+    ! What the truth may be wrong by: so much of the error, or so much of the figure. Estimates
+    ! with 41
     ! strips go down to 2e-4; five times as much would leave errors in that are those of the truth.
     real(wp), parameter :: share_of_error = 0.3_wp, least = 1.0e-4_wp
 

@@ -126,8 +126,10 @@ contains
     !>
     !> - every limitation may come with estimates above 10 %, which it says itself where nothing
     !>   else is to be said (`under_resolved`);
-    !> - `fallback_used`: the strips stand for the lattice's elements, whose pressures along x are no
-    !>   semi-ellipses, so that centres and tips say nothing of it (every fifth is compared with NORM
+    !> - `fallback_used`: the strips stand for the lattice's elements, whose pressures along x
+    !>   are no
+    !>   semi-ellipses, so that centres and tips say nothing of it (every fifth is compared with
+    !>   NORM
     !>   instead), and its cells end where they end;
     !> - `overlap_left`: says that the surfaces overlap outside;
     !> - `edge_of_data`: at the end of the data the pressure has no bound;
@@ -137,7 +139,8 @@ contains
     !> - `conformal`: a step in the patch moves the gap in a strip's middle by as much as its end is
     !>   uncertain;
     !> - `more_strips`: nothing;
-    !> - what lies behind the contact may change the name of any limitation, and an answer that rests
+    !> - what lies behind the contact may change the name of any limitation, and an answer that
+    !>   rests
     !>   on it.
     pure real(wp) function allowance(word, judge)
         character(len=*), intent(in) :: word !! the status, `status_word`

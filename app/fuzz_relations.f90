@@ -119,7 +119,8 @@ contains
             call report_badness(verdict, relation, max(1.0_wp - ratio, ratio - load_factor)/slack)
         end select
         if (relation == judge_monotone) return
-        ! One that is ok must stay so. Whether patches settle may turn on the rounding: then the answer
+        ! One that is ok must stay so. Whether patches settle may turn on the rounding: then the
+        ! answer
         ! has a limitation, as has the other, and both agree as their estimates say.
         if ((verdict%status%code == st_ok) .neqv. (other%status%code == st_ok)) then
             if (verdict%status%code == st_ok .or. relation /= judge_wall) &

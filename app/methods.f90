@@ -62,7 +62,8 @@ module faststrip_app_methods
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
         real(wp) :: tolerance = 0.02_wp  !! largest error wanted of auto
         character(len=word_length) :: target = 'forces' !! one of `targets`
-        real(wp) :: resolution_limit = default_resolution !! largest estimated error of a resolved contact
+        real(wp) :: resolution_limit = default_resolution
+            !! largest estimated error of a resolved contact
     end type methods_t
 
 contains

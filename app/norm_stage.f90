@@ -15,7 +15,6 @@ module faststrip_app_norm_stage
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_methods, only: normal_strip
     use faststrip_app_system, only: set_detail
-    use faststrip_app_system, only: set_detail
     use faststrip_app_methods, only: methods_t
     use faststrip_app_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, make_room, &
                                           solve_normal

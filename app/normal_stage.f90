@@ -22,7 +22,8 @@ module faststrip_app_normal_stage
     type :: normal_stage_t
         type(contact_methods_t) :: methods !! what was asked for
         type(workspace_t) :: workspace     !! with the strips of the last contact
-        real(wp) :: resolution_limit = default_resolution !! largest estimated error of a resolved one
+        real(wp) :: resolution_limit = default_resolution
+            !! largest estimated error of a resolved one
     end type normal_stage_t
 
     !> What presses the bodies together.

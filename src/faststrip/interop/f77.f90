@@ -331,7 +331,8 @@ contains
     !> CALL FSLIMT(IWORK, IEST, RLIM, INFO)
     !>
     !> Set for all further calls of FSSOLV whether errors are estimated, and from which estimated
-    !> error of the largest pressure on they say so (8, under_resolved). FSINIT sets 1 and 0.1. After
+    !> error of the largest pressure on they say so (8, under_resolved). FSINIT sets 1 and 0.1.
+    !> After
     !> an error both are as they were.
     subroutine fslimt(iwork, estimate, limit, info) bind(c, name='fslimt_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT

@@ -45,7 +45,8 @@ module faststrip_normal_limitations
     public :: name_resolution, add_limitation
     public :: default_resolution, check_resolution
 
-    !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 % half
+    !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 %
+    !> half
     !> as many random gaps are named.
     real(wp), parameter :: default_resolution = 0.1_wp
 

@@ -101,7 +101,8 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion; a penetration that is not positive),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
-    !> `faststrip_normal_lattice` gave the answer; `st_more_strips`, more strips than asked were used,
+    !> `faststrip_normal_lattice` gave the answer; `st_more_strips`, more strips than asked were
+    !> used,
     !> because those did not settle or are fewer than three;
     !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and

@@ -209,7 +209,8 @@ contains
     end subroutine scan
 
     !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
-    !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and next
+    !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and
+    !> next
     !> to the ends of the patches.
     pure real(wp) function overlap_left(curve, compliance, penetration, strips) result(largest)
         type(gap_curve_t), intent(in) :: curve       !! the gap

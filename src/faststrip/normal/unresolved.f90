@@ -7,7 +7,8 @@
 !>
 !>     p(y) = -1/(pi^2 H) int [d(y) - d(y')]/(y - y')^2 dy',
 !>
-!> (K.L. Johnson, Contact Mechanics, 1985, section 2.3: a wave of amplitude d and wave number c takes
+!> (K.L. Johnson, Contact Mechanics, 1985, section 2.3: a wave of amplitude d and wave number c
+!> takes
 !> c d/(pi H)). The smooth curve is the polynomial through nodes that the caller names: what the
 !> strip and its neighbours know of the gap.
 !>
@@ -21,7 +22,8 @@ module faststrip_normal_unresolved
 
     public :: unresolved_pressure, unresolved_pressure_growth, most_nodes
 
-    !> Points of the gap looked at together, even; of more, so many evenly spread ones, which tell of
+    !> Points of the gap looked at together, even; of more, so many evenly spread ones, which
+    !> tell of
     !> long waves, and as many neighbours in the middle, which tell of short ones.
     integer, parameter :: most_points = 128
 
@@ -30,7 +32,8 @@ module faststrip_normal_unresolved
 
 contains
 
-    !> The largest pressure in a strip that unresolved heights of the gap ask for, MPa; not negative.
+    !> The largest pressure in a strip that unresolved heights of the gap ask for, MPa; not
+    !> negative.
     !> Zero where fewer than three points of the gap lie between the nodes.
     pure real(wp) function unresolved_pressure(curve, compliance, y_left, y_right, node) &
         result(pressure)

@@ -1,6 +1,7 @@
 !> How wrong a solution by Kalker's variational method is, from two grids and from its own.
 !>
-!> Richardson's estimate takes the differences of two grids, of second order. By chance two grids may
+!> Richardson's estimate takes the differences of two grids, of second order. By chance two grids
+!> may
 !> agree better than either with the truth, where a peak lies between the elements or the border of
 !> the patch jumps from one to the next, and the area is of first order. So the grid itself
 !> says how large an error must be reckoned with:
@@ -8,7 +9,8 @@
 !> - pmax: half the largest difference of the largest pressure and its four neighbours,
 !>   or what heights of the gap between the rows of elements ask for, which no row resolves
 !>   (`faststrip_normal_unresolved`),
-!> - area: twice Richardson's, and of the elements in contact a quarter of the share of those that have
+!> - area: twice Richardson's, and of the elements in contact a quarter of the share of those
+!>   that have
 !>   a neighbour out of it, and the share of those with less pressure than is not resolved,
 !> - penetration: a tenth of the estimate for pmax.
 !>

@@ -40,7 +40,8 @@ module faststrip_numerics_fftw
         end subroutine fftw_free
 
         !> Plan `howmany` forward transforms of n(1) reals into n(1)/2 + 1 complex numbers; element
-        !> k of transform j is at `k*stride + j*dist`, k and j from 0. Null embed arrays stand for n.
+        !> k of transform j is at `k*stride + j*dist`, k and j from 0. Null embed arrays stand
+        !> for n.
         !> Null if there is no plan. With `fftw_estimate` the arrays are not touched.
         function fftw_plan_many_dft_r2c(rank, n, howmany, in, inembed, istride, idist, out, &
                                         onembed, ostride, odist, flags) result(plan) bind(c)
