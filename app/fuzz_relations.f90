@@ -78,9 +78,12 @@ contains
                 if (case%gap%h(last) < result%penetration + depth) exit
                 last = last - 1
             end do
+            ! A contact between two points has none to stand behind.
+            has_one = first <= last
             first = first - points_between
             last = last + points_between
-            has_one = first >= 1 .or. last <= n
+            has_one = has_one .and. (first >= 1 .or. last <= n)
+            if (.not. has_one) return
             if (first >= 1) other%gap%h(:first) = case%gap%h(:first) + wall_height*depth
             if (last <= n) other%gap%h(last:) = case%gap%h(last:) + wall_height*depth
         end select
