@@ -528,7 +528,7 @@ static void older(void)
     e.contact.strips_per_patch = 7;
     e.contact.estimate = 0;
     e.contact.resolution_limit = 0.3;
-    for (i = 0; i < POINTS; i++) e.h[i] += 9e-4 * ((double)(i * i % 7) - 3.0);
+    for (i = 0; i < POINTS; i++) e.h[i] += 1.5e-3 * sin(1.3 * (double)i);
     faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
     for (size = 16; size <= whole; size += 8) {
         const size_t known = size < whole ? FIRST_RESULT : sizeof(faststrip_result);

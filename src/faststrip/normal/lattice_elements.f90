@@ -165,7 +165,7 @@ contains
         real(wp), intent(in) :: target              !! load, N, or penetration, mm
         logical, intent(in) :: by_load              !! which of them
         real(wp), intent(inout) :: depth            !! penetration above the lowest height, mm
-        logical, intent(out) :: solved              !! false: a singular system, no pressures
+        logical, intent(out) :: solved              !! or was a system singular? No pressures then
 
         integer :: rounds, n, i, infeasible, fewest, tries, worst
         real(wp) :: unit, violation, largest, step
