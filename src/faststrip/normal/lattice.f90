@@ -491,8 +491,8 @@ contains
             first = k
             do while (first > 1)
                 if (from(first - 1) <= from(first)) exit
-                from(first - 1:first) = from([first, first - 1])
-                to(first - 1:first) = to([first, first - 1])
+                call exchange(from(first - 1), from(first))
+                call exchange(to(first - 1), to(first))
                 first = first - 1
             end do
         end do
@@ -696,4 +696,14 @@ contains
         end do
         strips%n = n
     end subroutine record
+
+    pure subroutine exchange(a, b)
+        real(wp), intent(inout) :: a, b
+
+        real(wp) :: kept
+
+        kept = a
+        a = b
+        b = kept
+    end subroutine exchange
 end module faststrip_normal_lattice

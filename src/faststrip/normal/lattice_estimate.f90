@@ -74,12 +74,17 @@ contains
         real(wp), intent(in) :: wave(:) !! pressure that closes the gap at the edges, (n), MPa
 
         real(wp) :: missed, mean_wave, top_wave
+        integer :: k
 
         missed = 1.0_wp/real(last%across, wp)**2
         associate (n => strips%n)
             mean_wave = sum(wave(:n)*(strips%y_right(:n) - strips%y_left(:n))) &
                         /sum(strips%y_right(:n) - strips%y_left(:n))/last%pmax
-            top_wave = maxval(wave(:n), mask=strips%p0(:n) > high_pressure*last%pmax)/last%pmax
+            top_wave = 0.0_wp
+            do k = 1, n
+                if (strips%p0(k) > high_pressure*last%pmax) &
+                    top_wave = max(top_wave, wave(k)/last%pmax)
+            end do
         end associate
         errors%is_known = .true.
         errors%est_err_penetration = difference(1)*abs(before%depth - last%depth)/last%depth &

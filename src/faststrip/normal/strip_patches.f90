@@ -139,12 +139,15 @@ contains
     pure subroutine sort_patches(patches)
         type(patches_t), intent(inout) :: patches
 
+        type(patch_t) :: moved
         integer :: p, q
 
         do p = 2, patches%n
             do q = p, 2, -1
                 if (patches%at(q - 1)%y_from <= patches%at(q)%y_from) exit
-                patches%at(q - 1:q) = patches%at([q, q - 1])
+                moved = patches%at(q)
+                patches%at(q) = patches%at(q - 1)
+                patches%at(q - 1) = moved
             end do
         end do
     end subroutine sort_patches
