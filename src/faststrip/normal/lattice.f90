@@ -522,7 +522,7 @@ contains
         real(wp), intent(inout) :: overlap
 
         integer :: r, n_solved
-        real(wp) :: low, high, widest, solved_from(size(from)), solved_to(size(to))
+        real(wp) :: low, high, widest, solved_from(2*max_ranges), solved_to(2*max_ranges)
 
         n_solved = m
         solved_from(:m) = from(:m)
