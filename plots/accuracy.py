@@ -67,7 +67,8 @@ def report(sweep, reference, options):
         " pmax in percent of CONTACT's on its 0.1 mm grid; area in percent, Fx and Fy in percent of"
         " mu N, Mz in percent of mu N c with c = sqrt(area/π) of CONTACT's patch, against"
         " CONTACT's values extrapolated in the grid size (columns `*_extrap`; on the 0.1 mm grid"
-        " itself the area is 0.3 % larger, for elements count whole). Times: median microseconds of wall time"
+        " itself the area is 0.3 % larger, for elements count whole). Times:"
+        " median microseconds of wall time"
         " per contact.",
         table(HEADER, [method_row(sweep, m, reference, options.mu) for m in sweep.methods]),
     ]

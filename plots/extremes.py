@@ -247,7 +247,8 @@ def draw_tangential(path, rows, stamp):
     bars = parts[1].subplots()
     quantities = {"excess": "force above $\\mu\\cdot N$",
                   "step": "change by $10^{-6}$ more creepage",
-                  "oddness": "left by opposite creepages", "negative_power": "friction power below zero"}
+                  "oddness": "left by opposite creepages",
+                  "negative_power": "friction power below zero"}
     top = 10.0
     for k, (quantity, label) in enumerate(quantities.items()):
         heights = []

@@ -135,7 +135,8 @@ def legend_above(figure, *axes) -> None:
         for handle, label in zip(*each.get_legend_handles_labels()):
             handles.setdefault(label, handle)
     figure.legend(
-        handles.values(), handles.keys(), loc="outside upper center", ncols=max(1, min(5, len(handles))),
+        handles.values(), handles.keys(), loc="outside upper center",
+        ncols=max(1, min(5, len(handles))),
         handlelength=3.2, columnspacing=2.4,
     )
 
@@ -143,7 +144,8 @@ def legend_above(figure, *axes) -> None:
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
     """Stamp the revisions the figure was made from into its corner and write it as PNG.
 
-    They also stand in the file's description. A `note` goes into the other corner. With `vector`, or FASTSTRIP_SVG in the environment, the
+    They also stand in the file's description. A `note` goes into the other corner. With
+    `vector`, or FASTSTRIP_SVG in the environment, the
     same is also written as SVG, under the same name with that ending.
     """
     known = list(dict.fromkeys(stamp for stamp in stamps if stamp))

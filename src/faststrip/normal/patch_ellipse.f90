@@ -79,7 +79,7 @@ contains
     end function patch_end
 
     !> The ellipse with the area `pi a b` of strips `first` to `last` and their proportion
-    !> `a/b = sqrt(Ix/Iy)`, `Ix = int x^2 dA`, `Iy = int (y - yc)^2 dA` (theory 5): exact on an
+    !> `a/b = sqrt(Ix/Iy)`, `Ix = int x^2 dA`, `Iy = int (y - yc)^2 dA`: exact on an
     !> ellipse. Strips may count in part.
     pure type(patch_ellipse_t) function patch_ellipse(strips, first, last, share) result(ellipse)
         type(contact_strips_t), intent(in) :: strips !! checked strips

@@ -7,7 +7,7 @@
 !>     -dpx/dx = -(cksi/L1 - y cphi/L3),   -dpy/dx = -(ceta/L2 + x cphi/L3),
 !>
 !> until the traction reaches the bound, from where on it is scaled back to it. The flexibilities
-!> make the linear forces Kalker's (theory 5):
+!> make the linear forces Kalker's:
 !>
 !>     L1 = 8a/(3 C11 G),  L2 = 8a/(3 C22 G),  L3 = pi a sqrt(a/b)/(4 C23 G)
 !>

@@ -73,7 +73,7 @@ module faststrip_tangential_variational_problem
         real(wp) :: dx = 0.0_wp            !! sides, mm
         real(wp) :: dy = 0.0_wp
         logical :: is_rolling = .true.     !! or a shift?
-        logical :: is_second_order = .true. !! deviation 1 above
+        logical :: is_second_order = .true. !! the first deviation of the header
         integer, allocatable :: column(:)  !! of an element, 1 to nx - 1
         integer, allocatable :: row(:)     !! of an element, 1 to ny
         integer, allocatable :: row_start(:) !! first element of a row; of row n_rows + 1: n + 1
