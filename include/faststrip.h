@@ -35,7 +35,7 @@ extern "C" {
 /* Room for any text of this library, characters. */
 #define FASTSTRIP_TEXT 257
 
-enum faststrip_status {
+enum faststrip_base_status {
     FASTSTRIP_OK = 0,
     FASTSTRIP_FALLBACK_USED = 1, /* a fixed lattice gave the answer: patch ends did not settle */
     FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */

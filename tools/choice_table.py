@@ -259,7 +259,7 @@ def module(tables):
     out = ["""!> What error to expect from which method. Written by tools/choice_table.py from
 !> reference/choice.csv; change those, not this.
 module faststrip_contact_choice_table
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_contact_methods, only: contact_methods_t, &
 """]
     names = sorted({f"normal_{r['normal']}" for t in tables.values() for _, r, _, _ in t}

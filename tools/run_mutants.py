@@ -54,12 +54,12 @@ RUNNER = "test/generated_runner.f90"
 # Written by the build, and here once and for all: a new commit alone changes no result.
 REVISION = "app/revision.f90"
 REVISION_TEXT = """\
-module faststrip_app_revision
+module faststrip_command_revision
     implicit none
     private
 
     character(len=*), parameter, public :: revision = 'mutant'
-end module faststrip_app_revision
+end module faststrip_command_revision
 """
 # A stage of tests may take this many times longer than without a mutant, and some seconds more.
 TIME_FACTOR = 8.0

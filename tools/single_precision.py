@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Build the kernels in single precision from the sources as they are, and compare them.
 
-src/faststrip/kinds.f90 is exchanged for tools/single_precision/kinds.f90, and the names of LAPACK's
+src/faststrip/base/kinds.f90 is exchanged for tools/single_precision/kinds.f90, and the names of LAPACK's
 double precision routines in the objects for those of the single precision ones. The same program
 is built in double precision too; the relative differences of what both print are written as CSV.
 """
@@ -54,7 +54,7 @@ def build(folder, kinds, flags, renamed):
 
 def in_order(kinds):
     """The sources the program needs, each after those it uses."""
-    found = {"faststrip_kinds": kinds}
+    found = {"faststrip_base_kinds": kinds}
     for path in sorted((ROOT / "src").rglob("*.f90")):
         match = re.search(r"^module (\w+)", path.read_text(encoding="utf-8"), re.M)
         found.setdefault(match[1], path)

@@ -13,13 +13,13 @@ ORDER = [
 ]
 # Files that read and write, and those that need GPL libraries: for program and tests only.
 OUTSIDE_CORE = {
-    "faststrip_csv",
-    "faststrip_profile_file",
-    "faststrip_profile_gap_file",
-    "faststrip_numerics_gsl",
-    "faststrip_influence_quadrature",
-    "faststrip_numerics_fftw",
-    "faststrip_numerics_convolution",
+    "faststrip_files_csv",
+    "faststrip_files_profile",
+    "faststrip_files_gap",
+    "faststrip_tables_gsl",
+    "faststrip_tables_quadrature",
+    "faststrip_kalker_fftw",
+    "faststrip_kalker_convolution",
 }
 
 

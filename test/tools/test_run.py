@@ -11,18 +11,18 @@ from harness import ROOT, module, test
 
 MAIN = """\
 program main
-    use faststrip_app_revision, only: revision
+    use faststrip_command_revision, only: revision
     implicit none
     print '(a)', 'revision ' // revision
 end program main
 """
 LIBRARY = """\
-module faststrip_kinds
+module faststrip_base_kinds
     implicit none
     private
     public :: wp
     integer, parameter :: wp = kind(1.0d0)
-end module faststrip_kinds
+end module faststrip_base_kinds
 """
 PASSING = test("passes", "@assertTrue(.true.)")
 FAILING = test("fails", "@assertTrue(.false.)")
@@ -50,8 +50,8 @@ class Project(unittest.TestCase):
             self.copy(name)
         for name in ("requirements.txt", "pf2f90.py", "run_pytests.py"):
             self.copy(f"tools/{name}")
-        self.write("app/main.f90", MAIN)
-        self.write("src/faststrip/kinds.f90", LIBRARY)
+        self.write("app/programs/faststrip.f90", MAIN)
+        self.write("src/faststrip/base/kinds.f90", LIBRARY)
 
     def copy(self, name):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -184,7 +184,7 @@ class Testing(Project):
         self.check(PASSING + test("untidy", "integer :: unused"), 1, "1 passed, 1 failed")
 
     def test_a_release_that_does_not_build_counts_as_one_failure(self):
-        self.write("app/main.f90", MAIN.replace("print", "prnt"))
+        self.write("app/programs/faststrip.f90", MAIN.replace("print", "prnt"))
         self.check(PASSING, 1, "1 passed, 2 failed")
 
     def test_a_filter(self):

@@ -3,14 +3,14 @@
 program kernels
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use, intrinsic :: iso_fortran_env, only: real64
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, status_word
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
     use faststrip_influence_row, only: influence_column_gradient
-    use faststrip_material, only: material_t, normal_compliance
-    use faststrip_profile_gap, only: gap_t
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve

@@ -1,5 +1,5 @@
-!> Takes the place of src/faststrip/kinds.f90 to build the kernels in single precision.
-module faststrip_kinds
+!> Takes the place of src/faststrip/base/kinds.f90 to build the kernels in single precision.
+module faststrip_base_kinds
     use, intrinsic :: iso_fortran_env, only: real32
     implicit none
     private
@@ -11,4 +11,4 @@ module faststrip_kinds
 
     !> Ratio of a circle's circumference to its diameter.
     real(wp), parameter :: pi = 3.141592653589793238462643383279502884_wp
-end module faststrip_kinds
+end module faststrip_base_kinds

@@ -7,9 +7,9 @@
 !> none of the core's is good enough.
 module faststrip_contact_choice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, st_bad_argument, &
-                                st_target_missed
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_target_missed
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_choice_table, only: misfit_edges, saturation_edges, spin_edges, &
                                               forces_methods, forces_base, forces_excess, &

@@ -1,7 +1,7 @@
 !> What error to expect from which method. Written by tools/choice_table.py from
 !> reference/choice.csv; change those, not this.
 module faststrip_contact_choice_table
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_contact_methods, only: contact_methods_t, &
         normal_hertz, &
         normal_strip, &

@@ -3,12 +3,12 @@
 !> A few evaluations of the gap and one Hertz contact: microseconds, against which the choice of a
 !> method (`faststrip_contact_choice`) has to pay.
 module faststrip_contact_indicators
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error, clear_status
-    use faststrip_material, only: material_t, normal_compliance, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_curvature
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, clear_status
+    use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_curvature
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration
     use faststrip_normal_strip_patches, only: patches_t
     use faststrip_normal_strip_start, only: start_patches

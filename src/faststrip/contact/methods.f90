@@ -1,6 +1,6 @@
 !> Which methods a contact is solved by, and how finely: numbers for programs, names for people.
 module faststrip_contact_methods
-    use faststrip_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
+    use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
     use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points
     implicit none

@@ -6,15 +6,15 @@
 !> both, for steps that are taken back.
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                message_length, st_bad_argument, st_under_resolved, &
-                                st_workspace_too_small
-    use faststrip_material, only: material_t, check_material, normal_compliance
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                     message_length, st_bad_argument, st_under_resolved, &
+                                     st_workspace_too_small
+    use faststrip_base_material, only: material_t, check_material, normal_compliance
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_profile_gap, only: gap_t, min_gap_points
-    use faststrip_profile_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    use faststrip_geometry_gap, only: gap_t, min_gap_points
+    use faststrip_geometry_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &

@@ -17,7 +17,7 @@
 module faststrip_influence_closed
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &
                                                        a_short, b_short, r_short, short_last
     use faststrip_numerics_elliptic, only: complete_elliptic_d

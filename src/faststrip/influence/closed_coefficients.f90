@@ -1,6 +1,6 @@
 !> Coefficients of the influence primitive; made by tools/influence_coefficients.py.
 module faststrip_influence_closed_coefficients
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -30,7 +30,7 @@
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
     implicit none

@@ -6,9 +6,9 @@
 !> worst) on -2 <= L <= 1, and are useless outside: -60 % at L = -3.
 module faststrip_influence_polynomial
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                message_length, st_not_finite, st_out_of_range
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     message_length, st_not_finite, st_out_of_range
     implicit none
     private
 

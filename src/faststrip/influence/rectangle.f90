@@ -9,15 +9,15 @@
 !>     pi G u_y = nu int x y/r^3 p_x + int [(1 - nu)/r + nu y^2/r^3] p_y - K int y/r^2 p_n,
 !>     K = (G/4) [(1 - 2 nu_rail)/G_rail - (1 - 2 nu_wheel)/G_wheel],
 !>
-!> G and nu of the combined body (`faststrip_material`). K vanishes for like materials.
+!> G and nu of the combined body (`faststrip_base_material`). K vanishes for like materials.
 !>
 !> The integrals are differences of primitives at the corners. They are taken edge by edge, each
 !> difference along an edge in a form that does not cancel, so that what is left to lose is a
 !> factor distance over shorter side; from `far` half-sides on four Gauss points each way are exact
 !> to rounding. Sides within 1e-100 and 1e100 mm and finite distances raise no exception.
 module faststrip_influence_rectangle
-    use faststrip_kinds, only: wp, pi
-    use faststrip_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     implicit none
     private
 

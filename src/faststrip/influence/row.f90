@@ -13,7 +13,7 @@
 !> argument has its answer. Nothing here allocates or raises a floating-point exception.
 module faststrip_influence_row
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence, strip_influence_center_gradient
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &

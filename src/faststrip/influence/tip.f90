@@ -13,7 +13,7 @@
 !>
 !> the residues of the integral's Mellin transform.
 module faststrip_influence_tip
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_offcentre, only: strip_influence_gradient
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
     implicit none

@@ -1,14 +1,14 @@
 !> The C face: what `include/faststrip.h` declares, and where it is documented.
 !>
-!> Every function returns a code of `faststrip_status`. Pointers, sizes and handles are checked
+!> Every function returns a code of `faststrip_base_status`. Pointers, sizes and handles are checked
 !> here; numbers are checked by the procedures that take them.
 module faststrip_interop_c
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
                                            c_null_char, c_associated, c_f_pointer
-    use faststrip_status, only: status_t, status_word, set_status, is_error, st_ok, &
-                                st_bad_argument, st_workspace_too_small
-    use faststrip_material, only: material_t
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_ok, &
+                                     st_bad_argument, st_workspace_too_small
+    use faststrip_base_material, only: material_t
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t
     use faststrip_tangential_types, only: tangential_result_t

@@ -1,10 +1,10 @@
 !> The calls without a workspace, guarded for a host: FASTSIM on an ellipse the caller has, Hertz's
 !> ellipse, Kalker's coefficients.
 module faststrip_interop_classic
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
-    use faststrip_material, only: material_t, check_material, normal_compliance
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_material, only: material_t, check_material, normal_compliance
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_tangential_fastsim, only: fastsim_coefficients_solve

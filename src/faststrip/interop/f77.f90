@@ -4,7 +4,7 @@
 !> compilers add; the installed library has them without it too. A workspace is an INTEGER array
 !> `IWORK` of the caller (`FSINIT` with `LIWORK = -1` tells its length) that holds a handle: FSINIT
 !> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
-!> own. `INFO` is a code of `faststrip_status`: 0, below 100 a result with a named limitation (1
+!> own. `INFO` is a code of `faststrip_base_status`: 0, below 100 a result with a named limitation (1
 !> fallback_used, 2 edge_of_data, 3 fewer_strips, 4 overlap_left, 5 flat_along_x, 6 conformal, 7
 !> target_missed, 8 under_resolved, 9 more_strips), from 100 on no result.
 !>
@@ -37,10 +37,10 @@
 !> of the largest pressure is above a limit. FSERRS has them.
 module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
-    use faststrip_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
-                                st_workspace_too_small
-    use faststrip_material, only: material_t
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
+                                     st_workspace_too_small
+    use faststrip_base_material, only: material_t
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t
     use faststrip_tangential_types, only: tangential_result_t

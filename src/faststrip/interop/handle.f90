@@ -2,15 +2,15 @@
 !> last call, in one piece that the caller makes and frees, and names by a number of the register.
 module faststrip_interop_handle
     use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, &
-                                st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_workspace_too_small
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_solve, only: workspace_t, contact_case_t, contact_result_t, &
                                        reserve_workspace, reserve_contact_field, solve_contact, &
                                        set_contact_gap
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -10,8 +10,8 @@
 module faststrip_interop_register
     use, intrinsic :: iso_c_binding, only: c_int, c_long, c_intptr_t, c_ptr, c_funptr, c_null_ptr, &
                                            c_loc, c_funloc, c_f_pointer, c_associated
-    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
-                                st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
+                                     st_workspace_too_small
     implicit none
     private
 

@@ -57,12 +57,12 @@
 !> All factors are of experience, no bounds in the strict sense.
 module faststrip_normal_certificate
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                st_bad_argument, st_bad_material, st_not_finite, &
-                                st_no_contact, st_out_of_range, st_workspace_too_small
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_bad_material, st_not_finite, &
+                                     st_no_contact, st_out_of_range, st_workspace_too_small
     use faststrip_influence_row, only: center_influence_column, influence_column_gradient
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_state, only: flattest
     use faststrip_normal_types, only: normal_result_t

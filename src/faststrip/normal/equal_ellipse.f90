@@ -11,10 +11,10 @@
 !> strips. The ellipses of neighbouring patches may overlap. They are baselines to compare with:
 !> the strips know the patch better.
 module faststrip_normal_equal_ellipse
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, st_bad_argument, &
-                                st_workspace_too_small
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, gap_curvature
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_bad_argument, st_workspace_too_small
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, gap_curvature
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, put_hertz_strips
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips

@@ -10,12 +10,12 @@
 !> with the complete elliptic integrals K, `D = (K - E)/m` and `B = K - D`.
 module faststrip_normal_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                st_bad_argument, st_bad_load, st_bad_material, &
-                                st_no_contact, st_no_convergence, st_no_hertz_ellipse, &
-                                st_not_finite, st_out_of_range, st_workspace_too_small
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_bad_load, st_bad_material, st_no_contact, &
+                                     st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
+                                     st_out_of_range, st_workspace_too_small
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private

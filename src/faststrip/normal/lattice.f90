@@ -26,16 +26,17 @@
 !> The largest are of a small second patch about to meet the first. Loads are exact to rounding.
 module faststrip_normal_lattice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                add_words, st_bad_argument, st_bad_load, st_bad_material, &
-                                st_not_finite, st_no_contact, st_out_of_range, st_edge_of_data, &
-                                st_overlap_left, st_linear_algebra, st_workspace_too_small
-    use faststrip_material, only: check_compliance
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     add_words, st_bad_argument, st_bad_load, st_bad_material, &
+                                     st_not_finite, st_no_contact, st_out_of_range, &
+                                     st_edge_of_data, st_overlap_left, st_linear_algebra, &
+                                     st_workspace_too_small
+    use faststrip_base_material, only: check_compliance
     use faststrip_influence_row, only: center_influence_column
     use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
                                                  solve_elements, element_columns
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_limitations, only: check_curvature
     use faststrip_normal_lattice_estimate, only: lattice_errors_t, lattice_figures_t, &
                                                  lattice_figures, estimate_errors

@@ -14,7 +14,7 @@
 !>
 !> An active set finds the solution in some five steps, see `solve_elements`.
 module faststrip_normal_lattice_elements
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_rectangle, only: rectangle_potential
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     implicit none

@@ -13,7 +13,7 @@
 !> each over the value itself or pmax, n the strips of the patch with the largest pressure. The
 !> factors were calibrated on random gaps, solved by strips and by falling back, against NORM.
 module faststrip_normal_lattice_estimate
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private

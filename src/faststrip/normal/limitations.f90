@@ -29,14 +29,14 @@
 !> than one without where gaps were measured.
 module faststrip_normal_limitations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                add_words, message_length, st_bad_argument, st_edge_of_data, &
-                                st_flat_along_x, st_conformal, st_under_resolved, &
-                                st_no_finite_patch, st_ok, st_out_of_range, st_overlap_left, &
-                                first_error
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn, &
-                                           largest_step
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     add_words, message_length, st_bad_argument, st_edge_of_data, &
+                                     st_flat_along_x, st_conformal, st_under_resolved, &
+                                     st_no_finite_patch, st_ok, st_out_of_range, st_overlap_left, &
+                                     first_error
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn, &
+                                            largest_step
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private

@@ -1,9 +1,9 @@
 !> The virtual ellipse of a contact patch that is none.
 module faststrip_normal_patch_ellipse
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_bad_argument, st_not_finite, st_out_of_range
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     implicit none
     private

@@ -11,7 +11,7 @@
 !> In use: `find_openness`; `level = all_parted`; until the level is `all_joined`, `next_level`
 !> ends the stretch of levels that give the same lobes, and `next_lobe` finds them one by one.
 module faststrip_normal_patch_lobes
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private

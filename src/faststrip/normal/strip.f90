@@ -14,14 +14,13 @@
 !> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                count_text, add_words, message_length, &
-                                st_bad_argument, st_bad_load, st_bad_material, st_not_finite, &
-                                st_no_contact, st_fewer_strips, &
-                                st_fallback_used, st_overlap_left, st_more_strips, &
-                                st_workspace_too_small
-    use faststrip_material, only: check_compliance
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     count_text, add_words, message_length, st_bad_argument, &
+                                     st_bad_load, st_bad_material, st_not_finite, st_no_contact, &
+                                     st_fewer_strips, st_fallback_used, st_overlap_left, &
+                                     st_more_strips, st_workspace_too_small
+    use faststrip_base_material, only: check_compliance
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration, &
                                         lattice_errors, lattice_errors_t, forget_lattice_errors

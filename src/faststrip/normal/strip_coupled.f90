@@ -11,7 +11,7 @@
 !> Which strips there are stays fixed: where strips leave or steps do not shrink, the caller goes
 !> back to passes that alternate between strips and ends.
 module faststrip_normal_strip_coupled
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_effort, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips

@@ -1,9 +1,9 @@
 !> Where the patches of a strip solution end: ends move to where the strips run out, and places
 !> that the deformed surfaces have closed join in.
 module faststrip_normal_strip_ends
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches

@@ -12,7 +12,7 @@
 !>    the strip that carries the pressure.
 !> 2. The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_equations
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_types, only: goal_t, effort_t

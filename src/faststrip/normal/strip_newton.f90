@@ -1,6 +1,6 @@
 !> Newton's method for the pressures and lengths of strips whose lateral edges are given.
 module faststrip_normal_strip_newton
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_effort, strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_patches, only: max_patches

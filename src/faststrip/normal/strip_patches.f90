@@ -1,7 +1,7 @@
 !> The patches of a strip solution while their ends are being sought: how many strips each gets,
 !> and how patches appear, meet, are cut and split.
 module faststrip_normal_strip_patches
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -5,7 +5,7 @@
 !> each strip: its own middle and the two neighbours', the end of the patch standing in for the
 !> neighbour an end strip lacks.
 module faststrip_normal_strip_profile
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -1,8 +1,8 @@
 !> Where a strip solution starts when nothing is known yet.
 module faststrip_normal_strip_start
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest

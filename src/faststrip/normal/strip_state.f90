@@ -1,9 +1,9 @@
 !> What a strip solution works on: the gap, the strips of the pass, and what the last pass left.
 module faststrip_normal_strip_state
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument
-    use faststrip_profile_gap, only: gap_t
-    use faststrip_profile_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch

@@ -1,7 +1,7 @@
 !> The strips of a contact: what the normal solution hands to the tangential one.
 module faststrip_normal_strips
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument
     implicit none
     private
 

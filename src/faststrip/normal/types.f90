@@ -1,6 +1,6 @@
 !> What every normal method takes and gives: what is prescribed, the figures, what they took.
 module faststrip_normal_types
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -15,8 +15,8 @@
 !> Likewise with the longitudinal term A = 1/(2R), where it jumps or bends between the nodes: the
 !> gap differs by A's difference times x^2, nothing in the middle of the strip and most at its tips.
 module faststrip_normal_unresolved
-    use faststrip_kinds, only: wp, pi
-    use faststrip_profile_gap_curve, only: gap_curve_t, gap_at, first_point_from
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, first_point_from
     implicit none
     private
 

@@ -17,7 +17,7 @@
 !> Only ratios of differences count: units of length, the curve's direction and a height added to
 !> all points change nothing but rounding.
 module faststrip_numerics_cliffs
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -6,7 +6,7 @@
 !> any m1 > 0.
 module faststrip_numerics_elliptic
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
-    use faststrip_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi
     implicit none
     private
 

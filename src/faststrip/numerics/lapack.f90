@@ -1,7 +1,7 @@
 !> Interfaces of the LAPACK routines in use. Arguments are checked by the callers: a LAPACK
 !> routine that finds a bad one writes to the standard output and stops.
 module faststrip_numerics_lapack
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

@@ -4,7 +4,7 @@
 !> accordingly. Here the order of all operations is fixed, and small matrices cost less: panels of
 !> `panel` columns with partial pivoting, then two columns of the rest at a time.
 module faststrip_numerics_lu
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     implicit none
     private
 

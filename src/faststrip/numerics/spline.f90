@@ -4,11 +4,11 @@
 !> both: between two knots the curve is the cubic with the two values and the two slopes.
 module faststrip_numerics_spline
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
-    use faststrip_kinds, only: wp
+    use faststrip_base_kinds, only: wp
     use faststrip_numerics_lapack, only: dgtsv
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_bad_argument, st_linear_algebra, st_not_finite, &
-                                st_not_increasing, st_too_few_points, st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_linear_algebra, st_not_finite, &
+                                     st_not_increasing, st_too_few_points, st_workspace_too_small
     implicit none
     private
 

@@ -8,8 +8,8 @@
 !> So every interval has its own two slopes. Waves of tears that were not found are held too:
 !> `tame_interval` bounds by how much an interval may leave the range of its two points.
 module faststrip_numerics_torn_spline
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, is_error
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
     use faststrip_numerics_cliffs, only: find_torn_points
     use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot, spline_monotone
     implicit none

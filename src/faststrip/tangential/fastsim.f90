@@ -28,12 +28,12 @@
 !>     one creepage at a time only.
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
-                                st_bad_material, st_not_finite, st_out_of_range
-    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
+                                     st_bad_material, st_not_finite, st_out_of_range
+    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t

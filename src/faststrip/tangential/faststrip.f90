@@ -52,12 +52,12 @@
 !> contacts of `reference/scenes`, of eight other kinds of gap, came later, and no constant was
 !> fitted to them; the mean errors there are 0.5 and 0.9 % of mu N (Fx, Fy), 1.1 % of mu N c (Mz).
 module faststrip_tangential_faststrip
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, st_out_of_range, &
-                                st_workspace_too_small
-    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, is_error, st_out_of_range, &
+                                     st_workspace_too_small
+    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, over_force

@@ -8,9 +8,9 @@
 !>     Mz =  C23 G (ab)^1.5 ceta - C33 G (ab)^2 cphi
 module faststrip_tangential_kalker
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_bad_material, st_not_finite, st_out_of_range
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_material, st_not_finite, st_out_of_range
     use faststrip_tangential_kalker_table, only: n_ratios, n_poisson, table_poisson, &
                                                  table_log_ratio, table_log_value, table_slope
     implicit none

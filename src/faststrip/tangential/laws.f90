@@ -42,11 +42,11 @@
 !> None of them knows where a patch sticks; the stick fraction is 1 for the linear theory and 0,
 !> without a meaning, for the others.
 module faststrip_tangential_laws
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument
-    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips

@@ -1,10 +1,10 @@
 !> What every tangential method asks of friction, creepages and ellipse.
 module faststrip_tangential_motion
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, number_text, &
-                                st_bad_argument, st_not_finite, st_out_of_range
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_not_finite, st_out_of_range
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_hertz, only: hertz_t
     implicit none
     private

@@ -30,11 +30,12 @@
 !>
 !> Slip is what scaling back leaves over of the elastic step, as in FASTSIM.
 module faststrip_tangential_paper
-    use faststrip_kinds, only: wp, pi
-    use faststrip_status, only: status_t, set_status, is_error, st_bad_argument, st_out_of_range
-    use faststrip_material, only: material_t, check_material, combined_shear_modulus, &
-                                  combined_poisson_ratio
-    use faststrip_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, &
+                                     st_out_of_range
+    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_patch_ellipse, only: patch_end, check_strips
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients

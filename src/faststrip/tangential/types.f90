@@ -1,8 +1,8 @@
 !> What every tangential method gives: forces, friction power, and on demand a field.
 module faststrip_tangential_types
-    use faststrip_kinds, only: wp
-    use faststrip_status, only: status_t, set_status, clear_status, st_bad_argument, &
-                                st_workspace_too_small
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
+                                     st_workspace_too_small
     implicit none
     private
 

@@ -1,0 +1,178 @@
+!> What the program says to people: errors and notes on stderr, help and version on stdout.
+module faststrip_command_console
+    use, intrinsic :: iso_fortran_env, only: error_unit
+    use faststrip_base_status, only: status_t, is_error, st_not_finite, st_not_increasing, &
+                                     st_too_few_points, st_no_contact, st_no_hertz_ellipse, &
+                                     st_no_convergence, st_out_of_range, st_no_finite_patch, &
+                                     st_linear_algebra
+    use faststrip_files_csv, only: csv_writer_t, put_comment
+    use faststrip_base_text, only: integer_text, lower_case
+    use faststrip_command_machine, only: compiler_name, compiler_flags
+    use faststrip_command_revision, only: revision
+    use faststrip_command_system, only: set_progress, is_printed
+    implicit none
+    private
+
+    public :: fail, fail_on_error, concerns_gap, usage_error, note, say, progress
+    public :: version_text, put_origin, printable
+    public :: exit_bad_input, exit_usage, exit_no_convergence
+
+    integer, parameter :: exit_bad_input = 1
+    integer, parameter :: exit_usage = 2
+    integer, parameter :: exit_no_convergence = 3
+
+    character(len=*), parameter :: version = '0.1.0'
+
+contains
+
+    !> End the program with one line on stderr.
+    subroutine fail(code, text)
+        integer, intent(in) :: code          !! exit code
+        character(len=*), intent(in) :: text !! one line
+
+        call note(text)
+        stop code, quiet=.true.
+    end subroutine fail
+
+    !> End the program if a status is an error: exit code 3 for no convergence, else 1.
+    subroutine fail_on_error(status, context)
+        type(status_t), intent(in) :: status              !! of a call to the library
+        character(len=*), intent(in), optional :: context !! file it is about; follows in brackets
+
+        integer :: code
+
+        if (.not. is_error(status)) return
+        code = exit_bad_input
+        if (status%code == st_no_convergence) code = exit_no_convergence
+        if (present(context)) then
+            call fail(code, trim(status%message) // ' (' // context // ')')
+        else
+            call fail(code, trim(status%message))
+        end if
+    end subroutine fail_on_error
+
+    !> Is an error one of a gap, or of the contact in it? Errors of files name them themselves.
+    pure logical function concerns_gap(status)
+        type(status_t), intent(in) :: status !! of a call to the library
+
+        concerns_gap = any(status%code == [st_not_finite, st_not_increasing, st_too_few_points, &
+                                           st_no_contact, st_no_hertz_ellipse, &
+                                           st_no_convergence, st_out_of_range, &
+                                           st_no_finite_patch, st_linear_algebra])
+    end function concerns_gap
+
+    !> End the program because it was called in a wrong way.
+    subroutine usage_error(text, command)
+        character(len=*), intent(in) :: text    !! what is wrong, with the offending value
+        character(len=*), intent(in) :: command !! subcommand whose help serves; may be empty
+
+        if (len(command) > 0) then
+            call fail(exit_usage, text // '; see faststrip ' // command // ' --help')
+        else
+            call fail(exit_usage, text // '; see faststrip --help')
+        end if
+    end subroutine usage_error
+
+    !> One line on stderr, whatever the text holds.
+    subroutine note(text)
+        character(len=*), intent(in) :: text !! what to say
+
+        integer, parameter :: longest = 2000
+
+        if (len(text) > longest) then
+            write (error_unit, '(3a)') 'faststrip: ', printable(text(:longest)), '...'
+        else
+            write (error_unit, '(2a)') 'faststrip: ', printable(text)
+        end if
+    end subroutine note
+
+    !> A text in which control characters, and bytes that are no UTF-8, stand as `\xNN`: what was
+    !> typed or read cannot steer the terminal or break the line.
+    pure function printable(text) result(safe)
+        character(len=*), intent(in) :: text  !! any bytes
+        character(len=:), allocatable :: safe
+
+        character(len=2) :: hexadecimal
+        integer :: i, n
+
+        safe = ''
+        i = 1
+        do while (i <= len(text))
+            n = length_of_character(text(i:))
+            if (n > 0) then
+                safe = safe // text(i:i + n - 1)
+            else
+                n = 1
+                write (hexadecimal, '(z2.2)') ichar(text(i:i))
+                safe = safe // '\x' // lower_case(hexadecimal)
+            end if
+            i = i + n
+        end do
+    end function printable
+
+    !> Bytes of the first character of a text in UTF-8; 0 if it is a control character or none.
+    pure integer function length_of_character(text) result(n)
+        character(len=*), intent(in) :: text
+
+        integer :: first, i
+
+        first = ichar(text(1:1))
+        n = 0
+        select case (first)
+        case (32:126); n = 1
+        case (194:223); n = 2
+        case (224:239); n = 3
+        case (240:244); n = 4
+        end select
+        if (n > len(text)) n = 0
+        do i = 2, n
+            if (ichar(text(i:i)) < 128 .or. ichar(text(i:i)) > 191) then
+                n = 0
+                return
+            end if
+        end do
+        if (n < 2) return
+        associate (second => ichar(text(2:2)))
+            ! Control characters beyond ASCII; longer than needed; surrogates; beyond Unicode.
+            if (first == 194 .and. second < 160 .or. first == 224 .and. second < 160 .or. &
+                first == 237 .and. second > 159 .or. first == 240 .and. second < 144 .or. &
+                first == 244 .and. second > 143) n = 0
+        end associate
+        ! Line and paragraph separators, and marks that turn the direction of writing.
+        if (n == 3 .and. first == 226) then
+            if (ichar(text(2:2)) == 128 .and. ichar(text(3:3)) >= 168 .and. &
+                ichar(text(3:3)) <= 174) n = 0
+        end if
+    end function length_of_character
+
+    !> One line on stdout.
+    subroutine say(text)
+        character(len=*), intent(in) :: text !! one line
+
+        if (.not. is_printed(text)) call fail(exit_bad_input, 'cannot write to the standard output')
+    end subroutine say
+
+    !> How far long work is, for the lines that `start_signals` sends to stderr.
+    subroutine progress(what, done, total)
+        character(len=*), intent(in) :: what !! what is being counted
+        integer, intent(in) :: done          !! how many are done
+        integer, intent(in) :: total         !! how many there are
+
+        call set_progress(what // ' ' // integer_text(done) // ' of ' // integer_text(total))
+    end subroutine progress
+
+    !> Name, version and revision of the program.
+    function version_text() result(text)
+        character(len=:), allocatable :: text
+
+        text = 'faststrip ' // version // ' rev ' // trim(revision)
+    end function version_text
+
+    !> The comment lines that say what made a CSV file.
+    subroutine put_origin(writer)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+
+        call put_comment(writer, version_text())
+        call put_comment(writer, 'compiler ' // compiler_name() // ', ' // compiler_flags())
+    end subroutine put_origin
+end module faststrip_command_console

@@ -1,0 +1,139 @@
+!> `faststrip contact`: one contact of a case file.
+module faststrip_command_contact
+    use faststrip_base_status, only: status_t, is_error, st_ok
+    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
+    use faststrip_command_console, only: fail_on_error, concerns_gap, note, usage_error
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
+                                         option_number
+    use faststrip_command_method_options, only: method_options, take_method_options
+    use faststrip_command_case_file, only: case_t, read_case
+    use faststrip_command_scene, only: scene_t, make_scene, put_gap, put_profiles
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_result_csv, only: put_strips, put_field
+    use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
+    implicit none
+    private
+
+    public :: run_contact
+
+    !> The options that name files to write.
+    character(len=*), parameter :: outputs(5) = [character(len=10) :: &
+        '-o', '--strips', '--fields', '--gap', '--profiles']
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_contact()
+        type(command_t) :: command
+        type(case_t) :: case
+        type(scene_t) :: scene
+        type(solver_t) :: solver
+        type(outcome_t) :: outcome
+        type(csv_writer_t) :: writer(size(outputs))
+        type(status_t) :: status
+
+        command%name = 'contact'
+        command%usage = 'CASE.nml'
+        command%about = &
+            'Solve one contact: from two profiles and a lateral shift, or from a gap file with' &
+            // new_line('a') // 'the columns y_mm,h_mm,inv2R_per_mm. CSV, one row.' &
+            // new_line('a')
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                     writes=.true.), &
+            option_t('--strips', 'FILE', 'write the strips there, with the sums over each', &
+                     writes=.true.), &
+            option_t('--fields', 'FILE', 'write pressure, tractions and slip per element there', &
+                     writes=.true.), &
+            option_t('--gap', 'FILE', 'write the undeformed gap there', &
+                     writes=.true.), &
+            option_t('--profiles', 'FILE', 'write wheel and rail in contact there', &
+                     writes=.true.), &
+            option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
+            method_options]
+        call parse_command(command, 1)
+        call read_case(command%arguments(1)%text, case)
+        call take_method_options(command, case%methods)
+        if (len(case%gap_file) > 0) then
+            if (given(command, '--profiles')) &
+                call usage_error('--profiles: the case has a gap file', command%name)
+            if (given(command, '--shift')) &
+                call usage_error('--shift: the case has a gap file', command%name)
+        end if
+        call make_scene(case, option_number(command, '--shift', case%shift), scene, status)
+        if (len(case%gap_file) > 0) call fail_on_error(status)
+        call fail_on_error(status, command%arguments(1)%text)
+        call make_solver(case%methods, given(command, '--fields'), solver, status, &
+                         with_strip_forces=given(command, '--strips'))
+        call fail_on_error(status)
+        call solve(solver, scene%gap, case%material, case%mu, scene%demand, scene%creepage, &
+                   outcome, status)
+        if (concerns_gap(status) .and. len(case%gap_file) > 0) &
+            call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
+        call fail_on_error(status, command%arguments(1)%text)
+        if (status%code /= st_ok) call note(trim(status%message))
+        call open_outputs(command, writer)
+        call put_sweep_header(writer(1), case)
+        call put_sweep_row(writer(1), case, case%methods, scene, outcome, status)
+        if (given(command, '--strips')) &
+            call put_strips(writer(2), case%name, solver%normal%workspace%strips, &
+                            solver%strip_forces)
+        if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
+        if (given(command, '--gap')) call put_gap(writer(4), solver%gap, &
+                                                  case%methods%smoothing_um)
+        if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
+        call close_outputs(command, writer)
+        call release_solver(solver)
+    end subroutine run_contact
+
+    !> Open all files before anything is written: if one cannot be, the others stay as they were.
+    subroutine open_outputs(command, writer)
+        type(command_t), intent(in) :: command
+        type(csv_writer_t), intent(out) :: writer(:)
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = 1, size(outputs)
+            if (.not. is_wanted(command, i)) cycle
+            call open_csv(writer(i), option_text(command, trim(outputs(i)), '-'), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine open_outputs
+
+    subroutine close_outputs(command, writer)
+        type(command_t), intent(in) :: command
+        type(csv_writer_t), intent(inout) :: writer(:)
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = size(outputs), 1, -1
+            if (.not. is_wanted(command, i)) cycle
+            call close_csv(writer(i), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine close_outputs
+
+    !> The result is always written, to stdout if nothing else is said.
+    logical function is_wanted(command, i)
+        type(command_t), intent(in) :: command
+        integer, intent(in) :: i
+
+        is_wanted = i == 1
+        if (i > 1) is_wanted = given(command, trim(outputs(i)))
+    end function is_wanted
+
+    subroutine drop_on_error(writer, status)
+        type(csv_writer_t), intent(inout) :: writer(:)
+        type(status_t), intent(in) :: status
+
+        integer :: i
+
+        if (.not. is_error(status)) return
+        do i = 1, size(writer)
+            call abort_csv(writer(i))
+        end do
+        call fail_on_error(status)
+    end subroutine drop_on_error
+end module faststrip_command_contact

@@ -1,0 +1,151 @@
+!> From a case to the gap, load and creepages of one contact.
+module faststrip_command_scene
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, clear_status, is_error, number_text
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_geometry_profile, only: profile_t, profile_at
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_files_gap, only: read_gap_file
+    use faststrip_geometry_contact, only: rigid_contact_t, find_wheelset_contacts, contact_force, &
+                                          shift_creepage
+    use faststrip_geometry_contact_gap, only: make_gap
+    use faststrip_command_console, only: put_origin
+    use faststrip_command_case_file, only: case_t
+    use faststrip_command_solver, only: demand_t
+    implicit none
+    private
+
+    public :: scene_t, make_scene, put_gap, put_profiles
+
+    !> Shifts nearer to each other than this are the same, mm.
+    real(wp), parameter :: same_shift = 1.0e-9_wp
+
+    !> One contact, ready to be solved.
+    type :: scene_t
+        type(gap_t) :: gap              !! undeformed gap, mm
+        type(rigid_contact_t) :: contact !! rigid contact point, if there are profiles
+        real(wp) :: shift = 0.0_wp      !! lateral shift of the wheelset, mm
+        type(demand_t) :: demand        !! normal force, or penetration
+        type(creepage_t) :: creepage    !! about the rigid contact point
+    end type scene_t
+
+contains
+
+    !> Place the wheelset and make the gap, or read it. A shift the case's sweep lists gets the
+    !> load and the creepages listed with it.
+    subroutine make_scene(case, shift, scene, status)
+        type(case_t), intent(in) :: case       !! a case that was read
+        real(wp), intent(in) :: shift          !! lateral shift, without meaning for a gap file, mm
+        type(scene_t), intent(out) :: scene    !! ready to be solved
+        type(status_t), intent(out) :: status  !! from the library
+
+        type(rigid_contact_t) :: left
+
+        call clear_status(status)
+        scene%shift = shift
+        scene%demand = demand_t(case%load_is_given, case%load, case%penetration)
+        scene%creepage = case%creepage
+        if (len(case%gap_file) > 0) then
+            call read_gap_file(case%gap_file, scene%gap, status)
+            return
+        end if
+        call find_wheelset_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
+                                    scene%contact, left, status)
+        if (is_error(status)) then
+            call clear_place(case, scene)
+            return
+        end if
+        if (case%load_is_vertical) scene%demand%load = contact_force(case%load, scene%contact%gamma)
+        if (case%creepage_by_formula) scene%creepage = &
+            shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
+        call take_lists(case, scene)
+        call make_gap(case%wheel, case%rail, case%wheelset, scene%contact, case%gap_step, &
+                      case%gap_height, scene%gap, status)
+    end subroutine make_scene
+
+    !> Load and creepages that the sweep of the case lists for this shift.
+    subroutine take_lists(case, scene)
+        type(case_t), intent(in) :: case
+        type(scene_t), intent(inout) :: scene
+
+        integer :: i
+
+        i = findloc(abs(case%shifts - scene%shift) < same_shift, .true., dim=1)
+        if (i == 0) return
+        if (size(case%shift_loads) > 0) scene%demand%load = case%shift_loads(i)
+        if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
+            case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
+    end subroutine take_lists
+
+    !> Without a contact point there is no contact angle, nor what follows from one.
+    subroutine clear_place(case, scene)
+        type(case_t), intent(in) :: case
+        type(scene_t), intent(inout) :: scene
+
+        real(wp) :: unknown
+
+        unknown = ieee_value(unknown, ieee_quiet_nan)
+        scene%contact%gamma = unknown
+        if (case%load_is_vertical) scene%demand%load = unknown
+        if (case%creepage_by_formula) scene%creepage = creepage_t(unknown, unknown, unknown)
+    end subroutine clear_place
+
+    !> The gap, one row a point.
+    subroutine put_gap(writer, gap, smoothing_um)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(gap_t), intent(in) :: gap              !! mm, mm, 1/mm
+        real(wp), intent(in) :: smoothing_um        !! noise it was smoothed for, um; 0: it was not
+
+        integer :: i
+
+        call put_origin(writer)
+        if (smoothing_um > 0.0_wp) &
+            call put_comment(writer, 'smoothed for a noise of ' // &
+                             trim(number_text(smoothing_um)) // ' um, rms')
+        call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
+        do i = 1, size(gap%y)
+            call put_cell(writer, gap%y(i))
+            call put_cell(writer, gap%h(i))
+            call put_cell(writer, gap%inv2r(i))
+            call end_row(writer)
+        end do
+    end subroutine put_gap
+
+    !> Both profiles in contact, in the frame of the rail, one row a point.
+    subroutine put_profiles(writer, case, scene)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(case_t), intent(in) :: case            !! with profiles
+        type(scene_t), intent(in) :: scene          !! where they touch
+
+        call put_origin(writer)
+        call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
+        call put_profile(writer, 'wheel', case%wheel, &
+                         scene%contact%y_rail - scene%contact%y_wheel, &
+                         scene%contact%z_rail - scene%contact%z_wheel)
+        call put_profile(writer, 'rail', case%rail, 0.0_wp, 0.0_wp)
+    end subroutine put_profiles
+
+    subroutine put_profile(writer, name, profile, y_offset, z_offset)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: name
+        type(profile_t), intent(in) :: profile
+        real(wp), intent(in) :: y_offset, z_offset
+
+        integer, parameter :: n_points = 801
+        type(status_t) :: status
+        real(wp) :: y, z, dz, d2z
+        integer :: i
+
+        do i = 0, n_points - 1
+            y = profile%y_first + (profile%y_last - profile%y_first)*i/(n_points - 1)
+            call profile_at(profile, y, z, dz, d2z, status)
+            if (is_error(status)) cycle
+            call put_cell(writer, name)
+            call put_cell(writer, y + y_offset)
+            call put_cell(writer, z + z_offset)
+            call end_row(writer)
+        end do
+    end subroutine put_profile
+end module faststrip_command_scene

@@ -1,0 +1,102 @@
+!> `faststrip sweep`: a wheelset shifted sideways, each contact by several methods.
+module faststrip_command_sweep
+    use faststrip_base_status, only: status_t, is_error, number_text
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv
+    use faststrip_command_console, only: fail, fail_on_error, note, progress, exit_bad_input
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text
+    use faststrip_command_methods, only: methods_t, word_length
+    use faststrip_command_method_options, only: method_options, take_method_options
+    use faststrip_command_case_file, only: case_t, read_case
+    use faststrip_command_scene, only: scene_t, make_scene
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
+    implicit none
+    private
+
+    public :: run_sweep
+
+    !> Normal and tangential method of each row of a shift.
+    character(len=word_length), parameter :: pairs(2, 3) = reshape( &
+        [character(len=word_length) :: 'strip', 'faststrip', 'strip', 'fastsim', &
+         'hertz', 'fastsim'], [2, 3])
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_sweep()
+        type(command_t) :: command
+        type(case_t) :: case
+        type(scene_t) :: scene
+        type(solver_t) :: solver(size(pairs, 2) + 1)
+        type(methods_t) :: methods
+        type(outcome_t) :: outcome
+        type(csv_writer_t) :: writer
+        type(status_t) :: status, placed, written
+        integer :: i, m, n_failed, n_solvers
+
+        command%name = 'sweep'
+        command%usage = 'CASE.nml'
+        command%about = &
+            'Solve the contact of a case at every lateral shift of its group &sweep, by strips' &
+            // new_line('a') // 'with faststrip and fastsim and by hertz with fastsim. CSV, one' &
+            // ' row per shift' // new_line('a') // 'and method; one that fails gets its status' &
+            // ' word and empty figures.' // new_line('a') // 'With --normal or --tangential' &
+            // ' there is one row more, by these methods.' // new_line('a')
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                                    writes=.true.), &
+                           method_options]
+        call parse_command(command, 1)
+        call read_case(command%arguments(1)%text, case)
+        call take_method_options(command, case%methods)
+        if (size(case%shifts) == 0) &
+            call fail(exit_bad_input, 'missing group: &sweep with shifts_mm (' &
+                      // command%arguments(1)%text // ')')
+        if (len(case%gap_file) > 0) &
+            call fail(exit_bad_input, 'a sweep needs profiles, not a gap file: ' &
+                      // case%gap_file // ' (' // command%arguments(1)%text // ')')
+        n_solvers = size(pairs, 2)
+        if (given(command, '--normal') .or. given(command, '--tangential')) then
+            ! Unless it is one of the three.
+            if (.not. any(pairs(1, :) == case%methods%normal &
+                          .and. pairs(2, :) == case%methods%tangential)) n_solvers = n_solvers + 1
+        end if
+        do m = 1, n_solvers
+            methods = case%methods
+            if (m <= size(pairs, 2)) then
+                methods%normal = pairs(1, m)
+                methods%tangential = pairs(2, m)
+            end if
+            call make_solver(methods, .false., solver(m), status)
+            call fail_on_error(status)
+        end do
+        call open_csv(writer, option_text(command, '-o', '-'), written)
+        call fail_on_error(written)
+        call put_sweep_header(writer, case)
+        n_failed = 0
+        do i = 1, size(case%shifts)
+            call progress('shifts', i, size(case%shifts))
+            call make_scene(case, case%shifts(i), scene, placed)
+            do m = 1, n_solvers
+                status = placed
+                if (.not. is_error(placed)) &
+                    call solve(solver(m), scene%gap, case%material, case%mu, scene%demand, &
+                               scene%creepage, outcome, status)
+                call put_sweep_row(writer, case, solver(m)%methods, scene, outcome, status)
+                if (.not. is_error(status)) cycle
+                n_failed = n_failed + 1
+                call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &
+                          // trim(solver(m)%methods%normal) // ' and ' &
+                          // trim(solver(m)%methods%tangential) // ': ' // trim(status%message))
+            end do
+        end do
+        do m = 1, n_solvers
+            call release_solver(solver(m))
+        end do
+        call close_csv(writer, written)
+        call fail_on_error(written)
+        if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
+                                    // integer_text(size(case%shifts)*n_solvers) &
+                                    // ' contacts failed')
+    end subroutine run_sweep
+end module faststrip_command_sweep

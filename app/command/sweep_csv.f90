@@ -1,0 +1,69 @@
+!> The rows of `contact` and `sweep`: what was solved, by which methods, with what result.
+module faststrip_command_sweep_csv
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_command_console, only: put_origin
+    use faststrip_command_case_file, only: case_t
+    use faststrip_command_methods, only: methods_t
+    use faststrip_command_scene, only: scene_t
+    use faststrip_command_solver, only: outcome_t
+    use faststrip_command_result_csv, only: result_columns, put_result, put_smoothing
+    implicit none
+    private
+
+    public :: put_sweep_header, put_sweep_row
+
+    character(len=*), parameter :: scene_columns(9) = [character(len=19) :: &
+        'case', 'yw_mm', 'normal', 'tangential', 'N_N', 'gamma_rad', 'cksi', 'ceta', &
+        'cphi_rad_per_mm']
+
+contains
+
+    !> Comments and column names.
+    subroutine put_sweep_header(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(case_t), intent(in) :: case            !! what is solved
+
+        call put_origin(writer)
+        call put_comment(writer, 'case ' // case%name)
+        if (len(case%gap_file) > 0) then
+            call put_comment(writer, 'gap ' // case%gap_file)
+        else
+            call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
+        end if
+        call put_smoothing(writer, case%methods%smoothing_um)
+        call put_header(writer, [scene_columns, result_columns])
+    end subroutine put_sweep_header
+
+    !> One contact by one choice of methods.
+    subroutine put_sweep_row(writer, case, methods, scene, outcome, status)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(case_t), intent(in) :: case            !! its name is used
+        type(methods_t), intent(in) :: methods      !! by which it was solved
+        type(scene_t), intent(in) :: scene          !! shift, load, creepages
+        type(outcome_t), intent(in) :: outcome      !! figures
+        type(status_t), intent(in) :: status        !! how it ended
+
+        call put_cell(writer, case%name)
+        call put_cell(writer, scene%shift)
+        call put_cell(writer, trim(methods%normal))
+        call put_cell(writer, trim(methods%tangential))
+        if (scene%demand%by_load) then
+            call put_cell(writer, scene%demand%load)
+        else if (is_error(status)) then
+            call put_cell(writer, '')
+        else
+            call put_cell(writer, outcome%normal%load)
+        end if
+        if (len(case%gap_file) > 0) then
+            call put_cell(writer, '')
+        else
+            call put_cell(writer, scene%contact%gamma)
+        end if
+        call put_cell(writer, scene%creepage%cksi)
+        call put_cell(writer, scene%creepage%ceta)
+        call put_cell(writer, scene%creepage%cphi)
+        call put_result(writer, outcome, status)
+        call end_row(writer)
+    end subroutine put_sweep_row
+end module faststrip_command_sweep_csv

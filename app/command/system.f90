@@ -1,0 +1,171 @@
+!> The operating system: which file a path means, signals, progress of long work.
+module faststrip_command_system
+    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long_long, c_null_char
+    implicit none
+    private
+
+    public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, remove_leftovers
+    public :: start_signals, set_progress, set_detail, is_printed
+    public :: kind_none, kind_file, kind_folder, kind_pipe
+
+    ! Kinds of files, as `system.c` numbers them.
+    integer, parameter :: kind_none = 0
+    integer, parameter :: kind_file = 1
+    integer, parameter :: kind_folder = 2
+    integer, parameter :: kind_pipe = 3
+
+    integer, parameter :: longest_path = 4096
+
+    !> What tells a file from all others, whatever its name.
+    type :: identity_t
+        integer :: kind = kind_none              !! what there is
+        integer(c_long_long) :: numbers(2) = 0   !! device and file, if there is one
+        character(len=:), allocatable :: path    !! without links and dots; empty: no such place
+    end type identity_t
+
+    ! What is being done.
+    character(len=:), allocatable :: present_work
+
+    interface
+        function c_identify(path, numbers) bind(c, name='faststrip_identify') result(kind)
+            import :: c_char, c_int, c_long_long
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_long_long), intent(out) :: numbers(2)
+            integer(c_int) :: kind
+        end function c_identify
+
+        function c_resolve(path, out, room) bind(c, name='faststrip_resolve') result(length)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            character(kind=c_char), intent(out) :: out(*)
+            integer(c_int), value :: room
+            integer(c_int) :: length
+        end function c_resolve
+
+        function c_is_fed(path, seconds) bind(c, name='faststrip_is_fed') result(answer)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: seconds
+            integer(c_int) :: answer
+        end function c_is_fed
+
+        subroutine c_keep_in_mind(path) bind(c, name='faststrip_keep_in_mind')
+            import :: c_char
+            character(kind=c_char), intent(in) :: path(*)
+        end subroutine c_keep_in_mind
+
+        subroutine c_remove_leftovers(folder, prefix, ending) &
+            bind(c, name='faststrip_remove_leftovers')
+            import :: c_char
+            character(kind=c_char), intent(in) :: folder(*), prefix(*), ending(*)
+        end subroutine c_remove_leftovers
+
+        subroutine c_start_signals(text) bind(c, name='faststrip_start_signals')
+            import :: c_char
+            character(kind=c_char), intent(in) :: text(*)
+        end subroutine c_start_signals
+
+        function c_print(line) bind(c, name='faststrip_print') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: line(*)
+            integer(c_int) :: code
+        end function c_print
+
+        subroutine c_set_progress(text) bind(c, name='faststrip_set_progress')
+            import :: c_char
+            character(kind=c_char), intent(in) :: text(*)
+        end subroutine c_set_progress
+    end interface
+
+contains
+
+    !> What a path leads to.
+    integer function file_kind(path)
+        character(len=*), intent(in) :: path !! a name
+
+        integer(c_long_long) :: numbers(2)
+
+        file_kind = c_identify(path // c_null_char, numbers)
+    end function file_kind
+
+    !> Which file a path means, or would mean once it is written.
+    function identify(path) result(identity)
+        character(len=*), intent(in) :: path !! a name
+        type(identity_t) :: identity
+
+        identity%kind = c_identify(path // c_null_char, identity%numbers)
+        identity%path = resolved(path)
+    end function identify
+
+    !> A path without links and dots; empty if there is no such place.
+    function resolved(path) result(text)
+        character(len=*), intent(in) :: path !! a name
+        character(len=:), allocatable :: text
+
+        character(kind=c_char) :: out(longest_path)
+        integer :: i, length
+
+        length = c_resolve(path // c_null_char, out, int(size(out), c_int))
+        allocate (character(len=length) :: text)
+        do i = 1, length
+            text(i:i) = out(i)
+        end do
+    end function resolved
+
+    !> Does somebody write into a named pipe within some seconds?
+    logical function is_fed(path, seconds)
+        character(len=*), intent(in) :: path !! of the pipe
+        integer, intent(in) :: seconds       !! to wait
+
+        is_fed = c_is_fed(path // c_null_char, int(seconds, c_int)) /= 0
+    end function is_fed
+
+    !> Remove a file if the program ends before its time.
+    subroutine keep_in_mind(path)
+        character(len=*), intent(in) :: path !! of a file, there or not
+
+        call c_keep_in_mind(path // c_null_char)
+    end subroutine keep_in_mind
+
+    !> Remove what killed runs left in a folder: files `PREFIX<process>_<number>ENDING` of
+    !> processes that are gone.
+    subroutine remove_leftovers(folder, prefix, ending)
+        character(len=*), intent(in) :: folder !! where
+        character(len=*), intent(in) :: prefix !! names begin so
+        character(len=*), intent(in) :: ending !! and end so
+
+        call c_remove_leftovers(folder // c_null_char, prefix // c_null_char, &
+                                ending // c_null_char)
+    end subroutine remove_leftovers
+
+    !> From now on a signal ends the program with one line and leaves no file half-written, and
+    !> work that takes more than a second says on stderr how far it is.
+    subroutine start_signals(text)
+        character(len=*), intent(in) :: text !! what is being done
+
+        present_work = text
+        call c_start_signals(text // c_null_char)
+    end subroutine start_signals
+
+    !> Print a line on the standard output; was it written?
+    logical function is_printed(line)
+        character(len=*), intent(in) :: line !! without its end
+
+        is_printed = c_print(line // c_null_char) == 0
+    end function is_printed
+
+    !> Say what is being done; it is told only if it takes long.
+    subroutine set_progress(text)
+        character(len=*), intent(in) :: text !! a few words
+
+        present_work = text
+        call c_set_progress(text // c_null_char)
+    end subroutine set_progress
+
+    !> Say more about what is being done, until the next call.
+    subroutine set_detail(text)
+        character(len=*), intent(in) :: text !! a few words
+
+        call c_set_progress(present_work // ', ' // text // c_null_char)
+    end subroutine set_detail
+end module faststrip_command_system

@@ -1,0 +1,202 @@
+!> `faststrip bench`: what things cost and how accurate they are.
+module faststrip_lab_bench
+    use faststrip_base_kinds, only: wp
+    use faststrip_command_console, only: usage_error
+    use faststrip_command_files, only: take_input
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
+                                         option_integer, option_number, option_word
+    use faststrip_lab_bench_integral, only: bench_integral
+    use faststrip_lab_bench_normal, only: bench_normal, bench_normal_most_strips
+    use faststrip_lab_bench_reference, only: bench_reference, bench_reference_most_elements
+    use faststrip_lab_bench_accuracy, only: bench_accuracy
+    use faststrip_lab_bench_kalker, only: bench_kalker
+    use faststrip_lab_bench_tangential, only: bench_tangential
+    use faststrip_lab_bench_robust, only: bench_robust
+    use faststrip_lab_bench_convergence, only: bench_convergence
+    use faststrip_lab_bench_extremes, only: bench_extremes, extreme_parts
+    use faststrip_lab_bench_rolling, only: bench_rolling
+    use faststrip_lab_bench_forces, only: bench_forces
+    use faststrip_lab_bench_scenes, only: bench_scenes
+    use faststrip_lab_bench_trade, only: bench_trade
+    use faststrip_lab_bench_certificate, only: run_certificate_study
+    implicit none
+    private
+
+    public :: run_bench
+
+    integer, parameter :: name_length = 15
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_bench()
+        type(command_t) :: command
+        character(len=:), allocatable :: what, file, folder
+        integer :: rounds, most_strips, most_elements
+        real(wp) :: seconds
+
+        command%name = 'bench'
+        command%usage = 'WHAT'
+        command%about = about()
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
+            option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
+                     // new_line('a') // '1 to 1000 (default 21)'), &
+            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
+                     reads=.true.), &
+            option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
+            option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
+            option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
+                     // ' elements (default 6)'), &
+            option_t('--methods', 'FILE', 'trade: the methods (default' &
+                     // ' reference/trade_methods.csv)', reads=.true.), &
+            option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
+            option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
+                     // ' rounding'), &
+            option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
+                     // ' (default reference/influence)', reads=.true.), &
+            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
+                     // ' extremes, scenes: cases', reads=.true.)]
+        command%reads = .false.
+        call parse_command(command, 1)
+        what = command%arguments(1)%text
+        file = option_text(command, '-o', '-')
+        rounds = option_integer(command, '--rounds', 21, least=1, most=1000)
+        folder = option_text(command, '--contacts', 'reference/contact')
+        call take_input(folder)
+        most_strips = option_integer(command, '--most-strips', bench_normal_most_strips, &
+                                     least=1)
+        most_elements = option_integer(command, '--most-elements', bench_reference_most_elements, &
+                                       least=1)
+        seconds = option_number(command, '--seconds', 6.0_wp, least=0)
+        select case (what)
+        case ('integral')
+            call allow([character(len=name_length) :: '--rounds'])
+            call bench_integral(file, rounds)
+        case ('normal')
+            call allow([character(len=name_length) :: '--contacts', '--most-strips', '--seconds'])
+            call bench_normal(file, folder, most_strips, seconds)
+        case ('reference')
+            call allow([character(len=name_length) :: '--contacts', '--most-elements', '--seconds'])
+            call bench_reference(file, folder, most_elements, seconds)
+        case ('tangential')
+            call allow([character(len=name_length) :: '--contacts', '--rounds'])
+            call bench_tangential(file, folder, rounds)
+        case ('forces')
+            call allow([character(len=name_length) :: '--contacts', '--scenes'])
+            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
+            call bench_forces(file, folder, option_text(command, '--scenes', &
+                                                        'reference/scenes/scenes.csv'))
+        case ('certificate')
+            call allow([character(len=name_length) ::])
+            call run_certificate_study(file)
+        case ('accuracy')
+            call allow([character(len=name_length) :: '--contacts'])
+            call bench_accuracy(file, folder)
+        case ('rolling')
+            call allow([character(len=name_length) :: '--contacts'])
+            call bench_rolling(file, folder)
+        case ('kalker')
+            call allow([character(len=name_length) :: '--contacts', '--quick'])
+            call bench_kalker(file, folder, given(command, '--quick'))
+        case ('robust')
+            call allow([character(len=name_length) :: '--contacts'])
+            call bench_robust(file, folder)
+        case ('convergence')
+            call allow([character(len=name_length) :: '--contacts', '--most-strips'])
+            call bench_convergence(file, folder, most_strips)
+        case ('extremes')
+            call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
+                        '--references', '--scenes'])
+            call take_input(option_text(command, '--references', 'reference/influence'))
+            call take_input(option_text(command, '--scenes', 'example/scenes'))
+            call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
+                                given(command, '--quick'), folder, &
+                                option_text(command, '--references', 'reference/influence'), &
+                                option_text(command, '--scenes', 'example/scenes'))
+        case ('scenes')
+            call allow([character(len=name_length) :: '--scenes'])
+            call take_input(option_text(command, '--scenes', 'example/scenes'))
+            call bench_scenes(file, option_text(command, '--scenes', 'example/scenes'))
+        case ('trade')
+            call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
+                        '--quick'])
+            call take_input(option_text(command, '--methods', 'reference/trade_methods.csv'))
+            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
+            call bench_trade(file, option_text(command, '--methods', &
+                                               'reference/trade_methods.csv'), folder, &
+                             option_text(command, '--scenes', 'reference/scenes/scenes.csv'), &
+                             given(command, '--quick'))
+        case default
+            call usage_error('WHAT must be a bench of the list, got ''' // what // '''', &
+                             command%name)
+        end select
+
+    contains
+
+        !> Refuse every option that was given beside `-o` and those of the bench.
+        subroutine allow(names)
+            character(len=*), intent(in) :: names(:)
+
+            integer :: i
+
+            do i = 2, size(command%options)
+                if (.not. command%options(i)%is_given) cycle
+                if (any(names == command%options(i)%name)) cycle
+                call usage_error(trim(command%options(i)%name) // ' goes without ' // what, &
+                                 command%name)
+            end do
+        end subroutine allow
+    end subroutine run_bench
+
+    function about() result(text)
+        character(len=:), allocatable :: text
+
+        character(len=*), parameter :: lines(39) = [character(len=84) :: &
+            'integral: nanoseconds an influence number costs and its largest relative error,', &
+            'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
+            'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
+            'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu; medians; ratio: to the', &
+            'published polynomial in the same loop.', &
+            'normal: microseconds the strip solver takes with 5 to 400 strips, from nothing', &
+            '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
+            '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
+            'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
+            'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
+            'elements in contact: from nothing with new plans and with old ones (cold), from a', &
+            'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
+            'the approach. Then its rolling on the same grids, to 1e-7 of the slip.', &
+            'tangential: microseconds and nanoseconds per element of all tangential methods on', &
+            'the strips of 5 to 61 by as many points, forces only and with the field; ratio:', &
+            'to FASTSIM with the same number of elements. Processor time, medians.', &
+            'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
+            'the paper''s with either sign of the creepages, and against TANG on 240 others.', &
+            'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
+            'rolling: errors and times of Kalker''s method in rolling against CONTACT, by', &
+            'its scheme and by the second-order one, on 0.4 and 0.2 mm: the paper''s contacts', &
+            'with either sign of the creepages, and 161 ellipses of 113 mm2.', &
+            'kalker: Kalker''s coefficients from TANG without sliding beside his table and', &
+            'CONTACT, 19 aspect ratios by 3 of Poisson''s (two minutes).', &
+            'convergence: errors of 5 to 81 strips, against 301 strips, and against', &
+            'Hertz on ellipses.', &
+            'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
+            '15 and 31 strips and auto against 401.', &
+            'certificate: how often estimated errors bound the true ones, by family of gaps:', &
+            'ellipses exactly, all others by NORM on two grids (minutes; with -o FILE the', &
+            'shares on stdout).', &
+            'scenes: the scenes of example/scenes by Hertz, strips, auto and Kalker''s methods.', &
+            'trade: errors and microseconds of many methods and resolutions, one row per', &
+            'contact and method. Columns of FILE: see reference/trade_methods.csv.', &
+            'extremes: the errors of everything at its extremes: strips, ellipses, loads,', &
+            'creepages, gaps beyond all use; noise of one unit in the last place; rounding', &
+            'up, down and to zero. CSV: chapter,case,method,x_name,x,y_name,y,quantity,', &
+            'value,judge,status.', &
+            'The contacts are the paper''s 20; trade and forces add 161 Hertz ellipses.']
+        integer :: i
+
+        text = ''
+        do i = 1, size(lines)
+            text = text // trim(lines(i)) // new_line('a')
+        end do
+    end function about
+end module faststrip_lab_bench

@@ -1,0 +1,87 @@
+!> The truth that estimates of errors are judged by: Kalker's method on two grids, carried on.
+!>
+!> Penetration and largest pressure are of second order in the sides of the elements, the area of
+!> first. Half the difference of the two grids is what the truth itself may be wrong by: where that
+!> is no small part of an error, nothing can be said of its estimate.
+module faststrip_lab_bench_certificate_truth
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, st_ok
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
+                                       set_norm_gap, norm_solve
+    implicit none
+    private
+
+    public :: truth_t, find_truth, is_certain, elements_along, elements_across
+
+    !> Elements of the coarser grid along and across the contact; the finer one has twice as many.
+    integer, parameter :: elements_along = 60, elements_across = 120
+
+    integer, parameter :: most_elements = 200000 ! of the finer grid
+
+    ! What the truth may be wrong by: so much of the error, or so much of the figure. Estimates
+    ! with 41
+    ! strips go down to 2e-4; five times as much would leave errors in that are those of the truth.
+    real(wp), parameter :: share_of_error = 0.3_wp, least = 1.0e-4_wp
+
+    !> Figures of a contact. Penetrations count from the lowest gap.
+    type :: truth_t
+        real(wp) :: figure(3) = 0.0_wp   !! penetration, mm, pmax, MPa, area, mm2
+        real(wp) :: doubt(3) = 0.0_wp    !! what they may be wrong by, relative
+        type(normal_result_t) :: coarse  !! of the coarser grid
+        type(certificate_t) :: estimated !! its own estimates
+    end type truth_t
+
+contains
+
+    !> Solve a contact on both grids. No truth is found where a grid does not hold the contact, or
+    !> where it runs to the end of the gap data.
+    subroutine find_truth(workspace, gap, h_lowest, compliance, load, strips, truth, is_found)
+        type(norm_workspace_t), intent(inout) :: workspace
+        type(gap_t), intent(in) :: gap
+        real(wp), intent(in) :: h_lowest           !! lowest height of the gap, mm
+        real(wp), intent(in) :: compliance, load   !! 1/MPa, N
+        type(contact_strips_t), intent(in) :: strips !! a solution, for the size of the grids
+        type(truth_t), intent(out) :: truth
+        logical, intent(out) :: is_found
+
+        type(norm_options_t) :: options
+        type(normal_result_t) :: fine
+        type(status_t) :: status
+        real(wp) :: coarse_figure(3), fine_figure(3)
+
+        is_found = .false.
+        options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
+        options%dy = (strips%y_right(strips%n) - strips%y_left(1))/elements_across
+        options%most_elements = most_elements
+        call reserve_norm(workspace, size(gap%y), status)
+        if (.not. is_error(status)) call set_norm_gap(workspace, gap, status)
+        if (is_error(status)) return
+        call norm_solve(workspace, compliance, load, options, truth%coarse, status)
+        if (status%code /= st_ok .or. .not. workspace%is_estimated) return
+        truth%estimated = workspace%certificate
+        options%dx = 0.5_wp*options%dx
+        options%dy = 0.5_wp*options%dy
+        options%two_levels = .false.
+        options%warm_start = .true.
+        call norm_solve(workspace, compliance, load, options, fine, status)
+        if (status%code /= st_ok) return
+        coarse_figure = [truth%coarse%penetration - h_lowest, truth%coarse%pmax, truth%coarse%area]
+        fine_figure = [fine%penetration - h_lowest, fine%pmax, fine%area]
+        truth%figure(:2) = fine_figure(:2) + (fine_figure(:2) - coarse_figure(:2))/3.0_wp
+        truth%figure(3) = 2.0_wp*fine_figure(3) - coarse_figure(3)
+        is_found = all(truth%figure > 0.0_wp)
+        if (is_found) truth%doubt = 0.5_wp*abs(fine_figure - coarse_figure)/truth%figure
+    end subroutine find_truth
+
+    !> Is the truth better known than an error, or good enough?
+    elemental logical function is_certain(doubt, error)
+        real(wp), intent(in) :: doubt !! relative
+        real(wp), intent(in) :: error !! relative, not negative
+
+        is_certain = doubt <= max(share_of_error*error, least)
+    end function is_certain
+end module faststrip_lab_bench_certificate_truth

@@ -1,0 +1,143 @@
+!> Extremes of the tangential problem: creepages and spin from nothing to 10, friction from none
+!> to 2, Poisson's ratio to 0.5, by every method there is.
+!>
+!> What is measured, of mu N: the size of the force, which must not exceed 1; what a millionth
+!> more creepage changes (continuity: about a millionth); what the opposite creepages leave of it
+!> (0, forces are odd); friction power of the wrong sign (0). Without friction, of N.
+module faststrip_lab_bench_extremes_tangential
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_writer_t
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_lab_bench_ellipse, only: make_ellipse
+    use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
+    use faststrip_command_console, only: fail_on_error, progress
+    use faststrip_command_methods, only: methods_t, tangential_methods, n_force_laws
+    use faststrip_command_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
+    use faststrip_command_tangential_stage, only: solve_tangential
+    implicit none
+    private
+
+    public :: tangential_extremes
+
+    real(wp), parameter :: sizes(8) = [0.0_wp, 1.0e-6_wp, 1.0e-4_wp, 1.0e-3_wp, 1.0e-2_wp, &
+                                       0.1_wp, 1.0_wp, 10.0_wp]
+    real(wp), parameter :: frictions(4) = [0.0_wp, 0.05_wp, 0.3_wp, 2.0_wp]
+    real(wp), parameter :: poisson(3) = [0.0_wp, 0.28_wp, 0.5_wp]
+    character(len=*), parameter :: motions(4) = [character(len=4) :: 'cksi', 'ceta', 'cphi', 'all']
+    real(wp), parameter :: ratio = 1.5_wp, load = 1.0e5_wp ! a/b, N
+    integer, parameter :: points = 401
+    real(wp), parameter :: small = 1.0e-6_wp
+
+contains
+
+    !> Measure and write.
+    subroutine tangential_extremes(quick, writer)
+        logical, intent(in) :: quick                !! few points
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+
+        integer :: method, i
+
+        do method = 1, n_force_laws
+            do i = 1, size(poisson), merge(2, 1, quick)
+                call progress('tangential methods', method, n_force_laws)
+                call one_method(trim(tangential_methods(method)), poisson(i), quick, writer)
+            end do
+        end do
+    end subroutine tangential_extremes
+
+    subroutine one_method(method, nu, quick, writer)
+        character(len=*), intent(in) :: method
+        real(wp), intent(in) :: nu
+        logical, intent(in) :: quick
+        type(csv_writer_t), intent(inout) :: writer
+
+        type(solver_t) :: solver
+        type(outcome_t) :: outcome
+        type(material_t) :: material
+        type(normal_result_t) :: truth
+        type(gap_t) :: gap
+        type(status_t) :: status
+        type(row_t) :: row
+        integer :: m, c, k
+
+        material = material_t(nu_wheel=nu, nu_rail=nu)
+        call make_ellipse(normal_compliance(material), ratio, load, points, gap, truth)
+        call make_solver(methods_t(normal='strip', tangential=method), .false., solver, status)
+        call fail_on_error(status)
+        call solve(solver, gap, material, 0.3_wp, demand_t(load=load), creepage_t(), outcome, &
+                   status)
+        do m = 1, size(motions)
+            do c = 1, size(sizes), merge(2, 1, quick)
+                do k = 1, size(frictions), merge(3, 1, quick)
+                    row = row_t(chapter='tangential', method=method, x_name='creepage', &
+                                x=sizes(c), y_name='mu', y=frictions(k))
+                    write (row%case, '(2a, f0.2)') trim(motions(m)), ' nu = 0', nu
+                    if (is_error(status)) then
+                        row%quantity = 'force'
+                        call status_of(status, row)
+                        call put_row(writer, row)
+                        cycle
+                    end if
+                    call one_motion(solver, material, trim(motions(m)), row, writer)
+                end do
+            end do
+        end do
+    end subroutine one_method
+
+    !> The rows of one creepage and friction, which are the row's x and y.
+    subroutine one_motion(solver, material, motion, row, writer)
+        type(solver_t), intent(in) :: solver
+        type(material_t), intent(in) :: material
+        character(len=*), intent(in) :: motion
+        type(row_t), intent(inout) :: row
+        type(csv_writer_t), intent(inout) :: writer
+
+        type(tangential_result_t) :: here, next, opposite
+        type(status_t) :: status
+        real(wp) :: unit
+
+        unit = load
+        if (row%y > 0.0_wp) unit = row%y*load
+        call solve_tangential(solver%normal, material, row%y, creepage_of(motion, row%x), here, &
+                              status)
+        call status_of(status, row)
+        call put('force', hypot(here%fx, here%fy)/unit)
+        call put('negative_power', max(0.0_wp, -here%friction_power)/unit)
+        if (.not. row%has_value) return
+        call solve_tangential(solver%normal, material, row%y, creepage_of(motion, -row%x), &
+                              opposite, status)
+        call status_of(status, row)
+        call put('oddness', hypot(here%fx + opposite%fx, here%fy + opposite%fy)/unit)
+        call solve_tangential(solver%normal, material, row%y, &
+                              creepage_of(motion, (1.0_wp + small)*max(row%x, small**2)), next, &
+                              status)
+        call status_of(status, row)
+        call put('step', hypot(here%fx - next%fx, here%fy - next%fy)/unit)
+
+    contains
+
+        subroutine put(quantity, value)
+            character(len=*), intent(in) :: quantity
+            real(wp), intent(in) :: value
+
+            row%quantity = quantity
+            row%value = value
+            call put_row(writer, row)
+        end subroutine put
+    end subroutine one_motion
+
+    pure type(creepage_t) function creepage_of(motion, size_)
+        character(len=*), intent(in) :: motion
+        real(wp), intent(in) :: size_
+
+        creepage_of = creepage_t(0.0_wp, 0.0_wp, 0.0_wp)
+        if (motion == 'cksi' .or. motion == 'all') creepage_of%cksi = size_
+        if (motion == 'ceta' .or. motion == 'all') creepage_of%ceta = size_
+        if (motion == 'cphi' .or. motion == 'all') creepage_of%cphi = size_
+    end function creepage_of
+end module faststrip_lab_bench_extremes_tangential

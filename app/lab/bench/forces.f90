@@ -1,0 +1,361 @@
+!> `faststrip bench forces`: errors of all tangential methods against Kalker's exact theory.
+!>
+!> Four sets: Hertz contacts (`hertz_creep.csv`), the paper's 20 contacts with either sign of the
+!> creepages (`s1002_uic60_B.csv`, `_A.csv`), and contacts of many kinds solved by NORM and TANG
+!> (`reference/scenes`, in two groups by odd and even number); all but the first by strips.
+!> Errors of forces in % of mu N, of the moment in % of mu N c, c = sqrt(area/pi), against the
+!> extrapolated reference; of the friction power in % of what the reference's forces give,
+!> `-(Fx cksi + Fy ceta + Mz cphi)`; of the stick fraction in points of the reference's share of
+!> elements.
+module faststrip_lab_bench_forces
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, &
+                                   cell_text, csv_writer_t, open_csv, put_comment, put_header, &
+                                   put_cell, end_row, close_csv
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_material, only: material_t
+    use faststrip_normal_hertz, only: hertz_strips
+    use faststrip_normal_strips, only: reserve_strips
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_files_gap, only: read_gap_file
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_contact_methods, only: gives_stick, tangential_method, normal_hertz
+    use faststrip_command_methods, only: methods_t, all_methods => tangential_methods, &
+                                         n_force_laws, word_length
+    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
+                                              make_room, solve_normal
+    use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
+                                                   scene_material
+    use faststrip_command_tangential_stage, only: solve_tangential
+    implicit none
+    private
+
+    public :: bench_forces
+
+    ! Those the library knows: TANG, the last of the program's, is what others are judged by.
+    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
+        all_methods(:n_force_laws)
+
+    !> Errors of one contact: Fx, Fy, force vector, Mz, power, stick fraction; in %.
+    integer, parameter :: n_errors = 6
+    ! The reference has the power of a contact that slides little with few digits.
+    real(wp), parameter :: smallest_share = 0.05_wp
+
+    !> What CONTACT finds.
+    type :: reference_t
+        real(wp) :: load = 0.0_wp, mu = 0.0_wp, size = 0.0_wp ! N, -, mm
+        type(creepage_t) :: creepage
+        real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp     ! N, N mm
+        real(wp) :: stick = 0.0_wp
+    end type reference_t
+
+    !> Errors of one set, summed up by group and method.
+    type :: tally_t
+        integer :: n_groups = 0
+        character(len=word_length) :: group(10) = ''
+        real(wp) :: total(n_errors, 10, size(tangential_methods)) = 0.0_wp
+        real(wp) :: largest(n_errors, 10, size(tangential_methods)) = 0.0_wp
+        integer :: number(n_errors, 10, size(tangential_methods)) = 0
+    end type tally_t
+
+contains
+
+    !> Compare everything, write the CSV and say the mean and largest errors.
+    subroutine bench_forces(file, folder, scenes)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with CONTACT's results
+        character(len=*), intent(in) :: scenes !! CSV of the contacts of many kinds
+
+        type(csv_writer_t) :: writer
+        type(csv_table_t) :: table
+        type(tally_t) :: tally
+        type(status_t) :: status
+
+        ! Read before anything is written.
+        call read_csv(scenes, table, status)
+        call fail_on_error(status)
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'errors against extrapolated references: forces in % of mu N, ' &
+                         // 'moment in % of mu N c, power in %, stick fraction in points')
+        call put_header(writer, [character(len=14) :: 'set', 'group', 'case', 'method', &
+                                 'Fx_err', 'Fy_err', 'force_err', 'Mz_err', 'power_err', &
+                                 'stick_err'])
+        call compare_hertz(folder, writer, tally)
+        call tell('Hertz contacts', tally)
+        call compare_shifts(folder, 's1002_uic60_B', writer, tally)
+        call compare_shifts(folder, 's1002_uic60_A', writer, tally)
+        call compare_scenes(table, writer, tally)
+        call tell('scenes', tally)
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_forces
+
+    !> Ellipses, all methods on the ellipse itself or on 15 strips of it.
+    subroutine compare_hertz(folder, writer, tally)
+        character(len=*), intent(in) :: folder
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(14) = [character(len=9) :: 'a_mm', 'b_mm', 'mu', 'N', &
+            'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap', 'n_adh', 'n_con', &
+            'G', 'nu']
+        type(csv_table_t) :: table
+        type(methods_t) :: methods
+        type(normal_stage_t) :: normal
+        type(reference_t) :: reference
+        type(material_t) :: material
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :), column(:)
+        character(len=word_length) :: group
+        integer :: i, case_column
+
+        tally = tally_t()
+        call read_csv(folder // '/hertz_creep.csv', table, status)
+        call fail_on_error(status)
+        call require_column(table, 'case', case_column, status)
+        call fail_on_error(status)
+        allocate (v(table%n_rows, size(names)), source=0.0_wp)
+        do i = 1, size(names)
+            call column_numbers(table, trim(names(i)), column, status)
+            call fail_on_error(status)
+            v(:, i) = column
+        end do
+        methods%normal = 'hertz'
+        call make_normal_stage(methods, normal)
+        call reserve_strips(normal%workspace%strips, methods%strips_per_patch, status)
+        call fail_on_error(status)
+        normal%workspace%solved_by = normal_hertz
+        do i = 1, table%n_rows
+            associate (hertz => normal%workspace%hertz)
+                hertz%a = v(i, 1)
+                hertz%b = v(i, 2)
+                hertz%load = v(i, 4)
+                hertz%area = pi*hertz%a*hertz%b
+                hertz%pmax = 1.5_wp*hertz%load/hertz%area
+                reference = reference_t(v(i, 4), v(i, 3), sqrt(hertz%a*hertz%b), &
+                                        creepage_t(v(i, 5), v(i, 6), v(i, 7)), v(i, 8), v(i, 9), &
+                                        v(i, 10), v(i, 11)/v(i, 12))
+            end associate
+            material%e_wheel = 2.0_wp*v(i, 13)*(1.0_wp + v(i, 14))
+            material%e_rail = material%e_wheel
+            material%nu_wheel = v(i, 14)
+            material%nu_rail = v(i, 14)
+            call hertz_strips(normal%workspace%hertz, methods%strips_per_patch, &
+                              normal%workspace%strips, status)
+            call fail_on_error(status)
+            group = cell_text(table, i, case_column)
+            call compare(normal, material, reference, 'hertz', trim(group), i, writer, tally)
+        end do
+        call total_group(tally)
+    end subroutine compare_hertz
+
+    !> The paper's contacts, the normal problem by strips and by Hertz.
+    subroutine compare_shifts(folder, name, writer, tally)
+        character(len=*), intent(in) :: folder, name
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(10) = [character(len=16) :: 'Fn_N', 'cksi', 'ceta', &
+            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_extrap_mm2', &
+            'n_adhesion', 'n_contact']
+        type(csv_table_t) :: table
+        type(methods_t) :: methods
+        type(normal_stage_t) :: normal
+        type(normal_result_t) :: figures
+        type(reference_t) :: reference
+        type(material_t) :: material
+        type(gap_t) :: gap
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :), column(:)
+        integer :: i, shift_column
+
+        tally = tally_t()
+        call read_csv(folder // '/' // name // '.csv', table, status)
+        call fail_on_error(status)
+        call require_column(table, 'yw_mm', shift_column, status)
+        call fail_on_error(status)
+        allocate (v(table%n_rows, size(names)), source=0.0_wp)
+        do i = 1, size(names)
+            call column_numbers(table, trim(names(i)), column, status)
+            call fail_on_error(status)
+            v(:, i) = column
+        end do
+        material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
+        call make_normal_stage(methods, normal)
+        do i = 1, table%n_rows
+            call read_gap_file(folder // '/gaps/shift_' // cell_text(table, i, shift_column) &
+                               // '.csv', gap, status)
+            call fail_on_error(status)
+            call make_room(normal, gap, status)
+            call fail_on_error(status)
+            call solve_normal(normal, gap, material, demand_t(load=v(i, 1)), figures, status)
+            if (is_error(status)) call fail_on_error(status)
+            reference = reference_t(v(i, 1), 0.3_wp, sqrt(v(i, 8)/pi), &
+                                    creepage_t(v(i, 2), v(i, 3), v(i, 4)), v(i, 5), v(i, 6), &
+                                    v(i, 7), v(i, 9)/v(i, 10))
+            call compare(normal, material, reference, name, 'all', i, writer, tally)
+        end do
+        call tell(name, tally)
+    end subroutine compare_shifts
+
+    !> Contacts of many kinds.
+    subroutine compare_scenes(table, writer, tally)
+        type(csv_table_t), intent(in) :: table
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(9) = [character(len=16) :: 'number', 'cksi', 'ceta', &
+            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
+            'stick_fraction']
+        type(normal_stage_t) :: normal
+        type(normal_result_t) :: figures
+        type(reference_t) :: reference
+        type(reference_scene_t) :: scene
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :), column(:)
+        integer :: i
+
+        tally = tally_t()
+        allocate (v(table%n_rows, size(names)), source=0.0_wp)
+        do i = 1, size(names)
+            call column_numbers(table, trim(names(i)), column, status)
+            call fail_on_error(status)
+            v(:, i) = column
+        end do
+        call make_normal_stage(methods_t(), normal)
+        do i = 1, table%n_rows
+            call make_reference_scene(nint(v(i, 1)), scene)
+            call make_room(normal, scene%gap, status)
+            call fail_on_error(status)
+            call solve_normal(normal, scene%gap, scene_material(scene), &
+                              demand_t(load=scene%load), figures, status)
+            if (is_error(status)) call fail_on_error(status)
+            reference = reference_t(scene%load, scene%mu, sqrt(v(i, 8)/pi), &
+                                    creepage_t(v(i, 2), v(i, 3), v(i, 4)), v(i, 5), v(i, 6), &
+                                    v(i, 7), v(i, 9))
+            call compare(normal, scene_material(scene), reference, 'scenes', &
+                         trim(merge('even', 'odd ', modulo(scene%number, 2) == 0)), scene%number, &
+                         writer, tally)
+        end do
+        call total_group(tally)
+    end subroutine compare_scenes
+
+    !> All methods on one contact.
+    subroutine compare(normal, material, reference, set, group, number, writer, tally)
+        type(normal_stage_t), intent(inout) :: normal
+        type(material_t), intent(in) :: material
+        type(reference_t), intent(in) :: reference
+        character(len=*), intent(in) :: set, group
+        integer, intent(in) :: number
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(inout) :: tally
+
+        type(tangential_result_t) :: result
+        type(status_t) :: status
+        real(wp) :: error(n_errors), force, power
+        logical :: counts(n_errors)
+        integer :: m, j
+
+        force = reference%mu*reference%load
+        power = -(reference%fx*reference%creepage%cksi + reference%fy*reference%creepage%ceta &
+                  + reference%mz*reference%creepage%cphi)
+        do m = 1, size(tangential_methods)
+            normal%methods%tangential = tangential_method(tangential_methods(m))
+            call solve_tangential(normal, material, reference%mu, reference%creepage, result, &
+                                  status)
+            if (is_error(status)) call fail_on_error(status)
+            error(1) = (result%fx - reference%fx)/force
+            error(2) = (result%fy - reference%fy)/force
+            error(3) = hypot(error(1), error(2))
+            error(4) = (result%mz - reference%mz)/(force*reference%size)
+            error(5) = result%friction_power/power - 1.0_wp
+            error(6) = result%stick_fraction - reference%stick
+            error = 100.0_wp*error
+            counts = .true.
+            counts(5) = hypot(reference%fx, reference%fy) > smallest_share*force
+            counts(6) = gives_stick(normal%methods%tangential)
+            call put_cell(writer, set)
+            call put_cell(writer, group)
+            call put_cell(writer, number)
+            call put_cell(writer, trim(tangential_methods(m)))
+            do j = 1, n_errors
+                if (counts(j)) then
+                    call put_cell(writer, error(j))
+                else
+                    call put_cell(writer, '')
+                end if
+            end do
+            call end_row(writer)
+            call add_errors(tally, group, m, abs(error), counts)
+        end do
+    end subroutine compare
+
+    subroutine add_errors(tally, group, m, error, counts)
+        type(tally_t), intent(inout) :: tally
+        character(len=*), intent(in) :: group
+        integer, intent(in) :: m
+        real(wp), intent(in) :: error(:)
+        logical, intent(in) :: counts(:)
+
+        integer :: g
+
+        do g = 1, tally%n_groups
+            if (tally%group(g) == group) exit
+        end do
+        if (g > tally%n_groups) then
+            tally%n_groups = g
+            tally%group(g) = group
+        end if
+        where (counts)
+            tally%total(:, g, m) = tally%total(:, g, m) + error
+            tally%largest(:, g, m) = max(tally%largest(:, g, m), error)
+            tally%number(:, g, m) = tally%number(:, g, m) + 1
+        end where
+    end subroutine add_errors
+
+    !> Add the group of all groups.
+    subroutine total_group(tally)
+        type(tally_t), intent(inout) :: tally
+
+        integer :: g, n
+
+        n = tally%n_groups
+        g = n + 1
+        tally%n_groups = g
+        tally%group(g) = 'all'
+        tally%total(:, g, :) = sum(tally%total(:, :n, :), 2)
+        tally%largest(:, g, :) = maxval(tally%largest(:, :n, :), 2)
+        tally%number(:, g, :) = sum(tally%number(:, :n, :), 2)
+    end subroutine total_group
+
+    subroutine tell(what, tally)
+        character(len=*), intent(in) :: what
+        type(tally_t), intent(in) :: tally
+
+        character(len=140) :: line
+        integer :: g, m, j
+
+        do g = 1, tally%n_groups
+            write (line, '(3a, i0, a)') what, ', ', trim(tally%group(g)) // ' (', &
+                tally%number(1, g, 1), '): mean | max of'
+            call note(trim(line))
+            write (line, '(t26, 6a15)') 'Fx', 'Fy', 'force', 'Mz', 'power', 'stick'
+            call note(trim(line))
+            do m = 1, size(tangential_methods)
+                line = '  ' // tangential_methods(m)
+                do j = 1, n_errors
+                    associate (n => tally%number(j, g, m), cell => line(12 + 15*j:26 + 15*j))
+                        if (n > 0) write (cell, '(f8.2, f7.1)') tally%total(j, g, m)/n, &
+                            min(tally%largest(j, g, m), 9999.9_wp)
+                    end associate
+                end do
+                call note(trim(line))
+            end do
+        end do
+    end subroutine tell
+end module faststrip_lab_bench_forces

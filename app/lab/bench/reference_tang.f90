@@ -1,0 +1,180 @@
+!> The part of `faststrip bench reference` that times TANG.
+!>
+!> Pressures are NORM's on the same grid, which is not counted. Iterations are those inside Newton's
+!> steps, each applies the influence once.
+module faststrip_lab_bench_reference_tang
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_writer_t, put_cell, end_row
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
+                                       set_norm_gap, norm_solve
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
+                                           edges_of_norm
+    use faststrip_lab_bench_cases, only: bench_case_t
+    use faststrip_command_clock, only: microseconds, cpu_microseconds, median, spread_of, &
+                                       spread_text, spread_names
+    use faststrip_command_console, only: fail_on_error, note
+    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    implicit none
+    private
+
+    public :: measure_tang
+
+    real(wp), parameter :: mu = 0.3_wp
+    ! From nothing with new plans and influences, and with those of the time before; from the
+    ! solution for 5 % more or less creepage.
+    integer, parameter :: new_plans = 1, cold = 2, warm = 3
+    character(len=*), parameter :: starts(3) = [character(len=13) :: &
+        'new_plans', 'cold', 'warm_creepage']
+    real(wp), parameter :: creepage_factor = 1.05_wp
+    integer, parameter :: most_runs = 50
+
+contains
+
+    !> All starts with one number of elements, and as many contacts as the time allows.
+    subroutine measure_tang(cases, elements, budget_us, writer)
+        type(bench_case_t), intent(in) :: cases(:)    !! the contacts
+        integer, intent(in) :: elements               !! in contact, about
+        real(wp), intent(in) :: budget_us             !! for all, us
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+
+        real(wp) :: us(size(cases), size(starts))
+        integer(int64) :: begin, now
+        integer :: i, k, start, solved
+
+        solved = 0
+        call system_clock(begin)
+        do k = 1, size(cases)
+            ! Scattered, so that what the time leaves out is no end of the sweep.
+            i = 1 + modulo(7*(k - 1), size(cases))
+            if (modulo(size(cases), 7) == 0) i = k
+            solved = solved + 1
+            call measure_case(cases(i), sqrt(cases(i)%area/elements), &
+                              budget_us/(size(starts)*size(cases)), writer, us(solved, :))
+            call system_clock(now)
+            if (microseconds(begin, now) > budget_us) exit
+        end do
+        call note('tang, ' // integer_text(elements) // ' elements, ' // integer_text(solved) &
+                  // ' contacts, processor ms, median/95th percentile/worst of them:' &
+                  // times_text())
+
+    contains
+
+        function times_text() result(text)
+            character(len=:), allocatable :: text
+
+            text = ''
+            do start = 1, size(starts)
+                text = text // ' ' // trim(starts(start)) // ' ' &
+                       // spread_text(1.0e-3_wp*us(:solved, start))
+            end do
+        end function times_text
+    end subroutine measure_tang
+
+    !> All starts of one contact.
+    subroutine measure_case(case, dx, budget_us, writer, us)
+        type(bench_case_t), intent(in) :: case
+        real(wp), intent(in) :: dx, budget_us
+        type(csv_writer_t), intent(inout) :: writer
+        real(wp), intent(out) :: us(:) !! medians
+
+        type(norm_workspace_t) :: norm
+        type(tang_options_t) :: options
+        type(normal_result_t) :: normal
+        type(status_t) :: status
+        real(wp), dimension(0:most_runs) :: times, products
+        real(wp) :: figures(size(spread_names))
+        integer :: start, figure, runs, elements
+
+        call reserve_norm(norm, size(case%gap%y), status)
+        call fail_on_error(status)
+        call set_norm_gap(norm, case%gap, status)
+        call fail_on_error(status)
+        call norm_solve(norm, normal_compliance(material_t()), case%load, &
+                        norm_options_t(dx=dx, dy=dx), normal, status)
+        call fail_on_error(status)
+        options%edges = edges_of_norm
+        do start = 1, size(starts)
+            call run_again(runs)
+            figures = spread_of(times(1:runs))
+            us(start) = figures(1)
+            call put_cell(writer, 'tang')
+            call put_cell(writer, trim(starts(start)))
+            call put_cell(writer, options%tolerance)
+            call put_cell(writer, elements)
+            call put_cell(writer, us(start))
+            call put_cell(writer, median(products(1:runs)))
+            call put_cell(writer, median(products(1:runs)))
+            call put_cell(writer, dx)
+            call put_cell(writer, norm%grid%nx*norm%grid%ny)
+            call put_cell(writer, compiler_flags())
+            call put_cell(writer, compiler_name())
+            call put_cell(writer, cpu_name())
+            call put_cell(writer, case%name)
+            call put_cell(writer, runs)
+            do figure = 1, size(figures)
+                call put_cell(writer, figures(figure))
+            end do
+            call end_row(writer)
+        end do
+
+    contains
+
+        !> The first run, number 0, makes plans and what the others start from.
+        subroutine run_again(runs)
+            integer, intent(out) :: runs
+
+            type(tang_workspace_t) :: kept
+            integer(int64) :: begin, now
+            integer :: run
+
+            call system_clock(begin)
+            runs = 0
+            do run = merge(1, 0, start == new_plans), most_runs
+                options%warm_start = start == warm .and. run > 0
+                if (start == new_plans) then
+                    call one_run_of_new(run)
+                else
+                    call one_run(kept, run)
+                end if
+                runs = run
+                call system_clock(now)
+                if (microseconds(begin, now) > budget_us .and. run >= 1) exit
+            end do
+        end subroutine run_again
+
+        subroutine one_run_of_new(run)
+            integer, intent(in) :: run
+
+            type(tang_workspace_t) :: tang
+
+            call one_run(tang, run)
+        end subroutine one_run_of_new
+
+        subroutine one_run(tang, run)
+            type(tang_workspace_t), intent(inout) :: tang
+            integer, intent(in) :: run
+
+            type(tangential_result_t) :: result
+            type(creepage_t) :: creepage
+            real(wp) :: from, factor
+
+            factor = merge(creepage_factor, 1.0_wp, start == warm .and. modulo(run, 2) == 0)
+            associate (c => case%creepage)
+                creepage = creepage_t(factor*c%cksi, factor*c%ceta, factor*c%cphi)
+            end associate
+            from = cpu_microseconds()
+            call tang_solve(tang, norm%grid, material_t(), mu, creepage, options, result, status)
+            times(run) = cpu_microseconds() - from
+            if (is_error(status)) call fail_on_error(status, case%name)
+            products(run) = tang%products
+            elements = tang%elements
+        end subroutine one_run
+    end subroutine measure_case
+end module faststrip_lab_bench_reference_tang

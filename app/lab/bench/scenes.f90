@@ -1,0 +1,93 @@
+!> `faststrip bench scenes`: the scenes of example/scenes by several methods.
+module faststrip_lab_bench_scenes
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
+    use faststrip_base_kinds, only: wp
+    use faststrip_command_case_file, only: case_t
+    use faststrip_command_console, only: fail_on_error, put_origin, progress
+    use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
+    use faststrip_command_methods, only: methods_t
+    use faststrip_command_result_csv, only: result_columns, put_result
+    use faststrip_command_scene, only: scene_t
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    implicit none
+    private
+
+    public :: bench_scenes
+
+    character(len=*), parameter :: labels(5) = [character(len=22) :: 'Kalker', &
+        'Hertz + linear', 'Hertz + FASTSIM', 'strips 15 + FASTSTRIP', 'auto 2 %']
+
+contains
+
+    !> Solve every scene by every method and write the CSV.
+    subroutine bench_scenes(file, folder)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with the case files
+
+        type(csv_writer_t) :: writer
+        type(case_t) :: case
+        type(scene_t) :: scene
+        type(solver_t) :: solver
+        type(outcome_t) :: outcome
+        type(status_t) :: status
+        integer :: i, m, run
+
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'Kalker: NORM and TANG on about 30 elements across')
+        call put_header(writer, [[character(len=19) :: 'scene', 'method', 'N_N', 'mu'], &
+                                 result_columns])
+        do i = 1, size(scene_names)
+            call read_example_scene(folder, i, case, scene)
+            do m = 1, size(labels)
+                call make_solver(methods_of(m), .false., solver, status)
+                call fail_on_error(status)
+                ! The second time nothing has to be allocated or planned.
+                do run = 1, 2
+                    call solve(solver, scene%gap, case%material, case%mu, scene%demand, &
+                               scene%creepage, outcome, status)
+                end do
+                call put_cell(writer, trim(scene_names(i)))
+                call put_cell(writer, trim(labels(m)))
+                if (scene%demand%by_load) then
+                    call put_cell(writer, scene%demand%load)
+                else if (is_error(status)) then
+                    call put_cell(writer, '')
+                else
+                    call put_cell(writer, outcome%normal%load)
+                end if
+                call put_cell(writer, case%mu)
+                call put_result(writer, outcome, status)
+                call end_row(writer)
+                call release_solver(solver)
+            end do
+            call progress('scenes', i, size(scene_names))
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_scenes
+
+    !> The methods behind a label.
+    type(methods_t) function methods_of(m) result(methods)
+        integer, intent(in) :: m
+
+        real(wp), parameter :: never_met = 1.0e-9_wp
+
+        select case (m)
+        case (1)
+            methods%normal = 'auto'
+            methods%tolerance = never_met
+        case (2)
+            methods%normal = 'hertz'
+            methods%tangential = 'linear'
+        case (3)
+            methods%normal = 'hertz'
+            methods%tangential = 'fastsim'
+        case (5)
+            methods%normal = 'auto'
+        end select
+    end function methods_of
+end module faststrip_lab_bench_scenes

@@ -1,0 +1,230 @@
+!> `faststrip bench tangential`: what the tangential methods cost, side by side in one run.
+!>
+!> All are times of the processor: of many rounds the median (`us` is an older name of it), the 95th
+!> percentile and the worst; `us_with_field` is a median.
+module faststrip_lab_bench_tangential
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, number_text
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_base_material, only: material_t
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
+    use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
+    use faststrip_command_clock, only: cpu_microseconds, median, spread_of, spread_text, &
+                                       spread_names, cpu_columns
+    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_contact_methods, only: gives_elements, tangential_method
+    use faststrip_contact_solve, only: reserve_contact_field
+    use faststrip_command_methods, only: methods_t, all_methods => tangential_methods, &
+                                         n_force_laws, word_length
+    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
+                                              make_room, solve_normal
+    use faststrip_command_tangential_stage, only: solve_tangential
+    implicit none
+    private
+
+    public :: bench_tangential
+
+    ! Those the library knows: TANG, the last of the program's, is what others are judged by.
+    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
+        all_methods(:n_force_laws)
+
+    ! Strips across the largest patch and points along each.
+    integer, parameter :: sizes(4) = [5, 15, 31, 61]
+    ! What the others are measured by, at the same number of elements.
+    character(len=*), parameter :: measure = 'fastsim'
+    real(wp), parameter :: mu = 0.3_wp
+
+    !> Times of all methods on one contact, us.
+    type :: times_t
+        ! Forces only: median, 95th percentile, worst.
+        real(wp) :: forces(size(spread_names), size(tangential_methods)) = 0.0_wp
+        real(wp) :: field(size(tangential_methods)) = 0.0_wp  ! with the elements
+        integer :: elements = 0
+    end type times_t
+
+contains
+
+    !> Measure and write the CSV.
+    subroutine bench_tangential(file, folder, rounds)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with the contacts
+        integer, intent(in) :: rounds          !! how often everything is timed, >= 1
+
+        type(bench_case_t), allocatable :: cases(:)
+        type(times_t), allocatable :: times(:)
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i, k
+
+        call read_bench_cases(folder, cases, status)
+        call fail_on_error(status)
+        allocate (times(size(cases)))
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=16) :: 'method', 'strips', 'points', 'case', &
+                                 'elements', 'us', 'ns_per_element', 'ratio', 'us_with_field', &
+                                 'flags', 'compiler', 'cpu', cpu_columns])
+        do k = 1, size(sizes)
+            do i = 1, size(cases)
+                call measure_case(cases(i), sizes(k), rounds, times(i))
+                call put_times(writer, cases(i)%name, sizes(k), times(i))
+            end do
+            call tell(sizes(k), times)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_tangential
+
+    !> Solve a contact once and time all methods on it, turn about, so that what else happens on
+    !> the machine falls on all of them.
+    subroutine measure_case(case, n, rounds, times)
+        type(bench_case_t), intent(in) :: case
+        integer, intent(in) :: n, rounds
+        type(times_t), intent(out) :: times
+
+        real(wp), parameter :: shortest_us = 50.0_wp
+        type(methods_t) :: methods
+        type(normal_stage_t) :: normal
+        type(normal_result_t) :: figures
+        type(tangential_field_t) :: field
+        type(tangential_result_t) :: result
+        type(status_t) :: status
+        real(wp), dimension(rounds, size(tangential_methods)) :: forces, with_field
+        integer, dimension(size(tangential_methods)) :: repetitions
+        integer :: m, round
+
+        methods%strips_per_patch = n
+        methods%points_per_strip = n
+        call make_normal_stage(methods, normal)
+        call make_room(normal, case%gap, status)
+        call fail_on_error(status)
+        call solve_normal(normal, case%gap, material_t(), demand_t(load=case%load), figures, status)
+        call fail_on_error(status)
+        ! The same number of elements for FASTSIM on one patch.
+        normal%methods%fastsim_nx = n
+        normal%methods%fastsim_ny = normal%workspace%strips%n
+        times%elements = n*normal%workspace%strips%n
+        call reserve_contact_field(field, normal%methods, status)
+        call fail_on_error(status)
+        repetitions = 1
+        do m = 1, size(tangential_methods)
+            do
+                if (time_of(m, .false.)*repetitions(m) > shortest_us) exit
+                repetitions(m) = 2*repetitions(m)
+            end do
+        end do
+        with_field = 0.0_wp
+        do round = 1, rounds
+            do m = 1, size(tangential_methods)
+                forces(round, m) = time_of(m, .false.)
+                if (has_elements(tangential_methods(m))) with_field(round, m) = time_of(m, .true.)
+            end do
+        end do
+        do m = 1, size(tangential_methods)
+            times%forces(:, m) = spread_of(forces(:, m))
+            times%field(m) = median(with_field(:, m))
+        end do
+
+    contains
+
+        real(wp) function time_of(method, wants_field) result(us)
+            integer, intent(in) :: method
+            logical, intent(in) :: wants_field
+
+            real(wp) :: from
+            integer :: i
+
+            normal%methods%tangential = tangential_method(tangential_methods(method))
+            from = cpu_microseconds()
+            do i = 1, repetitions(method)
+                if (wants_field) then
+                    call solve_tangential(normal, material_t(), mu, case%creepage, result, &
+                                          status, field)
+                else
+                    call solve_tangential(normal, material_t(), mu, case%creepage, result, status)
+                end if
+            end do
+            us = (cpu_microseconds() - from)/repetitions(method)
+            if (is_error(status)) call fail_on_error(status)
+        end function time_of
+    end subroutine measure_case
+
+    subroutine put_times(writer, name, n, times)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: n
+        type(times_t), intent(in) :: times
+
+        integer :: m, figure, elements
+
+        do m = 1, size(tangential_methods)
+            elements = merge(times%elements, 1, has_elements(tangential_methods(m)))
+            call put_cell(writer, trim(tangential_methods(m)))
+            call put_cell(writer, n)
+            call put_cell(writer, n)
+            call put_cell(writer, name)
+            call put_cell(writer, elements)
+            call put_cell(writer, times%forces(1, m))
+            call put_cell(writer, 1.0e3_wp*times%forces(1, m)/elements)
+            call put_cell(writer, times%forces(1, m)/times%forces(1, measured()))
+            if (has_elements(tangential_methods(m))) then
+                call put_cell(writer, times%field(m))
+            else
+                call put_cell(writer, '')
+            end if
+            call put_cell(writer, compiler_flags())
+            call put_cell(writer, compiler_name())
+            call put_cell(writer, cpu_name())
+            do figure = 1, size(times%forces, 1)
+                call put_cell(writer, times%forces(figure, m))
+            end do
+            call end_row(writer)
+        end do
+    end subroutine put_times
+
+    !> Say median, 95th percentile and worst over the contacts, of the rest the medians.
+    subroutine tell(n, times)
+        integer, intent(in) :: n
+        type(times_t), intent(in) :: times(:)
+
+        real(wp), dimension(size(times)) :: us, ns, ratio, field
+        character(len=word_length) :: name
+        integer :: m, i
+
+        call note(integer_text(n) // ' strips of ' // integer_text(n) // ' points; processor us, ' &
+                  // 'median/95th percentile/worst, ns per element, ratio to ' // measure &
+                  // ', us with the field:')
+        do m = 1, size(tangential_methods)
+            do i = 1, size(times)
+                us(i) = times(i)%forces(1, m)
+                ns(i) = 1.0e3_wp*us(i)/times(i)%elements
+                ratio(i) = us(i)/times(i)%forces(1, measured())
+                field(i) = times(i)%field(m)
+            end do
+            name = tangential_methods(m)
+            if (.not. has_elements(name)) then
+                call note('  ' // name // spread_text(us))
+            else
+                call note('  ' // name // spread_text(us) // '  ' &
+                          // trim(number_text(median(ns))) // '  ' &
+                          // trim(number_text(median(ratio))) // '  ' &
+                          // trim(number_text(median(field))))
+            end if
+        end do
+    end subroutine tell
+
+    logical function has_elements(name)
+        character(len=*), intent(in) :: name
+
+        has_elements = gives_elements(tangential_method(name))
+    end function has_elements
+
+    !> Number of the method the others are measured by.
+    pure integer function measured()
+        measured = findloc(tangential_methods == measure, .true., 1)
+    end function measured
+end module faststrip_lab_bench_tangential

@@ -1,0 +1,271 @@
+!> `faststrip bench trade`: what every method and resolution costs and how wrong it is.
+!>
+!> Methods come from a CSV file, contacts from the reference folder. One row per contact and
+!> method, so that whoever reads them can take means, largest values and fronts as wanted. A
+!> method of stage `normal` is judged by penetration, largest pressure and area, one of stage
+!> `tangential` or `both` by forces and moment, in units of mu N and mu N c, c = sqrt(area/pi).
+!> Times are those of the processor: of some runs of a contact the median (`us` is an older name of
+!> it), the 95th percentile and the worst.
+module faststrip_lab_bench_trade
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
+                                   cell_integer, cell_number, open_csv, put_comment, put_header, &
+                                   put_cell, end_row, close_csv
+    use faststrip_lab_bench_trade_influence, only: trade_influence
+    use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
+    use faststrip_command_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
+    use faststrip_command_methods, only: methods_t, check_methods
+    use faststrip_command_solver, only: solver_t, outcome_t, demand_t, make_solver, solve
+    use faststrip_lab_bench_trade_cases, only: trade_case_t, read_wheelset_cases, &
+                                               read_hertz_cases, read_scene_cases, n_figures, &
+                                               figure_names
+    implicit none
+    private
+
+    public :: bench_trade
+
+    !> One method at one resolution.
+    type :: entry_t
+        character(len=:), allocatable :: stage !! normal, tangential or both
+        character(len=:), allocatable :: name  !! what the CSV calls it
+        character(len=:), allocatable :: when  !! always, or full: not in the quick bench
+        type(methods_t) :: methods
+    end type entry_t
+
+    character(len=*), parameter :: stages(3) = [character(len=10) :: 'normal', 'tangential', 'both']
+    integer, parameter :: most_repeats = 25
+    integer, parameter :: many_strips = 50
+    ! A method has been timed enough after this, us.
+    real(wp), parameter :: enough_us = 1.5e3_wp
+
+contains
+
+    !> Solve every contact by every method and write the CSV.
+    subroutine bench_trade(file, methods_file, folder, scenes_file, quick)
+        character(len=*), intent(in) :: file         !! to write, - for stdout
+        character(len=*), intent(in) :: methods_file !! with the methods
+        character(len=*), intent(in) :: folder       !! with the contacts
+        character(len=*), intent(in) :: scenes_file  !! the contacts of many kinds
+        logical, intent(in) :: quick                 !! fewer methods and contacts
+
+        type(entry_t), allocatable :: entries(:)
+        type(trade_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        call read_entries(methods_file, entries)
+        call read_wheelset_cases(folder, wheelset, status)
+        call fail_on_error(status)
+        call read_hertz_cases(folder // '/hertz_creep.csv', hertz, status)
+        call fail_on_error(status)
+        call read_scene_cases(scenes_file, scenes, status)
+        call fail_on_error(status)
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
+                         // 'mu N c; times: of the stage, processor')
+        call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
+                                  'normal', 'tangential', 'status', 'us'], &
+                                 [character(len=15) :: 'err_' // figure_names], &
+                                 [character(len=15) :: 'misfit', 'saturation', 'spin_share'], &
+                                 [character(len=15) :: cpu_columns]])
+        call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
+        do i = 1, size(entries)
+            call progress('methods', i, size(entries))
+            if (quick .and. entries(i)%when /= 'always') cycle
+            call run_entry(writer, entries(i), wheelset(:: merge(5, 1, quick)))
+            ! Kalker's methods and very many strips take too long for all; normal methods are
+            ! exact, or nearly, on all ellipses of the same proportions.
+            call run_entry(writer, entries(i), hertz(:: thinning(entries(i), 20)))
+            call run_entry(writer, entries(i), scenes(:: thinning(entries(i), 48)))
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+
+    contains
+
+        !> Of how many contacts one is taken.
+        pure integer function thinning(entry, in_quick)
+            type(entry_t), intent(in) :: entry
+            integer, intent(in) :: in_quick
+
+            thinning = 1
+            if (entry%methods%normal == 'norm' .or. entry%methods%tangential == 'tang' .or. &
+                entry%methods%strips_per_patch > many_strips) thinning = 7
+            if (in_quick == 20 .and. entry%stage == 'normal') thinning = 20
+            if (quick) thinning = in_quick
+        end function thinning
+    end subroutine bench_trade
+
+    !> One method on a list of contacts.
+    subroutine run_entry(writer, entry, cases)
+        type(csv_writer_t), intent(inout) :: writer
+        type(entry_t), intent(in) :: entry
+        type(trade_case_t), intent(in) :: cases(:)
+
+        type(solver_t) :: solver
+        type(outcome_t) :: outcome
+        type(status_t) :: status
+        real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names))
+        integer :: i, run, runs, figure
+        logical :: counts
+
+        call make_solver(entry%methods, .false., solver, status)
+        call fail_on_error(status)
+        do i = 1, size(cases)
+            associate (case => cases(i))
+                runs = 0
+                spent = 0.0_wp
+                do run = 1, most_repeats
+                    call solve(solver, case%gap, case%material, case%mu, &
+                               demand_t(load=case%load), case%creepage, outcome, status)
+                    if (is_error(status)) exit
+                    runs = run
+                    us(run) = stage_time(entry%stage, outcome)
+                    spent = spent + outcome%normal_cpu_us + outcome%tangential_cpu_us
+                    if (spent > merge(1.0_wp, 10.0_wp, run >= 3)*enough_us) exit
+                end do
+                call put_cell(writer, case%set)
+                call put_cell(writer, case%name)
+                call put_cell(writer, entry%stage)
+                call put_cell(writer, entry%name)
+                call put_cell(writer, trim(entry%methods%normal))
+                call put_cell(writer, trim(entry%methods%tangential))
+                call put_cell(writer, trim(status_word(status%code)))
+                if (runs == 0) then
+                    call put_cell(writer, '')
+                else
+                    times = spread_of(us(:runs))
+                    call put_cell(writer, times(1))
+                end if
+                errors = relative_errors(case, outcome)
+                do figure = 1, n_figures
+                    counts = (figure > 3 .neqv. entry%stage == 'normal') .and. &
+                             (case%area_counts .or. figure_names(figure) /= 'area')
+                    if (runs > 0 .and. counts) then
+                        call put_cell(writer, errors(figure))
+                    else
+                        call put_cell(writer, '')
+                    end if
+                end do
+                call put_cell(writer, case%indicators%misfit)
+                call put_cell(writer, case%indicators%saturation)
+                call put_cell(writer, case%indicators%spin_share)
+                do figure = 1, size(times)
+                    if (runs == 0) then
+                        call put_cell(writer, '')
+                    else
+                        call put_cell(writer, times(figure))
+                    end if
+                end do
+                call end_row(writer)
+            end associate
+        end do
+    end subroutine run_entry
+
+    pure real(wp) function stage_time(stage, outcome)
+        character(len=*), intent(in) :: stage
+        type(outcome_t), intent(in) :: outcome
+
+        stage_time = outcome%normal_cpu_us + outcome%tangential_cpu_us
+        if (stage == 'normal') stage_time = outcome%normal_cpu_us
+        if (stage == 'tangential') stage_time = outcome%tangential_cpu_us
+    end function stage_time
+
+    !> Errors in the order of `figure_names`.
+    pure function relative_errors(case, outcome) result(errors)
+        type(trade_case_t), intent(in) :: case
+        type(outcome_t), intent(in) :: outcome
+        real(wp) :: errors(n_figures)
+
+        real(wp) :: bound
+
+        errors(1:3) = [outcome%normal%penetration, outcome%normal%pmax, outcome%normal%area] &
+                      /case%truth(1:3) - 1.0_wp
+        bound = case%mu*case%load
+        errors(4:6) = ([outcome%tangential%fx, outcome%tangential%fy, outcome%tangential%mz] &
+                       - case%truth(4:6))/bound
+        errors(6) = errors(6)/sqrt(case%truth(3)/pi)
+    end function relative_errors
+
+    !> Read the list of methods; ends the program at the first thing that is wrong.
+    subroutine read_entries(file, entries)
+        character(len=*), intent(in) :: file
+        type(entry_t), allocatable, intent(out) :: entries(:)
+
+        type(csv_table_t) :: table
+        type(status_t) :: status
+        character(len=:), allocatable :: what, range, value
+        integer :: row
+
+        call read_csv(file, table, status)
+        call fail_on_error(status)
+        allocate (entries(table%n_rows))
+        do row = 1, table%n_rows
+            entries(row)%stage = text('stage')
+            entries(row)%name = text('method')
+            entries(row)%when = text('when')
+            if (all(stages /= entries(row)%stage)) &
+                call refuse('stage', entries(row)%stage)
+            entries(row)%methods%normal = text('normal')
+            entries(row)%methods%tangential = text('tangential')
+            call take_number('strips_per_patch', entries(row)%methods%strips_per_patch)
+            call take_number('points_per_strip', entries(row)%methods%points_per_strip)
+            call take_number('fastsim_nx', entries(row)%methods%fastsim_nx)
+            call take_number('fastsim_ny', entries(row)%methods%fastsim_ny)
+            call take_side(entries(row)%methods)
+            call check_methods(entries(row)%methods, what, range, value)
+            if (len(what) > 0) call refuse(what, value)
+        end do
+
+    contains
+
+        function text(name)
+            character(len=*), intent(in) :: name
+            character(len=:), allocatable :: text
+
+            integer :: column
+
+            call require_column(table, name, column, status)
+            call fail_on_error(status)
+            text = cell_text(table, row, column)
+        end function text
+
+        !> An empty cell leaves the default.
+        subroutine take_number(name, number)
+            character(len=*), intent(in) :: name
+            integer, intent(inout) :: number
+
+            integer :: column
+
+            if (text(name) == '') return
+            call require_column(table, name, column, status)
+            call cell_integer(table, row, column, number, status)
+            call fail_on_error(status)
+        end subroutine take_number
+
+        !> Elements are squares.
+        subroutine take_side(methods)
+            type(methods_t), intent(inout) :: methods
+
+            integer :: column
+
+            if (text('element_mm') == '') return
+            call require_column(table, 'element_mm', column, status)
+            call cell_number(table, row, column, methods%element_dx, status)
+            call fail_on_error(status)
+            methods%element_dy = methods%element_dx
+        end subroutine take_side
+
+        subroutine refuse(name, wrong)
+            character(len=*), intent(in) :: name, wrong
+
+            call fail(exit_bad_input, trim(name) // ' is out of range: ' // wrong // ' (' // file &
+                      // ':' // integer_text(table%line(row)) // ')')
+        end subroutine refuse
+    end subroutine read_entries
+end module faststrip_lab_bench_trade

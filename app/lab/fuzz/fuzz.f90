@@ -1,0 +1,180 @@
+!> `faststrip fuzz`: contacts of many random gaps, solved and judged.
+module faststrip_lab_fuzz
+    use faststrip_base_status, only: status_t
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
+    use faststrip_command_console, only: fail_on_error, usage_error, progress, put_origin, say
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
+                                         option_integer, option_word
+    use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
+    use faststrip_lab_fuzz_faults, only: is_fault, fault_names
+    use faststrip_lab_fuzz_judges, only: verdict_t
+    use faststrip_lab_fuzz_run, only: room_t, try_case
+    use faststrip_lab_fuzz_tables, only: print_verdicts, read_verdicts, put_fuzz_header, &
+                                         put_fuzz_row
+    implicit none
+    private
+
+    public :: run_fuzz
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_fuzz()
+        type(command_t) :: command
+        integer :: seed, first, cases, number
+        type(fuzz_case_t) :: case
+        type(verdict_t), allocatable :: verdicts(:)
+        integer, allocatable :: family(:), numbers(:)
+        type(room_t) :: room
+
+        call take_command(command)
+        cases = option_integer(command, '--cases', 1000, least=1)
+        seed = option_integer(command, '--seed', 1, least=0)
+        first = option_integer(command, '--first', 1, least=1)
+        if (cases > huge(cases) - first) &
+            call usage_error('--cases must end before case ' // integer_text(huge(cases)) &
+                             // ', got ' // integer_text(cases), command%name)
+        room%thorough = given(command, '--thorough')
+        room%solver = option_word(command, '--solver', 'strip', [character(len=7) :: 'strip', &
+                                                                 'lattice'])
+        room%fault = option_text(command, '--plant', '')
+        if (room%fault == 'list') then
+            call list_faults()
+            return
+        end if
+        if (room%fault /= '' .and. .not. is_fault(room%fault)) &
+            call usage_error('unknown fault: ' // room%fault, command%name)
+        if (given(command, '--read')) then
+            if (given(command, '-o')) &
+                call usage_error('--read goes without -o', command%name)
+            call read_verdicts(option_text(command, '--read', ''), numbers, family, verdicts)
+            call print_verdicts(numbers, family, verdicts)
+            return
+        end if
+        if (given(command, '--case')) then
+            if (given(command, '--first') .or. given(command, '--cases')) &
+                call usage_error('--case goes without --first and --cases', command%name)
+            first = option_integer(command, '--case', 1, least=1)
+            cases = 1
+        end if
+        if (given(command, '--gap-of')) then
+            number = option_integer(command, '--gap-of', 1, least=1)
+            call draw_case(seed, number, case)
+            call write_gap(option_text(command, '-o', '-'), seed, case)
+            return
+        end if
+        call try_cases(command, seed, first, cases, room, numbers, family, verdicts)
+        call print_verdicts(numbers, family, verdicts)
+    end subroutine run_fuzz
+
+    subroutine take_command(command)
+        type(command_t), intent(inout) :: command
+
+        command%name = 'fuzz'
+        command%usage = ''
+        command%about = &
+            'For developers: solve the contacts of many random gaps by strips and judge the' &
+            // new_line('a') // 'answers. A case is the same wherever the run starts. Exit code' &
+            // ' 1 if one displeases a judge.' // new_line('a')
+        command%options = [ &
+            option_t('--cases', 'INTEGER', 'number of cases (default 1000)'), &
+            option_t('--seed', 'INTEGER', 'which series of cases (default 1)'), &
+            option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
+            option_t('--case', 'INTEGER', 'this case only'), &
+            option_t('--family', 'NAME', 'only the cases of this family'), &
+            option_t('--read', 'FILE', 'solve nothing, judge the rows that -o wrote there', &
+                     reads=.true.), &
+            option_t('--solver', 'NAME', 'strip (default) or lattice'), &
+            option_t('--thorough', '', 'every judge on every case, NORM too'), &
+            option_t('--plant', 'FAULT', 'put an error into every answer; list: which there are'), &
+            option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
+            option_t('-o', 'FILE', 'write one CSV row per case there', writes=.true.)]
+        call parse_command(command, 0)
+    end subroutine take_command
+
+    !> Solve and judge the cases, and write their rows if asked for.
+    subroutine try_cases(command, seed, first, cases, room, numbers, family, verdicts)
+        type(command_t), intent(in) :: command
+        integer, intent(in) :: seed, first, cases
+        type(room_t), intent(inout) :: room
+        integer, allocatable, intent(out) :: numbers(:), family(:)
+        type(verdict_t), allocatable, intent(out) :: verdicts(:)
+
+        character(len=:), allocatable :: only
+        type(csv_writer_t) :: writer
+        type(fuzz_case_t) :: case
+        type(status_t) :: written
+        integer :: number, n
+
+        only = option_text(command, '--family', '')
+        if (only /= '' .and. .not. any(all_families == only)) &
+            call usage_error('unknown family: ' // only, command%name)
+        if (given(command, '-o')) then
+            call open_csv(writer, option_text(command, '-o', ''), written)
+            call fail_on_error(written)
+            call put_origin(writer)
+            call put_fuzz_header(writer)
+        end if
+        allocate (verdicts(cases), family(cases), numbers(cases))
+        n = 0
+        do number = first, first + cases - 1
+            call draw_case(seed, number, case)
+            if (only /= '' .and. all_families(case%family) /= only) cycle
+            n = n + 1
+            numbers(n) = number
+            family(n) = case%family
+            call try_case(seed, case, room, verdicts(n))
+            if (given(command, '-o')) call put_fuzz_row(writer, case, verdicts(n))
+            call progress('case', number - first + 1, cases)
+        end do
+        if (given(command, '-o')) then
+            call close_csv(writer, written)
+            call fail_on_error(written)
+        end if
+        if (n == 0) call usage_error('no case of this family among those asked: ' // only, &
+                                     command%name)
+        numbers = numbers(:n)
+        family = family(:n)
+        verdicts = verdicts(:n)
+    end subroutine try_cases
+
+    !> What can be planted.
+    subroutine list_faults()
+        integer :: i
+
+        do i = 1, size(fault_names)
+            call say(trim(fault_names(i)))
+        end do
+    end subroutine list_faults
+
+    !> Write a case's gap so that a case file can name it.
+    subroutine write_gap(path, seed, case)
+        character(len=*), intent(in) :: path
+        integer, intent(in) :: seed
+        type(fuzz_case_t), intent(in) :: case
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        character(len=24) :: load
+        integer :: i
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        write (load, '(es23.16)') case%load
+        call put_comment(writer, 'random gap ' // integer_text(case%number) // ' of seed ' &
+                         // integer_text(seed) // ': ' // trim(all_families(case%family)) &
+                         // ', load ' // trim(adjustl(load)) // ' N, ' &
+                         // integer_text(case%strips) // ' strips')
+        call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
+        do i = 1, size(case%gap%y)
+            call put_cell(writer, case%gap%y(i))
+            call put_cell(writer, case%gap%h(i))
+            call put_cell(writer, case%gap%inv2r(i))
+            call end_row(writer)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_gap
+end module faststrip_lab_fuzz

@@ -1,0 +1,78 @@
+!> Kalker's method on a grid as a judge: another discretisation of another kind.
+!>
+!> The grid has some 25 elements along the contact and 40 across each patch, and half as many
+!> before: the difference is NORM's own estimate. What may differ are both estimates, with a margin,
+!> and a floor for what the elements resolve.
+module faststrip_lab_fuzz_norm_judge
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
+                                       release_norm, set_norm_gap, norm_solve
+    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_norm_depth, &
+                                         judge_norm_pmax, judge_norm_area
+    implicit none
+    private
+
+    public :: judge_by_norm
+
+    real(wp), parameter :: elements_along = 25.0_wp, elements_across = 40.0_wp
+    integer, parameter :: most_elements = 60000
+    real(wp), parameter :: margin = 3.0_wp         ! of the estimates
+    real(wp), parameter :: floor(3) = [0.01_wp, 0.05_wp, 0.06_wp] ! penetration, pmax, area
+
+contains
+
+    !> Solve the case on a grid and compare; where no grid holds the contact nothing is judged.
+    subroutine judge_by_norm(gap, h_lowest, compliance, load, strips, verdict)
+        type(gap_t), intent(in) :: gap
+        real(wp), intent(in) :: h_lowest         !! lowest height of the gap, mm
+        real(wp), intent(in) :: compliance, load !! 1/MPa, N
+        type(contact_strips_t), intent(in) :: strips
+        type(verdict_t), intent(inout) :: verdict
+
+        type(norm_workspace_t) :: workspace
+        type(norm_options_t) :: options
+        type(normal_result_t) :: norm
+        type(status_t) :: status
+        real(wp) :: depth, norm_depth, own(3), narrowest
+        integer :: p
+
+        narrowest = strips%y_right(strips%n) - strips%y_left(1)
+        do p = 1, strips%n_patches
+            narrowest = min(narrowest, &
+                            maxval(strips%y_right(:strips%n), strips%patch(:strips%n) == p) &
+                            - minval(strips%y_left(:strips%n), strips%patch(:strips%n) == p))
+        end do
+        options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
+        options%dy = narrowest/elements_across
+        options%most_elements = most_elements
+        call reserve_norm(workspace, size(gap%y), status)
+        if (.not. is_error(status)) call set_norm_gap(workspace, gap, status)
+        if (.not. is_error(status)) &
+            call norm_solve(workspace, compliance, load, options, norm, status, strips)
+        if (.not. is_error(status) .and. workspace%is_estimated) then
+            depth = verdict%result%penetration - h_lowest
+            norm_depth = norm%penetration - h_lowest
+            own = [workspace%certificate%est_err_penetration, workspace%certificate%est_err_pmax, &
+                   workspace%certificate%est_err_area]
+            call compare(judge_norm_depth, 1, depth/norm_depth)
+            call compare(judge_norm_pmax, 2, verdict%result%pmax/norm%pmax)
+            call compare(judge_norm_area, 3, verdict%result%area/norm%area)
+        end if
+        call release_norm(workspace)
+
+    contains
+
+        subroutine compare(judge, figure, ratio)
+            integer, intent(in) :: judge, figure
+            real(wp), intent(in) :: ratio
+
+            call report_badness(verdict, judge, abs(ratio - 1.0_wp) &
+                                /(floor(figure) &
+                                  + margin*(own(figure) + verdict%est_err(figure))))
+        end subroutine compare
+    end subroutine judge_by_norm
+end module faststrip_lab_fuzz_norm_judge

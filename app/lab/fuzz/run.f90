@@ -1,0 +1,255 @@
+!> One case of `faststrip fuzz`: solved, spoiled if asked, judged.
+module faststrip_lab_fuzz_run
+    use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_set_flag, &
+                                             ieee_invalid, ieee_divide_by_zero, ieee_overflow
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used, &
+                                     st_out_of_range
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
+    use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
+    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve, estimate_strips
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_strip_profile, only: profile_integral, profile_peak
+    use faststrip_contact_methods, only: normal_strip
+    use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
+                                       solve_contact_normal
+    use faststrip_lab_fuzz_cases, only: fuzz_case_t
+    use faststrip_lab_fuzz_faults, only: plant_fault
+    use faststrip_lab_fuzz_force_judges, only: judge_forces
+    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_finite, &
+                                         judge_depth
+    use faststrip_lab_fuzz_norm_judge, only: judge_by_norm
+    use faststrip_lab_fuzz_relations, only: relations, related_case, judge_relation
+    use faststrip_lab_fuzz_solution_judges, only: judge_figures, judge_contact, judge_gap_curve, &
+                                                  judge_estimates
+    implicit none
+    private
+
+    public :: room_t, try_case
+
+    !> What the solvers work in, and how they are asked.
+    type :: room_t
+        character(len=:), allocatable :: solver !! 'strip' or 'lattice'
+        character(len=:), allocatable :: fault  !! planted in every answer, or blank
+        logical :: thorough = .false.           !! every judge on every case?
+        type(workspace_t) :: workspace          !! grown as needed
+        type(lattice_workspace_t) :: lattice
+    end type room_t
+
+contains
+
+    !> Solve a case and judge the answer.
+    !>
+    !> Cheap judges see every case. Of the judges that need a second solution one sees it, by the
+    !> case's number in turn, and NORM sees one case in a hundred.
+    subroutine try_case(seed, case, room, verdict)
+        integer, intent(in) :: seed             !! of the series
+        type(fuzz_case_t), intent(in) :: case
+        type(room_t), intent(inout) :: room
+        type(verdict_t), intent(out) :: verdict
+
+        type(material_t) :: material
+        type(gap_curve_t) :: curve
+        type(contact_strips_t) :: strips
+        integer :: r
+
+        call solve_case(case, material, .false., room, verdict)
+        if (is_error(verdict%status) .or. verdict%badness(judge_finite) > 1.0_wp) return
+        associate (workspace => room%workspace)
+            call judge_figures(case%load, case%gap, workspace%strips, verdict%result, verdict)
+            if (any(verdict%badness > 1.0e8_wp)) return
+            call judge_gap_curve(case%gap, workspace%solver%curve, verdict%result%penetration, &
+                                 verdict)
+            call judge_contact(material, workspace%solver%curve, workspace%strips, &
+                               verdict%result, verdict)
+            ! An answer to no contact says nothing further.
+            if (verdict%badness(judge_depth) > 1.0_wp) return
+            call estimate(material, workspace, verdict)
+            call judge_estimates(verdict)
+            call judge_forces(seed, case%number, room%fault, material, case%load, workspace, &
+                              verdict)
+            curve = workspace%solver%curve
+            strips = workspace%strips
+        end associate
+        if (room%thorough .or. has_norm(case%number, verdict%status%code == st_fallback_used)) &
+            call judge_by_norm(case%gap, curve%h_lowest, normal_compliance(material), case%load, &
+                               strips, verdict)
+        do r = 1, size(relations)
+            if (room%thorough .or. modulo(case%number/2, size(relations)) == r - 1) &
+                call try_relation(relations(r), case, material, curve, room, verdict)
+        end do
+    end subroutine try_case
+
+    !> Every hundredth case, odd and even ones in turn, and every fifth pair that fell back.
+    pure logical function has_norm(number, fell_back)
+        integer, intent(in) :: number
+        logical, intent(in) :: fell_back
+
+        has_norm = modulo(number, 200) == 51 .or. modulo(number, 200) == 100 &
+                   .or. (fell_back .and. modulo(number/2, 5) == 0)
+    end function has_norm
+
+    !> Solve the related case and compare.
+    subroutine try_relation(relation, case, material, curve, room, verdict)
+        integer, intent(in) :: relation
+        type(fuzz_case_t), intent(in) :: case
+        type(material_t), intent(in) :: material
+        type(gap_curve_t), intent(in) :: curve
+        type(room_t), intent(inout) :: room
+        type(verdict_t), intent(inout) :: verdict
+
+        type(fuzz_case_t) :: other_case
+        type(material_t) :: other_material
+        type(verdict_t) :: other
+        logical :: has_one
+
+        other_material = material
+        call related_case(relation, case, curve, verdict%result, other_case, other_material, &
+                          has_one)
+        if (.not. has_one) return
+        call solve_case(other_case, other_material, .true., room, other)
+        if (.not. is_error(other%status)) call estimate(other_material, room%workspace, other)
+        call judge_relation(relation, verdict, curve, other, room%workspace%solver%curve)
+    end subroutine try_relation
+
+    !> Solve a case, note how long it took, and plant the fault. The call for embedding keeps the
+    !> floating-point flags to itself; what it calls shows them.
+    subroutine solve_case(case, material, embedded, room, verdict)
+        type(fuzz_case_t), intent(in) :: case
+        type(material_t), intent(in) :: material
+        logical, intent(in) :: embedded ! by the call for embedding, or by what it calls?
+        type(room_t), intent(inout) :: room
+        type(verdict_t), intent(inout) :: verdict
+
+        type(contact_case_t) :: contact
+        integer(int64) :: before, after, rate
+        integer :: max_strips
+
+        contact%estimate = .false. ! `estimate` does
+        contact%material = material
+        contact%load = case%load
+        contact%gap = case%gap
+        contact%methods%normal = normal_strip
+        contact%methods%strips_per_patch = case%strips
+        call reserve_workspace(room%workspace, contact%methods, size(case%gap%y), verdict%status)
+        if (room%solver == 'lattice') then
+            max_strips = 3*case%strips + 150
+            call reserve_strips(room%workspace%strips, max_strips, verdict%status)
+            call reserve_lattice(room%lattice, max_strips, verdict%status)
+        end if
+        call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
+        call system_clock(before, rate)
+        if (room%solver == 'lattice') then
+            call solve_by_lattice(case, material, room, verdict)
+        else if (embedded) then
+            call solve_contact_normal(room%workspace, contact, verdict%result, verdict%status)
+        else
+            call set_strip_gap(room%workspace%solver, case%gap, verdict%status)
+            if (.not. is_error(verdict%status)) &
+                call strip_solve(room%workspace%solver, normal_compliance(material), case%load, &
+                                 strip_options_t(strips_per_patch=case%strips), &
+                                 room%workspace%strips, verdict%result, verdict%status)
+        end if
+        call system_clock(after)
+        verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
+        call report_badness(verdict, judge_finite, merge(huge(1.0_wp), 0.0_wp, exception_raised()))
+        verdict%strips = room%workspace%strips%n
+        if (is_error(verdict%status)) then
+            call report_badness(verdict, judge_answer, &
+                                merge(0.0_wp, huge(1.0_wp), &
+                                      may_be_refused(case, verdict%status)))
+            return
+        end if
+        call report_badness(verdict, judge_answer, 0.0_wp)
+        ! The tangential methods ask for a solved workspace.
+        room%workspace%solved_by = normal_strip
+        call plant_fault(room%fault, room%workspace%solver%curve, room%workspace%strips, &
+                         verdict%result)
+    end subroutine solve_case
+
+    !> Is there a reason for an error: a longitudinal term that is not positive somewhere, or
+    !> heights below zero, which may leave no positive penetration?
+    pure logical function may_be_refused(case, status)
+        type(fuzz_case_t), intent(in) :: case
+        type(status_t), intent(in) :: status
+
+        may_be_refused = .false.
+        if (status%message == '') return
+        select case (status%code)
+        case (st_no_finite_patch)
+            may_be_refused = any(case%gap%inv2r <= 0.0_wp)
+        case (st_out_of_range)
+            may_be_refused = any(case%gap%h < 0.0_wp)
+        end select
+    end function may_be_refused
+
+    subroutine solve_by_lattice(case, material, room, verdict)
+        type(fuzz_case_t), intent(in) :: case
+        type(material_t), intent(in) :: material
+        type(room_t), intent(inout) :: room
+        type(verdict_t), intent(inout) :: verdict
+
+        integer :: p, first, last
+
+        associate (curve => room%workspace%solver%curve, strips => room%workspace%strips, &
+                   result => verdict%result)
+            call reserve_gap_curve(curve, size(case%gap%y), verdict%status)
+            call set_gap_curve(curve, case%gap, verdict%status)
+            if (is_error(verdict%status)) return
+            call lattice_solve(room%lattice, curve, normal_compliance(material), case%load, &
+                               case%strips, strips, result%penetration, verdict%status)
+            if (is_error(verdict%status)) return
+            ! As its answers are always named.
+            call add_limitation(verdict%status, st_fallback_used, 'fixed lattice')
+            result%load = case%load
+            last = 0
+            do p = 1, strips%n_patches
+                first = last + 1
+                last = last + count(strips%patch(:strips%n) == p)
+                associate (left => strips%y_left(first:last), &
+                           right => strips%y_right(first:last))
+                    result%area = result%area &
+                        + 2.0_wp*profile_integral(left, right, strips%half_length(first:last))
+                    result%pmax = max(result%pmax, &
+                                      profile_peak(left, right, strips%p0(first:last)))
+                    result%x_max = max(result%x_max, &
+                                       profile_peak(left, right, strips%half_length(first:last)))
+                end associate
+            end do
+            result%y_min = strips%y_left(1)
+            result%y_max = strips%y_right(strips%n)
+            result%n_patches = strips%n_patches
+        end associate
+    end subroutine solve_by_lattice
+
+    !> What the solution's certificate estimates of its errors.
+    subroutine estimate(material, workspace, verdict)
+        type(material_t), intent(in) :: material
+        type(workspace_t), intent(in) :: workspace
+        type(verdict_t), intent(inout) :: verdict
+
+        type(certificate_t) :: certificate
+        type(status_t) :: status
+
+        call estimate_strips(workspace%solver, normal_compliance(material), &
+                             workspace%strips, verdict%result, certificate, status)
+        if (is_error(status)) return
+        verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &
+                           certificate%est_err_area]
+        call name_resolution(verdict%est_err(1), verdict%est_err(2), verdict%est_err(3), &
+                             default_resolution, verdict%status)
+    end subroutine estimate
+
+    logical function exception_raised()
+        logical :: invalid, by_zero, overflow
+
+        call ieee_get_flag(ieee_invalid, invalid)
+        call ieee_get_flag(ieee_divide_by_zero, by_zero)
+        call ieee_get_flag(ieee_overflow, overflow)
+        exception_raised = invalid .or. by_zero .or. overflow
+    end function exception_raised
+end module faststrip_lab_fuzz_run

@@ -1,0 +1,67 @@
+!> The command line of faststrip.
+program faststrip_main
+    use faststrip_command_console, only: say, usage_error, version_text
+    use faststrip_command_options, only: command_argument
+    use faststrip_command_integral, only: run_integral
+    use faststrip_command_contact, only: run_contact
+    use faststrip_command_batch, only: run_batch
+    use faststrip_command_sweep, only: run_sweep
+    use faststrip_command_table, only: run_table
+    use faststrip_lab_fuzz, only: run_fuzz
+    use faststrip_lab_report, only: run_report
+    use faststrip_lab_bench, only: run_bench
+    use faststrip_lab_scenes_reference_scenes, only: run_scenes
+    implicit none
+
+    if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
+    select case (command_argument(1))
+    case ('integral'); call run_integral()
+    case ('contact'); call run_contact()
+    case ('batch'); call run_batch()
+    case ('sweep'); call run_sweep()
+    case ('table'); call run_table()
+    case ('bench'); call run_bench()
+    case ('fuzz'); call run_fuzz()
+    case ('scenes'); call run_scenes()
+    case ('report'); call run_report()
+    case ('--help', '-h', 'help')
+        call need_nothing_more()
+        call print_help()
+    case ('--version', '-V')
+        call need_nothing_more()
+        call say(version_text())
+    case default
+        if (index(command_argument(1), '-') == 1) &
+            call usage_error('unknown option: ' // command_argument(1), '')
+        call usage_error('unknown subcommand: ' // command_argument(1), '')
+    end select
+
+contains
+
+    subroutine need_nothing_more()
+        if (command_argument_count() > 1) &
+            call usage_error('too many arguments: ' // command_argument(2), '')
+    end subroutine need_nothing_more
+
+    subroutine print_help()
+        call say('usage: faststrip SUBCOMMAND [arguments] [options]')
+        call say('')
+        call say('Wheel/rail contact by the modified strip method of Lack and Gerlici (2014).')
+        call say('')
+        call say('  integral               influence integrals of strips')
+        call say('  contact CASE.nml       one contact, from two profiles or a gap file')
+        call say('  batch CASES.csv        one contact per row of a CSV file')
+        call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
+        call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
+        call say('  bench WHAT             for developers: times and errors of the methods')
+        call say('  report                 everything measured, judged and drawn, in one folder')
+        call say('  fuzz                   for developers: random gaps, checked')
+        call say('  scenes                 for developers: reference forces of many contacts')
+        call say('')
+        call say('  SUBCOMMAND --help      what a subcommand takes')
+        call say('  --version              name, version and revision')
+        call say('')
+        call say('Units are mm, N, MPa, rad. Exit codes: 1 bad input, 2 usage, 3 no convergence,')
+        call say('128 + n ended by signal n.')
+    end subroutine print_help
+end program faststrip_main

@@ -1,0 +1,320 @@
+!> Lines, words and numbers of text files, read strictly.
+module faststrip_base_text
+    use, intrinsic :: iso_fortran_env, only: iostat_end, iostat_eor
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, message_length, &
+                                     st_file_missing, st_file_format
+    implicit none
+    private
+
+    public :: text_file_t, open_text, read_line, close_text, is_folder
+    public :: trim_blanks, parse_real, parse_integer, integer_text, lower_case, set_place_status
+    public :: longest_line, most_lines, most_bytes
+
+    ! What is longer has no end, or is no table: the longest table the program writes itself has a
+    ! row for each of a million random gaps.
+    integer, parameter :: longest_line = 65536    !! characters
+    integer, parameter :: most_lines = 1200000    !! of a file
+    integer, parameter :: most_bytes = 268435456  !! of a file
+
+    !> A text file being read.
+    type :: text_file_t
+        integer :: unit = 0                   !! the Fortran unit
+        character(len=:), allocatable :: path !! its name
+        integer :: line = 0                   !! number of the line read last
+        integer :: bytes = 0                  !! read so far
+    end type text_file_t
+
+    character(len=*), parameter :: digits = '0123456789'
+    character(len=1), parameter :: tab = achar(9), carriage_return = achar(13)
+
+    ! The first 20 significant digits of half-way between the largest double and the next one
+    ! that there is no room for, and the power of ten of its first digit.
+    character(len=*), parameter :: overflow_digits = '17976931348623158079'
+    integer, parameter :: overflow_exponent = 308, underflow_exponent = -330
+
+contains
+
+    !> Open a text file for reading.
+    subroutine open_text(path, file, status)
+        character(len=*), intent(in) :: path    !! name of the file
+        type(text_file_t), intent(out) :: file  !! to be closed by `close_text` if all is well
+        type(status_t), intent(out) :: status   !! `st_file_missing`: not there, a folder, or not
+                                                !! readable
+        character(len=200) :: words
+        logical :: exists
+        integer :: code
+
+        call clear_status(status)
+        file%path = path
+        exists = .false.
+        if (len_trim(path) > 0) inquire (file=path, exist=exists)
+        if (.not. exists) then
+            call set_status(status, st_file_missing, 'no such file: ' // path)
+        else if (is_folder(path)) then
+            call set_status(status, st_file_missing, 'a folder, not a file: ' // path)
+        else
+            open (newunit=file%unit, file=path, status='old', action='read', form='formatted', &
+                  iostat=code, iomsg=words)
+            if (code == 0) return
+            call set_status(status, st_file_missing, 'cannot read the file: ' // path)
+            if (index(words, 'Permission denied') > 0) status%message = &
+                trim(status%message) // ': permission denied'
+        end if
+    end subroutine open_text
+
+    !> Close a file.
+    subroutine close_text(file)
+        type(text_file_t), intent(inout) :: file !! opened by `open_text`
+
+        close (file%unit)
+    end subroutine close_text
+
+    !> Is there a folder of that name?
+    logical function is_folder(path)
+        character(len=*), intent(in) :: path !! a name
+
+        inquire (file=path // '/.', exist=is_folder)
+    end function is_folder
+
+    !> The next line of a file without its line end (LF or CRLF).
+    subroutine read_line(file, line, found, status)
+        type(text_file_t), intent(inout) :: file            !! counts the lines
+        character(len=:), allocatable, intent(out) :: line  !! the line; empty at the end
+        logical, intent(out) :: found                       !! was there a line left?
+        type(status_t), intent(out) :: status               !! `st_file_format`: reading failed,
+                                                            !! or there is too much to read
+        character(len=4096) :: chunk
+        integer :: code, length
+
+        line = ''
+        found = .false.
+        call clear_status(status)
+        do
+            read (file%unit, '(a)', advance='no', size=length, iostat=code) chunk
+            if (code == 0) length = len(chunk)
+            if (code == 0 .or. code == iostat_eor) then
+                if (.not. found) file%line = file%line + 1
+                found = .true.
+                line = line // chunk(:length)
+                if (len(line) > longest_line) call refuse('a line of more than ' &
+                    // integer_text(longest_line) // ' characters')
+                if (code == 0 .and. status%code == 0) cycle
+            else if (code /= iostat_end) then
+                file%line = file%line + 1
+                call refuse('cannot read on')
+            end if
+            exit
+        end do
+        file%bytes = file%bytes + len(line) + 1
+        if (file%line > most_lines) then
+            call refuse('a file of more than ' // integer_text(most_lines) // ' lines')
+        else if (file%bytes > most_bytes) then
+            call refuse('a file of more than ' // integer_text(most_bytes/1048576) // ' MB')
+        end if
+        length = len(line)
+        if (length > 0) then
+            if (line(length:) == carriage_return) line = line(:length - 1)
+        end if
+
+    contains
+
+        subroutine refuse(what)
+            character(len=*), intent(in) :: what
+
+            call set_place_status(status, st_file_format, what, '', file%path, file%line)
+        end subroutine refuse
+    end subroutine read_line
+
+    !> Text without the blanks and tabulators at its two ends.
+    pure function trim_blanks(text) result(inner)
+        character(len=*), intent(in) :: text           !! any text
+        character(len=:), allocatable :: inner         !! may be empty
+        integer :: first, last
+
+        first = verify(text, ' ' // tab)
+        if (first == 0) then
+            inner = ''
+        else
+            last = verify(text, ' ' // tab, back=.true.)
+            inner = text(first:last)
+        end if
+    end function trim_blanks
+
+    !> Text with the letters A to Z made small.
+    pure function lower_case(text) result(lower)
+        character(len=*), intent(in) :: text      !! any text
+        character(len=len(text)) :: lower         !! the same with a to z
+        integer :: i
+
+        lower = text
+        do i = 1, len(text)
+            if (lge(text(i:i), 'A') .and. lle(text(i:i), 'Z')) then
+                lower(i:i) = achar(iachar(text(i:i)) + 32)
+            end if
+        end do
+    end function lower_case
+
+    !> A real number that fills the whole text: sign, digits with at most one point, exponent
+    !> with e or d. Nothing else passes: no blank inside, no comma, no unit, no NaN, no infinity,
+    !> no number beyond the largest double. Numbers too small for a double become zero.
+    pure subroutine parse_real(text, value, valid)
+        character(len=*), intent(in) :: text !! blanks at the two ends are allowed
+        real(wp), intent(out) :: value       !! the number; 0 if not valid
+        logical, intent(out) :: valid        !! is it a number?
+        character(len=:), allocatable :: word
+        character(len=20) :: leading
+        integer :: i, code, power, n_leading, first_power
+        logical :: exponent_valid
+
+        value = 0.0_wp
+        valid = .false.
+        word = trim_blanks(text)
+        call scan_mantissa(word, i, leading, n_leading, first_power)
+        if (i == 0) return
+        power = 0
+        if (i <= len(word)) then
+            if (scan(word(i:i), 'eEdD') == 0) return
+            call scan_exponent(word(i + 1:), power, exponent_valid)
+            if (.not. exponent_valid) return
+        end if
+        if (n_leading == 0 .or. first_power + power < underflow_exponent) then
+            valid = .true.
+            return
+        end if
+        if (first_power + power > overflow_exponent) return
+        if (first_power + power == overflow_exponent) then
+            if (lge(leading, overflow_digits)) return
+        end if
+        read (word, *, iostat=code) value
+        valid = code == 0
+        if (.not. valid) value = 0.0_wp
+    end subroutine parse_real
+
+    ! The mantissa of a number: `next` is the place after it (0: there is none), `leading` its
+    ! first 20 digits from the first that is not zero, `first_power` the power of ten of that.
+    pure subroutine scan_mantissa(word, next, leading, n_leading, first_power)
+        character(len=*), intent(in) :: word
+        integer, intent(out) :: next, n_leading, first_power
+        character(len=20), intent(out) :: leading
+        integer :: i, start, n_digits, n_before_point
+        logical :: point
+
+        next = 0
+        leading = repeat('0', 20)
+        n_leading = 0
+        first_power = 0
+        n_digits = 0
+        n_before_point = 0
+        point = .false.
+        start = 1
+        if (len(word) > 0) then
+            if (scan(word(1:1), '+-') == 1) start = 2
+        end if
+        do i = start, len(word)
+            if (word(i:i) == '.') then
+                if (point) return
+                point = .true.
+            else if (index(digits, word(i:i)) > 0) then
+                n_digits = n_digits + 1
+                if (.not. point) n_before_point = n_before_point + 1
+                if (n_leading > 0 .or. word(i:i) /= '0') then
+                    n_leading = n_leading + 1
+                    if (n_leading == 1) first_power = n_digits
+                    if (n_leading <= len(leading)) leading(n_leading:n_leading) = word(i:i)
+                end if
+            else
+                exit
+            end if
+        end do
+        first_power = n_before_point - first_power
+        if (n_digits > 0) next = i
+    end subroutine scan_mantissa
+
+    ! The digits of an exponent with an optional sign, held within +-100000.
+    pure subroutine scan_exponent(word, power, valid)
+        character(len=*), intent(in) :: word
+        integer, intent(out) :: power
+        logical, intent(out) :: valid
+        integer :: i, start
+
+        power = 0
+        start = 1
+        if (len(word) > 0) then
+            if (scan(word(1:1), '+-') == 1) start = 2
+        end if
+        valid = len(word) >= start
+        if (.not. valid) return
+        valid = verify(word(start:), digits) == 0
+        if (.not. valid) return
+        do i = start, len(word)
+            power = min(10*power + index(digits, word(i:i)) - 1, 100000)
+        end do
+        if (word(1:1) == '-') power = -power
+    end subroutine scan_exponent
+
+    !> A whole number that fills the whole text: sign and digits.
+    pure subroutine parse_integer(text, value, valid)
+        character(len=*), intent(in) :: text !! blanks at the two ends are allowed
+        integer, intent(out) :: value        !! the number; 0 if not valid
+        logical, intent(out) :: valid        !! is it a whole number that fits?
+        character(len=:), allocatable :: word
+        integer :: start, code
+
+        value = 0
+        valid = .false.
+        word = trim_blanks(text)
+        start = 1
+        if (len(word) > 0) then
+            if (scan(word(1:1), '+-') == 1) start = 2
+        end if
+        if (len(word) < start) return
+        if (verify(word(start:), digits) /= 0) return
+        read (word, *, iostat=code) value
+        valid = code == 0
+        if (.not. valid) value = 0
+    end subroutine parse_integer
+
+    !> A whole number as text without blanks.
+    pure function integer_text(value) result(text)
+        integer, intent(in) :: value           !! any
+        character(len=:), allocatable :: text  !! sign and digits
+        character(len=11) :: buffer
+
+        write (buffer, '(i0)') value
+        text = trim(buffer)
+    end function integer_text
+
+    !> Record an error in a file as `<what>: <value> (<file>:<line>)`.
+    !>
+    !> Where the message would not fit, first the value, then the beginning of the file's name
+    !> is shortened: the line number stays readable.
+    pure subroutine set_place_status(status, code, what, value, file, line)
+        type(status_t), intent(out) :: status  !! what the caller reads
+        integer, intent(in) :: code            !! one of the `st_` codes
+        character(len=*), intent(in) :: what   !! what is wrong
+        character(len=*), intent(in) :: value  !! the offending value; empty: left out
+        character(len=*), intent(in) :: file   !! name of the file
+        integer, intent(in) :: line            !! line number; below 1: left out
+        character(len=:), allocatable :: words, place
+        integer, parameter :: longest_value = 60
+        integer :: room
+
+        words = what
+        if (len(value) > longest_value) then
+            words = words // ': ' // value(:longest_value) // '...'
+        else if (len(value) > 0) then
+            words = words // ': ' // value
+        end if
+        place = ')'
+        if (line > 0) place = ':' // integer_text(line) // ')'
+        room = message_length - len(words) - len(place) - 2
+        if (len(file) <= room) then
+            place = ' (' // file // place
+        else
+            room = max(room - 3, 0)
+            place = ' (...' // file(len(file) - room + 1:) // place
+        end if
+        call set_status(status, code, words // place)
+    end subroutine set_place_status
+end module faststrip_base_text

@@ -1,0 +1,71 @@
+!> What `use faststrip` gives: the embeddable core, from profiles to forces.
+!>
+!> Needs LAPACK and nothing else: no file is read or written, nothing is printed, nothing stops.
+!> Readers (`faststrip_files_profile`, `faststrip_files_gap`, `faststrip_files_csv`), GSL's
+!> quadrature (`faststrip_tables_quadrature`) and what needs FFTW
+!> (`faststrip_kalker_convolution`, Kalker's variational methods) are modules of their own.
+module faststrip
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word, message_length, st_ok, &
+                                     first_error, st_fallback_used, st_edge_of_data, &
+                                     st_fewer_strips, st_overlap_left, st_flat_along_x, &
+                                     st_conformal, st_target_missed, st_under_resolved, &
+                                     st_more_strips, st_no_finite_patch, st_bad_argument, &
+                                     st_not_finite, st_not_increasing, st_too_few_points, &
+                                     st_bad_material, st_bad_load, st_no_contact, &
+                                     st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
+                                     st_workspace_too_small, st_linear_algebra
+    use faststrip_base_material, only: material_t, check_material, normal_compliance, &
+                                       combined_shear_modulus, combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_influence_closed, only: influence_primitive, influence_primitive_slope, &
+                                          strip_influence, strip_influence_edges
+    use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
+    use faststrip_influence_polynomial, only: table_influence
+    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                          make_points_profile, profile_at, standard_cant
+    use faststrip_geometry_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                          find_rigid_contact, find_wheelset_contacts, &
+                                          contact_force, shift_creepage, creepage_set_a, &
+                                          creepage_set_b
+    use faststrip_geometry_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_geometry_gap, only: gap_t, check_gap
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
+                                      hertz_solve_gap_penetration, hertz_strips
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
+                                      strip_solve_penetration, strips_auto
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
+                                          field_power, strip_forces_t, &
+                                          reserve_strip_forces, state_adhesion, state_slip
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
+                                            fastsim_coefficients_solve, fastsim_variant_t
+    use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_paper, only: paper_solve, corrected_solve
+    use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
+                                         law_shen_hedrick_elkins, law_polach
+    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
+                                         tangential_method, normal_method_name, &
+                                         tangential_method_name, method_name_length, &
+                                         normal_strip, normal_hertz, normal_equal_area, &
+                                         normal_equal_moments, tangential_none, &
+                                         tangential_faststrip, tangential_fastsim, &
+                                         tangential_faststrip_paper, &
+                                         tangential_faststrip_corrected, &
+                                         tangential_fastsim_elliptic, &
+                                         tangential_fastsim_weighted, tangential_linear, &
+                                         tangential_she, tangential_polach, gives_elements, &
+                                         gives_stick
+    use faststrip_contact_solve, only: contact_case_t, contact_result_t, workspace_t, &
+                                       reserve_workspace, reserve_contact_field, &
+                                       set_contact_gap, solve_contact, solve_contact_normal, &
+                                       solve_contact_tangential, most_gap_points
+    implicit none
+    public
+end module faststrip

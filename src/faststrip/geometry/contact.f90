@@ -1,0 +1,357 @@
+!> Where a wheel touches a rail: the rigid contact of a wheelset shifted sideways, without yaw
+!> and without roll, and the creepages that follow from it.
+!>
+!> Lateral coordinates of the track are those of the right rail: measured from the track centre,
+!> to the field side. The left wheel is the right one mirrored: its contact is that of a right
+!> wheel shifted the other way.
+module faststrip_geometry_contact
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_geometry_profile, only: profile_t, profile_at
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_no_contact, st_out_of_range
+    implicit none
+    private
+
+    public :: wheelset_t, track_t, rigid_contact_t
+    public :: find_rigid_contact, find_wheelset_contacts, contact_force, shift_creepage
+    public :: creepage_set_a, creepage_set_b
+
+    !> The wheelset; both wheels carry the same profile.
+    type :: wheelset_t
+        real(wp) :: back_spacing = 1360.0_wp !! distance of the two flange backs, mm
+        real(wp) :: tread_line = 70.0_wp     !! flange back to mean tread line (y = 0), mm
+        real(wp) :: radius = 460.0_wp        !! rolling radius r0 at the mean tread line, mm
+    end type wheelset_t
+
+    !> The track; both rails carry the same profile.
+    type :: track_t
+        real(wp) :: gauge = 1435.0_wp     !! distance of the two gauge faces, mm
+        real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
+    end type track_t
+
+    !> One point of contact.
+    type :: rigid_contact_t
+        real(wp) :: y_wheel = 0.0_wp !! on the wheel profile, mm
+        real(wp) :: z_wheel = 0.0_wp !! on the wheel profile, mm
+        real(wp) :: y_rail = 0.0_wp  !! on the rail profile, mm
+        real(wp) :: z_rail = 0.0_wp  !! on the rail profile, mm
+        real(wp) :: y_track = 0.0_wp !! from the track centre, mm
+        real(wp) :: gamma = 0.0_wp   !! contact angle, atan(dz/dy), rad; negative on the tread
+        real(wp) :: radius = 0.0_wp  !! rolling radius at the contact, mm
+    end type rigid_contact_t
+
+    !> The signs of Table 2 taken literally: cksi = Sx, not consistent with its spin. Only to
+    !> reproduce the paper.
+    integer, parameter :: creepage_set_a = 1
+
+    !> The physical signs: cksi = -Sx of Table 2, what a wheelset's motion gives.
+    integer, parameter :: creepage_set_b = 2
+
+    ! Spacing of the scan for the smallest distance, mm; bisections that follow.
+    real(wp), parameter :: scan_step = 0.02_wp
+    integer, parameter :: n_bisections = 60
+
+contains
+
+    !> The rigid contact of a right wheel on the right rail.
+    !>
+    !> The wheel comes down vertically: contact is where the vertical distance is smallest. The
+    !> distance is scanned over the whole common width and every dip that could be the lowest is
+    !> refined on the difference of the slopes, so that of two nearly equal dips the lower wins.
+    pure subroutine find_rigid_contact(wheel, rail, wheelset, track, shift, contact, status)
+        type(profile_t), intent(in) :: wheel           !! wheel profile
+        type(profile_t), intent(in) :: rail            !! rail profile, canted
+        type(wheelset_t), intent(in) :: wheelset       !! mm
+        type(track_t), intent(in) :: track             !! mm
+        real(wp), intent(in) :: shift                  !! of the wheelset to the right, mm
+        type(rigid_contact_t), intent(out) :: contact  !! where they touch
+        type(status_t), intent(out) :: status          !! `st_bad_argument`: dimensions;
+                                                       !! `st_out_of_range`: profiles too short;
+                                                       !! `st_no_contact`: they do not overlap or
+                                                       !! touch at the end of a profile
+        real(wp) :: offset, first, last, step, left, middle, right, y, best, refined, lowest
+        integer :: i, n
+
+        call check_setup(wheelset, track, shift, status)
+        if (status%code /= 0) return
+        call rail_offset(wheel, rail, wheelset, track, shift, offset, status)
+        if (status%code /= 0) return
+        ! y is the coordinate of the rail profile; the wheel's is y + offset.
+        first = max(rail%y_first, wheel%y_first - offset)
+        last = min(rail%y_last, wheel%y_last - offset)
+        if (last - first < 4.0_wp*scan_step) then
+            call set_status(status, st_no_contact, 'wheel and rail do not overlap at the shift ' &
+                            // trim(number_text(shift)) // ' mm')
+            return
+        end if
+        n = ceiling((last - first)/scan_step)
+        step = (last - first)/real(n, wp)
+
+        lowest = huge(lowest)
+        do i = 0, n
+            lowest = min(lowest, distance(place(i)))
+        end do
+        best = huge(best)
+        left = distance(place(0))
+        middle = distance(place(1))
+        do i = 2, n
+            right = distance(place(i))
+            ! A dip can lie below its lowest sample by no more than the samples differ.
+            if (middle <= left .and. middle <= right &
+                .and. middle - max(left - middle, right - middle) <= lowest) then
+                y = dip(place(i - 2), place(i))
+                refined = distance(y)
+                if (refined < best) then
+                    best = refined
+                    contact%y_rail = y
+                end if
+            end if
+            left = middle
+            middle = right
+        end do
+        if (best > lowest) then
+            call set_status(status, st_no_contact, &
+                            'wheel and rail touch at the end of a profile at the shift ' // &
+                            trim(number_text(shift)) // ' mm')
+            return
+        end if
+        call complete_contact(wheel, rail, wheelset, shift, offset, contact, status)
+
+    contains
+
+        pure real(wp) function place(j)
+            integer, intent(in) :: j
+
+            place = min(first + real(j, wp)*step, last)
+        end function place
+
+        ! Vertical distance of wheel and rail but for a constant, and its slope.
+        pure real(wp) function distance(at) result(value)
+            real(wp), intent(in) :: at
+            real(wp) :: slope
+
+            call distance_and_slope(at, value, slope)
+        end function distance
+
+        pure subroutine distance_and_slope(at, value, slope)
+            real(wp), intent(in) :: at
+            real(wp), intent(out) :: value, slope
+            real(wp) :: z_rail, z_wheel, dz_rail, dz_wheel, d2z, y_wheel
+            type(status_t) :: inside
+
+            y_wheel = max(wheel%y_first, min(at + offset, wheel%y_last))
+            call profile_at(rail, at, z_rail, dz_rail, d2z, inside)
+            call profile_at(wheel, y_wheel, z_wheel, dz_wheel, d2z, inside)
+            value = z_rail - z_wheel
+            slope = dz_rail - dz_wheel
+        end subroutine distance_and_slope
+
+        ! Where the slope of the distance changes sign between two places.
+        pure real(wp) function dip(from, to) result(at)
+            real(wp), intent(in) :: from, to
+            real(wp) :: low, high, value, slope
+            integer :: k
+
+            low = from
+            high = to
+            do k = 1, n_bisections
+                at = 0.5_wp*(low + high)
+                call distance_and_slope(at, value, slope)
+                if (slope < 0.0_wp) then
+                    low = at
+                else
+                    high = at
+                end if
+            end do
+        end function dip
+    end subroutine find_rigid_contact
+
+    pure subroutine check_setup(wheelset, track, shift, status)
+        type(wheelset_t), intent(in) :: wheelset
+        type(track_t), intent(in) :: track
+        real(wp), intent(in) :: shift
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        call check_length('distance of the flange backs', wheelset%back_spacing, status)
+        call check_length('distance of flange back and tread line', wheelset%tread_line, status)
+        call check_length('rolling radius', wheelset%radius, status)
+        call check_length('gauge', track%gauge, status)
+        call check_length('depth of the gauge below the crown', track%gauge_depth, status)
+        if (status%code /= 0) return
+        if (.not. ieee_is_finite(shift)) then
+            call set_status(status, st_bad_argument, 'the lateral shift is not a finite number')
+        else if (abs(shift) > 1.0e4_wp) then
+            call set_status(status, st_bad_argument, 'lateral shift beyond 10 m: ' // &
+                            trim(number_text(shift)) // ' mm')
+        end if
+    end subroutine check_setup
+
+    ! Positive, finite, and no more than a kilometre.
+    pure subroutine check_length(name, value, status)
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: value
+        type(status_t), intent(inout) :: status
+        logical :: valid
+
+        if (status%code /= 0) return
+        valid = ieee_is_finite(value)
+        if (valid) valid = value > 0.0_wp .and. value <= 1.0e6_wp
+        if (.not. valid) then
+            call set_status(status, st_bad_argument, name // &
+                            ' not between 0 and 1e6 mm: ' // trim(number_text(value)))
+        end if
+    end subroutine check_length
+
+    ! What to add to a coordinate of the rail profile to get that of the wheel profile.
+    pure subroutine rail_offset(wheel, rail, wheelset, track, shift, offset, status)
+        type(profile_t), intent(in) :: wheel, rail
+        type(wheelset_t), intent(in) :: wheelset
+        type(track_t), intent(in) :: track
+        real(wp), intent(in) :: shift
+        real(wp), intent(out) :: offset
+        type(status_t), intent(out) :: status
+        real(wp) :: y_gauge, wheel_line
+
+        offset = 0.0_wp
+        call clear_status(status)
+        if (wheel%y_last <= wheel%y_first .or. rail%y_last <= rail%y_first) then
+            call set_status(status, st_bad_argument, 'there is no wheel or no rail profile')
+            return
+        end if
+        call find_gauge_point(rail, track%gauge_depth, y_gauge, status)
+        if (status%code /= 0) return
+        wheel_line = 0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift
+        offset = 0.5_wp*track%gauge - y_gauge - wheel_line
+    end subroutine rail_offset
+
+    ! The point of the gauge face at a depth below the highest point of the rail.
+    pure subroutine find_gauge_point(rail, depth, y_gauge, status)
+        type(profile_t), intent(in) :: rail
+        real(wp), intent(in) :: depth
+        real(wp), intent(out) :: y_gauge
+        type(status_t), intent(out) :: status
+        real(wp) :: step, z, dz, d2z, top, low, high, y
+        integer :: i, n, i_top
+
+        n = max(ceiling((rail%y_last - rail%y_first)/scan_step), 2)
+        step = (rail%y_last - rail%y_first)/real(n, wp)
+        top = huge(top)
+        i_top = 0
+        do i = 0, n
+            call profile_at(rail, min(rail%y_first + real(i, wp)*step, rail%y_last), z, dz, d2z, &
+                            status)
+            if (z < top) then
+                top = z
+                i_top = i
+            end if
+        end do
+        ! The crown itself, where the slope changes sign next to the highest sample.
+        low = rail%y_first + real(max(i_top - 1, 0), wp)*step
+        high = min(rail%y_first + real(i_top + 1, wp)*step, rail%y_last)
+        do i = 1, n_bisections
+            y = 0.5_wp*(low + high)
+            call profile_at(rail, y, z, dz, d2z, status)
+            top = min(top, z)
+            if (dz < 0.0_wp) then
+                low = y
+            else
+                high = y
+            end if
+        end do
+        ! From the crown inwards to the first sample below the depth.
+        y_gauge = 0.0_wp
+        do i = i_top - 1, 0, -1
+            call profile_at(rail, rail%y_first + real(i, wp)*step, z, dz, d2z, status)
+            if (z - top >= depth) exit
+        end do
+        if (i < 0) then
+            call set_status(status, st_out_of_range, 'the rail profile does not reach the ' // &
+                            trim(number_text(depth)) // &
+                            ' mm below its crown where the gauge is measured')
+            return
+        end if
+        low = rail%y_first + real(i, wp)*step
+        high = min(low + step, rail%y_last)
+        do i = 1, n_bisections
+            y_gauge = 0.5_wp*(low + high)
+            call profile_at(rail, y_gauge, z, dz, d2z, status)
+            if (z - top >= depth) then
+                low = y_gauge
+            else
+                high = y_gauge
+            end if
+        end do
+    end subroutine find_gauge_point
+
+    pure subroutine complete_contact(wheel, rail, wheelset, shift, offset, contact, status)
+        type(profile_t), intent(in) :: wheel, rail
+        type(wheelset_t), intent(in) :: wheelset
+        real(wp), intent(in) :: shift, offset
+        type(rigid_contact_t), intent(inout) :: contact
+        type(status_t), intent(out) :: status
+        real(wp) :: z_line, dz, d2z
+
+        call profile_at(wheel, 0.0_wp, z_line, dz, d2z, status)
+        if (is_error(status)) return
+        contact%y_wheel = contact%y_rail + offset
+        contact%y_track = 0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift &
+                          + contact%y_wheel
+        call profile_at(wheel, contact%y_wheel, contact%z_wheel, dz, d2z, status)
+        if (is_error(status)) return
+        ! At a kink of the wheel the slope of the (smoother) rail is that of the contact.
+        call profile_at(rail, contact%y_rail, contact%z_rail, dz, d2z, status)
+        if (is_error(status)) return
+        contact%gamma = atan(dz)
+        contact%radius = wheelset%radius + contact%z_wheel - z_line
+        if (contact%radius <= 0.0_wp) then
+            call set_status(status, st_bad_argument, &
+                            'no positive rolling radius at the contact: ' // &
+                            trim(number_text(contact%radius)) // ' mm')
+        end if
+    end subroutine complete_contact
+
+    !> The rigid contacts of both wheels. The left one is given in the mirrored frame, as if it
+    !> were a right wheel.
+    pure subroutine find_wheelset_contacts(wheel, rail, wheelset, track, shift, right, left, &
+                                           status)
+        type(profile_t), intent(in) :: wheel        !! profile of both wheels
+        type(profile_t), intent(in) :: rail         !! profile of both rails, canted
+        type(wheelset_t), intent(in) :: wheelset    !! mm
+        type(track_t), intent(in) :: track          !! mm
+        real(wp), intent(in) :: shift               !! of the wheelset to the right, mm
+        type(rigid_contact_t), intent(out) :: right !! contact of the right wheel
+        type(rigid_contact_t), intent(out) :: left  !! contact of the left wheel, mirrored
+        type(status_t), intent(out) :: status       !! as `find_rigid_contact`
+
+        call find_rigid_contact(wheel, rail, wheelset, track, shift, right, status)
+        if (is_error(status)) return
+        call find_rigid_contact(wheel, rail, wheelset, track, -shift, left, status)
+    end subroutine find_wheelset_contacts
+
+    !> Normal force of a contact under a vertical load, `Fn = Q/cos(gamma)`, N.
+    elemental real(wp) function contact_force(load, gamma)
+        real(wp), intent(in) :: load  !! vertical load Q, N
+        real(wp), intent(in) :: gamma !! contact angle, within +-pi/2, rad
+
+        contact_force = load/cos(gamma)
+    end function contact_force
+
+    !> Creepages of the right wheel of a wheelset that rolls straight ahead, shifted, on rigid
+    !> axles: `cksi = (rR - rL)/(2 r0)`, `ceta = 0`, `cphi = -sin(gamma)/r0`, of the rail surface
+    !> relative to the wheel's. Table 2 has `|Sx| = |cksi|` and `Phi = |cphi|`.
+    pure function shift_creepage(wheelset, right, left, signs) result(creepage)
+        type(wheelset_t), intent(in) :: wheelset   !! mm
+        type(rigid_contact_t), intent(in) :: right !! contact of the right wheel
+        type(rigid_contact_t), intent(in) :: left  !! contact of the left wheel
+        integer, intent(in) :: signs               !! `creepage_set_a` or `creepage_set_b`
+        type(creepage_t) :: creepage               !! -, -, rad/mm
+
+        creepage%cksi = (right%radius - left%radius)/(2.0_wp*wheelset%radius)
+        if (signs == creepage_set_a) creepage%cksi = -creepage%cksi
+        creepage%ceta = 0.0_wp
+        creepage%cphi = -sin(right%gamma)/wheelset%radius
+    end function shift_creepage
+end module faststrip_geometry_contact

@@ -1,0 +1,113 @@
+!> The undeformed gap of a contact: what the profiles hand to the normal solution.
+module faststrip_geometry_gap
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
+                                     st_bad_argument, st_not_finite, st_not_increasing, &
+                                     st_too_few_points
+    implicit none
+    private
+
+    public :: gap_t, check_gap, check_gap_points, min_gap_points
+
+    !> Fewest points that describe a gap.
+    integer, parameter :: min_gap_points = 5
+
+    !> Distance of wheel and rail along the common normal before any load,
+    !> `h(x, y) = h(y) + x**2 inv2r(y)`; y = 0 is the rigid contact point.
+    type :: gap_t
+        real(wp), allocatable :: y(:)     !! lateral coordinate, strictly increasing, mm
+        real(wp), allocatable :: h(:)     !! gap on the line x = 0, mm
+        real(wp), allocatable :: inv2r(:) !! 1/(2 R), R the local radius along x, 1/mm
+        real(wp), allocatable :: turn(:)  !! how far the surfaces have turned from the tangent
+                                          !! plane at y = 0, rad; not allocated: not known
+    end type gap_t
+
+contains
+
+    !> Refuse a gap no solver can work on: missing or unequal arrays, fewer than
+    !> `min_gap_points` points, numbers that are not finite, y that does not increase strictly.
+    !> The message names the index and the value. `h` may have any sign, and `inv2r` too: what is
+    !> not positive matters only where the bodies touch, and the solvers say so there.
+    pure subroutine check_gap(gap, status)
+        type(gap_t), intent(in) :: gap        !! mm, mm, 1/mm
+        type(status_t), intent(out) :: status !! `st_bad_argument`, `st_too_few_points`,
+                                              !! `st_not_finite`, `st_not_increasing`
+
+        call clear_status(status)
+        if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
+            call set_status(status, st_bad_argument, 'the gap has no y, h or inv2r')
+            return
+        end if
+        ! What is not allocated counts as an argument that is not present.
+        call check_gap_points(gap%y, gap%h, gap%inv2r, status, gap%turn)
+    end subroutine check_gap
+
+    !> The same for a gap in plain arrays.
+    pure subroutine check_gap_points(y, h, inv2r, status, turn)
+        real(wp), intent(in) :: y(:)          !! lateral coordinate, mm
+        real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
+        real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), 1/mm
+        type(status_t), intent(out) :: status !! as `check_gap`
+        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, rad
+
+        real(wp) :: before
+        integer :: i, n
+
+        call clear_status(status)
+        n = size(y)
+        if (present(turn)) then
+            if (size(turn) /= n) then
+                call set_status(status, st_bad_argument, &
+                                'y and turn of the gap differ in length: ' // &
+                                trim(count_text(n)) // ', ' // trim(count_text(size(turn))))
+                return
+            end if
+        end if
+        if (size(h) /= n .or. size(inv2r) /= n) then
+            call set_status(status, st_bad_argument, &
+                            'y, h and inv2r of the gap differ in length: ' // &
+                            trim(count_text(n)) // ', ' // trim(count_text(size(h))) // ', ' // &
+                            trim(count_text(size(inv2r))))
+            return
+        end if
+        if (n < min_gap_points) then
+            call set_status(status, st_too_few_points, 'the gap has fewer than ' // &
+                            trim(count_text(min_gap_points)) // ' points: ' // trim(count_text(n)))
+            return
+        end if
+        before = 0.0_wp
+        do i = 1, n
+            call check_finite('y', i, y(i), status)
+            if (status%code == 0) call check_finite('h', i, h(i), status)
+            if (status%code == 0) call check_finite('inv2r', i, inv2r(i), status)
+            if (status%code /= 0) return
+            if (i > 1) then
+                if (y(i) <= before) then
+                    call set_status(status, st_not_increasing, 'y(' // trim(count_text(i)) // &
+                                    ') of the gap is not above the one before: ' // &
+                                    trim(number_text(y(i))))
+                    return
+                end if
+            end if
+            before = y(i)
+        end do
+        if (.not. present(turn)) return
+        do i = 1, n
+            call check_finite('turn', i, turn(i), status)
+            if (status%code /= 0) return
+        end do
+    end subroutine check_gap_points
+
+    pure subroutine check_finite(name, i, value, status)
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: i
+        real(wp), intent(in) :: value
+        type(status_t), intent(inout) :: status
+
+        if (.not. ieee_is_finite(value)) then
+            call set_status(status, st_not_finite, name // '(' // trim(count_text(i)) // &
+                            ') of the gap is not a finite number: ' // trim(number_text(value)))
+        end if
+    end subroutine check_finite
+end module faststrip_geometry_gap

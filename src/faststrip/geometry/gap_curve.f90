@@ -1,0 +1,476 @@
+!> The undeformed gap as a curve: values between its points, its lowest point, and the intervals
+!> in which it stays below a level.
+!>
+!> The height h(y) is the C2 cubic spline through the points, cut where they hold a step or a kink
+!> (a wall, a fill value, the end of a body), so that it does not swing on its two sides
+!> (`faststrip_numerics_torn_spline`); the longitudinal term A = 1/(2R), which jumps where a
+!> profile's radius jumps, is linear between them. The curve is cut once into monotone pieces, so
+!> that the level sets are found exactly, however small they are beside the distance of the points.
+module faststrip_geometry_gap_curve
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                     st_workspace_too_small, st_bad_argument
+    use faststrip_geometry_gap, only: gap_t, check_gap, check_gap_points
+    use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size, &
+                                              tame_interval
+    implicit none
+    private
+
+    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    public :: gap_at, gap_curvature, level_intervals
+    public :: gap_inv2r, largest_turn, largest_step, first_point_from
+
+    !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
+    real(wp), parameter :: flattest_ratio = 0.03_wp
+
+    !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
+    type :: gap_curve_t
+        integer :: n = 0         !! number of points
+        integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
+        real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
+        real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
+        real(wp), allocatable :: y(:), h(:)    !! points, mm
+        real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
+        real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
+        logical, allocatable :: is_step(:)     !! is interval i a step, which no curve goes through?
+        real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
+        real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
+                                               !! positive nowhere
+        logical :: turn_is_known = .false.     !! does `turn` count?
+        real(wp), allocatable :: turn(:)       !! of the surfaces from the tangent plane, rad
+        real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
+        real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
+        logical, allocatable :: is_torn(:)     !! does a step or a kink touch the point?
+        real(wp), allocatable :: work(:)       !! for the spline's linear system
+    end type gap_curve_t
+
+contains
+
+    !> Make room for gaps of up to `max_points` points.
+    subroutine reserve_gap_curve(curve, max_points, status)
+        type(gap_curve_t), intent(inout) :: curve !! emptied and sized
+        integer, intent(in) :: max_points         !! >= 5
+        type(status_t), intent(out) :: status     !! `st_bad_argument`
+
+        call clear_status(status)
+        if (max_points < 5) then
+            call set_status(status, st_bad_argument, 'room for fewer than 5 gap points asked')
+            return
+        end if
+        curve%n = 0
+        curve%n_pieces = 0
+        if (allocated(curve%y)) then
+            if (size(curve%y) >= max_points) return
+            deallocate (curve%y, curve%h, curve%slope_from, curve%slope_to, curve%inv2r, &
+                        curve%turn, curve%y_node, curve%h_node, curve%bend, curve%work, &
+                        curve%is_step, curve%is_torn)
+        end if
+        allocate (curve%y(max_points), curve%h(max_points), curve%slope_from(max_points), &
+                  curve%slope_to(max_points), curve%inv2r(max_points), curve%turn(max_points), &
+                  curve%y_node(3*max_points), curve%h_node(3*max_points), &
+                  curve%bend(max_points), curve%work(torn_spline_work_size(max_points)), &
+                  source=0.0_wp)
+        allocate (curve%is_step(max_points), curve%is_torn(max_points), source=.false.)
+    end subroutine reserve_gap_curve
+
+    !> Take over a gap: check it, fit the spline, cut it into monotone pieces. Allocates nothing.
+    subroutine set_gap_curve(curve, gap, status)
+        type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
+        type(gap_t), intent(in) :: gap            !! points of the gap, mm
+        type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
+
+        call check_gap(gap, status)
+        if (is_error(status)) return
+        call take_points(curve, gap%y, gap%h, gap%inv2r, status)
+        if (is_error(status)) return
+        curve%turn_is_known = allocated(gap%turn)
+        if (curve%turn_is_known) curve%turn(:curve%n) = gap%turn
+    end subroutine set_gap_curve
+
+    !> The same from plain arrays.
+    subroutine set_gap_curve_points(curve, y, h, inv2r, status, turn)
+        type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
+        real(wp), intent(in) :: y(:)              !! lateral coordinate, strictly increasing, mm
+        real(wp), intent(in) :: h(:)              !! gap on the line x = 0, mm
+        real(wp), intent(in) :: inv2r(:)          !! 1/(2 R), R the local radius along x, 1/mm
+        type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
+        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, finite, rad
+
+        call check_room(curve, size(y), status)
+        if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, turn)
+        if (is_error(status)) return
+        call take_points(curve, y, h, inv2r, status)
+        if (is_error(status) .or. .not. present(turn)) return
+        curve%turn_is_known = .true.
+        curve%turn(:curve%n) = turn
+    end subroutine set_gap_curve_points
+
+    subroutine take_points(curve, y, h, inv2r, status)
+        type(gap_curve_t), intent(inout) :: curve
+        real(wp), intent(in) :: y(:), h(:), inv2r(:)
+        type(status_t), intent(inout) :: status
+
+        integer :: n
+
+        n = size(y)
+        curve%n = 0
+        call check_room(curve, n, status)
+        if (is_error(status)) return
+        curve%y(:n) = y
+        curve%h(:n) = h
+        curve%inv2r(:n) = inv2r
+        curve%least_inv2r = flattest_ratio*usual_inv2r(inv2r)
+        curve%turn_is_known = .false.
+        call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
+                               curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
+                               curve%is_step(:n), curve%work, status)
+        if (is_error(status)) return
+        curve%n = n
+        call cut_into_monotone_pieces(curve)
+    end subroutine take_points
+
+    !> Refuse more points than there is room for; the points themselves are not looked at.
+    pure subroutine check_room(curve, n, status)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: n
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (.not. allocated(curve%y)) then
+            call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
+        else if (n > size(curve%y)) then
+            call set_status(status, st_workspace_too_small, 'the gap must have at most ' // &
+                            trim(count_text(size(curve%y))) // &
+                            ' points, for which room was reserved, got ' // count_text(n))
+        end if
+    end subroutine check_room
+
+    !> Geometric mean of the terms that are positive; the least of all where no other is so much
+    !> larger that it matters; 0 if none is.
+    pure real(wp) function usual_inv2r(inv2r) result(usual)
+        real(wp), intent(in) :: inv2r(:)
+
+        real(wp) :: total
+        integer :: i, n
+
+        usual = minval(inv2r)
+        if (usual >= flattest_ratio*maxval(inv2r) .and. usual > 0.0_wp) return
+        total = 0.0_wp
+        n = 0
+        do i = 1, size(inv2r)
+            if (inv2r(i) <= 0.0_wp) cycle
+            n = n + 1
+            total = total + log(inv2r(i))
+        end do
+        usual = 0.0_wp
+        if (n > 0) usual = exp(total/n)
+    end function usual_inv2r
+
+    pure subroutine cut_into_monotone_pieces(curve)
+        type(gap_curve_t), intent(inout) :: curve
+
+        real(wp) :: dy, root(2), extremum(2)
+        integer :: i, j, m, n_roots
+        logical :: is_tamed
+
+        m = 1
+        curve%y_node(1) = curve%y(1)
+        curve%h_node(1) = curve%h(1)
+        do i = 1, curve%n - 1
+            dy = curve%y(i + 1) - curve%y(i)
+            call find_extrema(curve, i, n_roots, root, extremum)
+            if (n_roots > 0) then
+                call tame_interval(i, curve%y(:curve%n), curve%h(:curve%n), &
+                                   curve%bend(:curve%n), minval(extremum(:n_roots)), &
+                                   maxval(extremum(:n_roots)), curve%slope_from(i), &
+                                   curve%slope_to(i), is_tamed)
+                if (is_tamed) call find_extrema(curve, i, n_roots, root, extremum)
+            end if
+            do j = 1, n_roots
+                m = m + 1
+                curve%y_node(m) = curve%y(i) + root(j)*dy
+                curve%h_node(m) = extremum(j)
+            end do
+            m = m + 1
+            curve%y_node(m) = curve%y(i + 1)
+            curve%h_node(m) = curve%h(i + 1)
+        end do
+        curve%n_pieces = m - 1
+        i = minloc(curve%h_node(:m), dim=1)
+        curve%h_lowest = curve%h_node(i)
+        ! The middle of a flat place, as seen from either side.
+        j = i
+        do while (j < m)
+            if (curve%h_node(j + 1) > curve%h_lowest) exit
+            j = j + 1
+        end do
+        curve%y_lowest = curve%y_node(i)
+        if (j > i) curve%y_lowest = 0.5_wp*(curve%y_node(i) + curve%y_node(j))
+    end subroutine cut_into_monotone_pieces
+
+    !> Places and heights of the extrema inside interval i.
+    pure subroutine find_extrema(curve, i, n, root, extremum)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        integer, intent(out) :: n
+        real(wp), intent(out) :: root(2), extremum(2) ! in 0 to 1; mm
+
+        real(wp) :: c1, c2, c3, dy, secant
+
+        dy = curve%y(i + 1) - curve%y(i)
+        secant = curve%h(i + 1) - curve%h(i)
+        c1 = curve%slope_from(i)*dy
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
+        c2 = secant - c1 - c3
+        call unit_interval_roots(3.0_wp*c3, 2.0_wp*c2, c1, n, root)
+        extremum = curve%h(i) + root*(c1 + root*(c2 + root*c3))
+    end subroutine find_extrema
+
+    !> Roots of a t^2 + b t + c strictly inside (0, 1), ascending.
+    pure subroutine unit_interval_roots(a, b, c, n, root)
+        real(wp), intent(in) :: a, b, c
+        integer, intent(out) :: n
+        real(wp), intent(out) :: root(2)
+
+        real(wp) :: discriminant, q, candidate(2)
+        integer :: i
+
+        n = 0
+        root = 0.0_wp
+        candidate = -1.0_wp
+        discriminant = b*b - 4.0_wp*a*c
+        if (discriminant <= 0.0_wp) return
+        q = -0.5_wp*(b + sign(sqrt(discriminant), b))
+        ! A quotient above one is no root inside; tested before dividing, which could overflow.
+        if (abs(q) < abs(a)) candidate(1) = q/a
+        if (abs(c) < abs(q)) candidate(2) = c/q
+        if (candidate(1) > candidate(2)) candidate = candidate([2, 1])
+        do i = 1, 2
+            if (candidate(i) <= 0.0_wp .or. candidate(i) >= 1.0_wp) cycle
+            n = n + 1
+            root(n) = candidate(i)
+        end do
+    end subroutine unit_interval_roots
+
+    !> Height and longitudinal term of the gap; outside the points those of the nearest one.
+    !>
+    !> A term below 3 % of the gap's geometric mean is raised to that: strips would become more
+    !> than six times as long as usual, and endless where it is not positive. `gap_inv2r` tells it
+    !> as it was given.
+    pure subroutine gap_at(curve, y, h, inv2r)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+        real(wp), intent(out) :: h             !! height, mm
+        real(wp), intent(out) :: inv2r         !! A = 1/(2R), 1/mm
+
+        integer :: i
+        real(wp) :: t
+
+        if (y <= curve%y(1)) then
+            h = curve%h(1)
+            inv2r = curve%inv2r(1)
+        else if (y >= curve%y(curve%n)) then
+            h = curve%h(curve%n)
+            inv2r = curve%inv2r(curve%n)
+        else
+            i = interval_of(curve, y)
+            t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
+            h = height(curve, i, t)
+            inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
+        end if
+        inv2r = max(inv2r, curve%least_inv2r)
+    end subroutine gap_at
+
+    !> The longitudinal term as it was given, 1/mm; outside the points that of the nearest one.
+    pure real(wp) function gap_inv2r(curve, y) result(inv2r)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+
+        integer :: i
+        real(wp) :: t
+
+        i = interval_of(curve, y)
+        t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
+        t = max(0.0_wp, min(1.0_wp, t))
+        inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
+    end function gap_inv2r
+
+    !> By how much the surfaces turn between two places, rad; zero if that is not known.
+    pure real(wp) function largest_turn(curve, y_from, y_to) result(turn)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y_from         !! left place, mm
+        real(wp), intent(in) :: y_to           !! right place, mm
+
+        integer :: first, last
+
+        turn = 0.0_wp
+        if (.not. curve%turn_is_known) return
+        first = interval_of(curve, y_from)
+        last = interval_of(curve, y_to) + 1
+        turn = maxval(curve%turn(first:last)) - minval(curve%turn(first:last))
+    end function largest_turn
+
+    !> The steps of the gap that lie between two places or reach into that range. Their height is
+    !> over what the slopes beside them lead to; zero if there is none.
+    pure subroutine largest_step(curve, y_from, y_to, highest, steepest, y)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y_from         !! left place, mm
+        real(wp), intent(in) :: y_to           !! right place, mm
+        real(wp), intent(out) :: highest       !! of the steps, mm
+        real(wp), intent(out) :: steepest      !! height of a step over its length
+        real(wp), intent(out) :: y             !! lower end of the highest, mm
+
+        real(wp) :: step, dy, slope
+        integer :: i
+
+        highest = 0.0_wp
+        steepest = 0.0_wp
+        y = y_from
+        do i = interval_of(curve, y_from), curve%n - 1
+            if (curve%y(i) >= y_to) exit
+            if (.not. curve%is_step(i) .or. curve%y(i + 1) <= y_from) cycle
+            ! The intervals at the ends of the points are no steps.
+            dy = curve%y(i + 1) - curve%y(i)
+            slope = 0.5_wp*(merge(0.0_wp, curve%slope_to(i - 1), curve%is_step(i - 1)) &
+                            + merge(0.0_wp, curve%slope_from(i + 1), curve%is_step(i + 1)))
+            step = abs(curve%h(i + 1) - curve%h(i) - slope*dy)
+            steepest = max(steepest, step/dy)
+            if (step <= highest) cycle
+            highest = step
+            y = curve%y(merge(i, i + 1, curve%h(i) < curve%h(i + 1)))
+        end do
+    end subroutine largest_step
+
+    !> Half the second derivative of the height, the B of a Hertzian gap `A x^2 + B y^2`, 1/mm.
+    pure real(wp) function gap_curvature(curve, y) result(b)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, taken into the range, mm
+
+        integer :: i
+        real(wp) :: t, dy, secant, c2, c3
+
+        i = interval_of(curve, y)
+        ! At the foot of a step the curvature is that of the side which is no step.
+        if (curve%is_step(i) .and. y <= curve%y(i) .and. i > 1) i = i - 1
+        dy = curve%y(i + 1) - curve%y(i)
+        t = min(max((y - curve%y(i))/dy, 0.0_wp), 1.0_wp)
+        secant = curve%h(i + 1) - curve%h(i)
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
+        c2 = secant - curve%slope_from(i)*dy - c3
+        b = (c2 + 3.0_wp*c3*t)/dy**2
+    end function gap_curvature
+
+    !> The intervals in which the gap is below a level, in the order of y.
+    !>
+    !> The ends are exact roots of the spline; an interval that runs out of the data ends there.
+    pure subroutine level_intervals(curve, level, y_from, y_to, n)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: level          !! height, mm
+        real(wp), intent(inout) :: y_from(:)   !! left ends, mm; the first `n` count
+        real(wp), intent(inout) :: y_to(:)         !! right ends, mm
+        integer, intent(out) :: n              !! number of intervals; at most size(y_from),
+                                               !! further ones to the right are left out
+        integer :: j
+        logical :: inside
+
+        n = 0
+        inside = curve%h_node(1) < level
+        if (inside) then
+            n = 1
+            y_from(1) = curve%y_node(1)
+        end if
+        do j = 1, curve%n_pieces
+            if (inside .eqv. (curve%h_node(j + 1) < level)) cycle
+            if (inside) then
+                y_to(n) = crossing(curve, j, level)
+            else
+                if (n == size(y_from)) return
+                n = n + 1
+                y_from(n) = crossing(curve, j, level)
+            end if
+            inside = .not. inside
+        end do
+        if (inside) y_to(n) = curve%y_node(curve%n_pieces + 1)
+    end subroutine level_intervals
+
+    !> Where monotone piece j crosses a level that its two ends enclose.
+    pure real(wp) function crossing(curve, j, level) result(y)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: j
+        real(wp), intent(in) :: level
+
+        integer :: i, k
+        real(wp) :: low, high, y0, dy, t, f
+        logical :: rising
+
+        low = curve%y_node(j)
+        high = curve%y_node(j + 1)
+        i = interval_of(curve, 0.5_wp*(low + high))
+        y0 = curve%y(i)
+        dy = curve%y(i + 1) - y0
+        low = (low - y0)/dy
+        high = (high - y0)/dy
+        rising = curve%h_node(j + 1) > curve%h_node(j)
+        t = 0.5_wp*(low + high)
+        do k = 1, 60
+            t = 0.5_wp*(low + high)
+            f = height(curve, i, t) - level
+            if ((f > 0.0_wp) .eqv. rising) then
+                high = t
+            else
+                low = t
+            end if
+            if (high - low <= epsilon(1.0_wp)*max(abs(low), abs(high))) exit
+        end do
+        y = y0 + t*dy
+    end function crossing
+
+    !> The first point at or to the right of a position: 1 to n + 1.
+    pure integer function first_point_from(curve, y) result(first)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y              !! lateral position, mm
+
+        if (y <= curve%y(1)) then
+            first = 1
+        else if (y > curve%y(curve%n)) then
+            first = curve%n + 1
+        else
+            first = interval_of(curve, y)
+            if (curve%y(first) < y) first = first + 1
+        end if
+    end function first_point_from
+
+    !> Index i of the point interval that holds y, with y_i <= y < y_(i+1) inside the data.
+    pure integer function interval_of(curve, y) result(i)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: y
+
+        integer :: high, middle
+
+        i = 1
+        high = curve%n
+        do while (high - i > 1)
+            middle = (i + high)/2
+            if (y >= curve%y(middle)) then
+                i = middle
+            else
+                high = middle
+            end if
+        end do
+    end function interval_of
+
+    !> Height in interval i at the local coordinate t of 0 to 1.
+    pure real(wp) function height(curve, i, t) result(h)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        real(wp), intent(in) :: t
+
+        real(wp) :: dy, secant, c1, c3
+
+        dy = curve%y(i + 1) - curve%y(i)
+        secant = curve%h(i + 1) - curve%h(i)
+        c1 = curve%slope_from(i)*dy
+        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
+        h = curve%h(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
+    end function height
+end module faststrip_geometry_gap_curve

@@ -1,0 +1,235 @@
+!> Smoothing of a measured gap, for who asks for it: nothing in the library does so by itself.
+!>
+!> The gap is a parabola fitted to all points and what is left of them smoothed by a cubic spline
+!> on even knots, with a penalty on the third differences of its coefficients (Eilers and Marx,
+!> Statistical Science 11, 1996, 89-121): with N = B'B and third differences D,
+!>
+!>     (N + lambda D'D) c = B' h.
+!>
+!> Parabolas, and with them all Hertzian gaps, remain what they are, their curvature is not
+!> levelled down as by a penalty on the second derivative. The user states the noise, and
+!> lambda is the one with the least unbiased estimate of the curve's error (Mallows, Technometrics
+!> 15, 1973, 661-675),
+!>
+!>     sum (h - g)^2 + 2 f noise^2 e,    e = tr [(N + lambda D'D)^(-1) N],
+!>
+!> e being the degrees of freedom the curve takes up, and f = 1.4 against curves that follow the
+!> noise (Kim and Gu, J. R. Statist. Soc. B 66, 2004, 337-356). A noise stated somewhat wrongly
+!> changes little, other than where the deviation is asked to be equal to it. The longitudinal
+!> term is left as it is: it comes from the radius, not from the points' heights.
+!>
+!> Measured with noise of 0.5 um on the 20 gaps of the reference and on Hertzian gaps of 200 to
+!> 20000 points: see `test_gap_smoothing`.
+module faststrip_geometry_gap_smoothing
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
+                                     st_not_finite, st_out_of_range, st_linear_algebra
+    use faststrip_numerics_lapack, only: dpbtrf, dpbtrs
+    use faststrip_geometry_gap, only: gap_t, check_gap
+    implicit none
+    private
+
+    public :: smooth_gap
+
+    integer, parameter :: most_intervals = 400 ! between knots
+    integer, parameter :: band = 3             ! upper diagonals of the system
+    real(wp), parameter :: third_difference(0:3) = [-1.0_wp, 3.0_wp, -3.0_wp, 1.0_wp]
+    real(wp), parameter :: caution = 1.4_wp    ! f
+    real(wp), parameter :: bad_fit = 2.0_wp    ! rms deviation at the least lambda, over the noise
+    ! lambda, with the traces of N and D'D made equal: a factor of 10, then finer
+    integer, parameter :: first_decade = -6, last_decade = 13, refinements = 4
+
+contains
+
+    !> Smooth the heights of a gap.
+    subroutine smooth_gap(gap, noise, smoothed, rms_change, status)
+        type(gap_t), intent(in) :: gap          !! mm, mm, 1/mm
+        real(wp), intent(in) :: noise           !! standard deviation of the heights' errors, mm
+        type(gap_t), intent(out) :: smoothed    !! the same points; nothing allocated on an error
+        real(wp), intent(out) :: rms_change     !! root mean square of the heights' changes, mm
+        type(status_t), intent(out) :: status
+            !! those of `check_gap`; `st_not_finite`, `st_bad_argument` (noise not positive),
+            !! `st_out_of_range` (the gap bends too sharply for 400 knots to follow it within the
+            !! noise), `st_linear_algebra`
+
+        real(wp), allocatable :: basis(:, :), rest(:), curve(:), normal(:, :), penalty(:, :)
+        real(wp), allocatable :: right(:)
+        integer, allocatable :: first(:)
+        real(wp) :: risk, best_risk, best_log, log_lambda, step, unit
+        integer :: i, j, n, m, info
+
+        rms_change = 0.0_wp
+        call check_gap(gap, status)
+        if (is_error(status)) return
+        if (.not. ieee_is_finite(noise)) then
+            call set_status(status, st_not_finite, &
+                            'the noise is not a finite number: '//number_text(noise))
+            return
+        else if (noise <= 0.0_wp) then
+            call set_status(status, st_bad_argument, &
+                            'the noise is not positive: '//trim(number_text(noise))//' mm')
+            return
+        end if
+        n = size(gap%y)
+        m = min(n, most_intervals) + 3
+        allocate (basis(0:3, n), rest(n), curve(n), normal(band + 1, m), penalty(band + 1, m), &
+                  right(m), source=0.0_wp)
+        allocate (first(n), source=0)
+        call take_parabola(gap%y, gap%h, rest)
+        unit = maxval(abs(rest))
+        if (unit <= epsilon(1.0_wp)*maxval(abs(gap%h))) then
+            smoothed = gap
+            return
+        end if
+        if (noise/unit > 1.0e100_wp .or. unit/noise > 1.0e100_wp) then
+            call set_status(status, st_out_of_range, 'noise and heights beyond all proportion')
+            return
+        end if
+        rest = rest/unit
+        call fill_basis(gap%y, m - 3, basis, first)
+        call fill_system(basis, first, rest, normal, penalty, right)
+        best_risk = huge(1.0_wp)
+        best_log = 0.0_wp
+        step = log(10.0_wp)
+        do i = first_decade, last_decade
+            call fit(i*step, risk)
+            if (info /= 0) cycle
+            if (i == first_decade .and. sum((rest - curve)**2) &
+                > n*(bad_fit*noise/unit)**2) then
+                call set_status(status, st_out_of_range, 'the gap bends too sharply to be ' &
+                                //'smoothed within a noise of '//trim(number_text(noise))//' mm')
+                return
+            end if
+            if (risk >= best_risk) cycle
+            best_risk = risk
+            best_log = i*step
+        end do
+        do j = 1, refinements
+            step = 0.5_wp*step
+            do i = -1, 1, 2
+                log_lambda = best_log + i*step
+                call fit(log_lambda, risk)
+                if (info /= 0 .or. risk >= best_risk) cycle
+                best_risk = risk
+                best_log = log_lambda
+                exit
+            end do
+        end do
+        call fit(best_log, risk)
+        if (info /= 0) then
+            call set_status(status, st_linear_algebra, 'the smoothing system is singular')
+            return
+        end if
+        smoothed = gap
+        smoothed%h = gap%h - unit*(rest - curve)
+        rms_change = sqrt(sum((rest - curve)**2)/n)*unit
+
+    contains
+
+        !> The curve for a lambda, and the estimate of its error.
+        subroutine fit(log_of_lambda, error)
+            real(wp), intent(in) :: log_of_lambda
+            real(wp), intent(out) :: error
+
+            real(wp) :: system(band + 1, m), solution(m, m + 1), degrees
+            integer :: l, k
+
+            error = huge(1.0_wp)
+            system = normal + exp(log_of_lambda)*penalty
+            call dpbtrf('U', m, band, system, band + 1, info)
+            if (info /= 0) return
+            solution = 0.0_wp
+            do l = 1, m
+                do k = max(1, l - band), l
+                    solution(k, l) = normal(band + 1 + k - l, l)
+                    solution(l, k) = solution(k, l)
+                end do
+            end do
+            solution(:, m + 1) = right
+            call dpbtrs('U', m, band, m + 1, system, band + 1, solution, m, info)
+            degrees = 0.0_wp
+            do l = 1, m
+                degrees = degrees + solution(l, l)
+            end do
+            do l = 1, n
+                curve(l) = dot_product(basis(:, l), solution(first(l):first(l) + 3, m + 1))
+            end do
+            error = sum((rest - curve)**2) + 2.0_wp*caution*(noise/unit)**2*degrees
+        end subroutine fit
+    end subroutine smooth_gap
+
+    !> What is left of heights without the parabola that fits them best.
+    pure subroutine take_parabola(y, h, rest)
+        real(wp), intent(in) :: y(:), h(:)
+        real(wp), intent(out) :: rest(:)
+
+        real(wp) :: t(size(y)), p(size(y)), slope, mean
+        integer :: n, pass
+
+        n = size(y)
+        t = (y - 0.5_wp*(y(1) + y(n)))/(0.5_wp*(y(n) - y(1)))
+        t = t - sum(t)/n
+        slope = sum(t**3)/sum(t**2)
+        mean = sum(t**2)/n
+        p = t**2 - mean - slope*t
+        rest = h
+        do pass = 1, 2
+            rest = rest - sum(rest)/n
+            rest = rest - t*(sum(t*rest)/sum(t**2))
+            rest = rest - p*(sum(p*rest)/sum(p**2))
+        end do
+    end subroutine take_parabola
+
+    !> The four cubic B-splines on even knots that are not zero at each point.
+    pure subroutine fill_basis(y, intervals, basis, first)
+        real(wp), intent(in) :: y(:)
+        integer, intent(in) :: intervals
+        real(wp), intent(out) :: basis(0:, :)
+        integer, intent(out) :: first(:) ! of the four
+
+        real(wp) :: t, u
+        integer :: i, n
+
+        n = size(y)
+        do i = 1, n
+            t = intervals*((y(i) - y(1))/(y(n) - y(1)))
+            first(i) = min(int(t), intervals - 1) + 1
+            u = t - (first(i) - 1)
+            basis(0, i) = (1.0_wp - u)**3/6.0_wp
+            basis(1, i) = (4.0_wp + u*u*(3.0_wp*u - 6.0_wp))/6.0_wp
+            basis(2, i) = (1.0_wp + u*(3.0_wp + u*(3.0_wp - 3.0_wp*u)))/6.0_wp
+            basis(3, i) = u**3/6.0_wp
+        end do
+    end subroutine fill_basis
+
+    !> N, D'D scaled to its trace (upper bands as LAPACK stores them), and B'h.
+    pure subroutine fill_system(basis, first, rest, normal, penalty, right)
+        real(wp), intent(in) :: basis(0:, :), rest(:)
+        integer, intent(in) :: first(:)
+        real(wp), intent(inout) :: normal(:, :), penalty(:, :), right(:)
+
+        integer :: i, j, k
+
+        do i = 1, size(rest)
+            do j = 0, 3
+                right(first(i) + j) = right(first(i) + j) + basis(j, i)*rest(i)
+                do k = 0, j
+                    associate (entry => normal(band + 1 + k - j, first(i) + j))
+                        entry = entry + basis(j, i)*basis(k, i)
+                    end associate
+                end do
+            end do
+        end do
+        do i = 1, size(right) - 3
+            do j = 0, 3
+                do k = 0, j
+                    associate (entry => penalty(band + 1 + k - j, i + j))
+                        entry = entry + third_difference(j)*third_difference(k)
+                    end associate
+                end do
+            end do
+        end do
+        penalty = penalty*(sum(normal(band + 1, :))/sum(penalty(band + 1, :)))
+    end subroutine fill_system
+end module faststrip_geometry_gap_smoothing

@@ -1,0 +1,155 @@
+!> Wheel and rail profiles of every kind behind one face.
+!>
+!> The frame is that of a right wheel and a right rail: y to the field side, z down. A wheel has
+!> y = 0 at its mean tread line; a rail is canted already, with the origin at its highest point
+!> (points: where their author put it).
+module faststrip_geometry_profile
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_geometry_rail_uic60, only: rail_head_t, make_rail_head, rail_head_at, &
+                                             uic60_transition, en60e1_transition
+    use faststrip_geometry_sampled, only: sampled_profile_t, make_sampled_profile, &
+                                          sampled_profile_at
+    use faststrip_geometry_wheel_s1002, only: s1002_at, s1002_first, s1002_last
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_out_of_range
+    implicit none
+    private
+
+    public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
+    public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
+    public :: standard_cant
+
+    integer, parameter :: profile_none = 0
+    integer, parameter :: profile_s1002 = 1
+    integer, parameter :: profile_uic60 = 2
+    integer, parameter :: profile_60e1 = 3
+    integer, parameter :: profile_points = 4
+
+    !> Rail cant 1:40.
+    real(wp), parameter :: standard_cant = 0.025_wp
+
+    ! Points beyond this are not in mm.
+    real(wp), parameter :: largest_coordinate = 1.0e4_wp
+
+    !> One profile, ready to be evaluated between y_first and y_last.
+    type :: profile_t
+        integer :: kind = profile_none     !! which profile: one of the `profile_` kinds
+        real(wp) :: y_first = 0.0_wp       !! first y of the definition, mm
+        real(wp) :: y_last = 0.0_wp        !! last y of the definition, mm
+        type(rail_head_t) :: head          !! used by `uic60` and `60e1`
+        type(sampled_profile_t) :: sampled !! used by `points`
+    end type profile_t
+
+contains
+
+    !> An analytic wheel profile by name.
+    pure subroutine make_wheel_profile(name, profile, status)
+        character(len=*), intent(in) :: name      !! `s1002`
+        type(profile_t), intent(out) :: profile   !! the profile
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name
+
+        call clear_status(status)
+        if (name /= 's1002') then
+            call set_status(status, st_bad_argument, &
+                            'no such wheel profile (there is s1002): ' // name)
+            return
+        end if
+        profile%kind = profile_s1002
+        profile%y_first = s1002_first
+        profile%y_last = s1002_last
+    end subroutine make_wheel_profile
+
+    !> An analytic rail profile by name.
+    pure subroutine make_rail_profile(name, cant, profile, status)
+        character(len=*), intent(in) :: name      !! `uic60` (Manchester) or `60e1` (EN 13674-1)
+        real(wp), intent(in) :: cant              !! tangent of the cant, within +-0.1
+        type(profile_t), intent(out) :: profile   !! the canted profile
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name or cant
+
+        call clear_status(status)
+        select case (name)
+        case ('uic60')
+            profile%kind = profile_uic60
+            call make_rail_head(uic60_transition, cant, profile%head, status)
+        case ('60e1')
+            profile%kind = profile_60e1
+            call make_rail_head(en60e1_transition, cant, profile%head, status)
+        case default
+            call set_status(status, st_bad_argument, &
+                            'no such rail profile (there are uic60 and 60e1): ' // name)
+        end select
+        if (is_error(status)) then
+            profile%kind = profile_none
+            return
+        end if
+        profile%y_first = profile%head%joint(1)
+        profile%y_last = profile%head%joint(8)
+    end subroutine make_rail_profile
+
+    !> A wheel or rail profile through points, turned by a cant about the origin of the points.
+    !>
+    !> A cant of zero leaves the points where they are, which is right for wheels and for rails
+    !> measured or listed as they lie in the track.
+    subroutine make_points_profile(y, z, cant, profile, status)
+        real(wp), intent(in) :: y(:)             !! strictly increasing, mm
+        real(wp), intent(in) :: z(:)             !! depth (down) at y, mm
+        real(wp), intent(in) :: cant             !! tangent of the angle by which the top leans to
+                                                 !! negative y, within +-1
+        type(profile_t), intent(out) :: profile  !! the curve through the points
+        type(status_t), intent(out) :: status    !! `st_bad_argument`, `st_too_few_points`,
+                                                 !! `st_not_finite`, `st_not_increasing` (also
+                                                 !! after turning), `st_linear_algebra`
+        logical :: valid
+
+        valid = ieee_is_finite(cant)
+        if (valid) valid = abs(cant) <= 1.0_wp
+        if (.not. valid) then
+            call set_status(status, st_bad_argument, 'rail cant outside -1 to 1: ' // &
+                            number_text(cant))
+            return
+        end if
+        ! The points themselves are checked before they are turned.
+        call make_sampled_profile(y, z, profile%sampled, status)
+        if (is_error(status)) return
+        if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
+            call set_status(status, st_bad_argument, &
+                            'a point of the profile is more than 10 m away: ' // &
+                            trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
+            return
+        end if
+        if (abs(cant) > 0.0_wp) then
+            call make_sampled_profile((y + cant*z)/hypot(1.0_wp, cant), &
+                                      (z - cant*y)/hypot(1.0_wp, cant), profile%sampled, status)
+            if (is_error(status)) return
+        end if
+        profile%kind = profile_points
+        profile%y_first = profile%sampled%y(1)
+        profile%y_last = profile%sampled%y(size(y))
+    end subroutine make_points_profile
+
+    !> The profile and its first two derivatives.
+    pure subroutine profile_at(profile, y, z, dz, d2z, status)
+        type(profile_t), intent(in) :: profile !! a profile that was made
+        real(wp), intent(in) :: y              !! lateral coordinate, mm
+        real(wp), intent(out) :: z             !! depth, mm
+        real(wp), intent(out) :: dz            !! slope dz/dy
+        real(wp), intent(out) :: d2z           !! second derivative, 1/mm
+        type(status_t), intent(out) :: status  !! `st_out_of_range` outside y_first to y_last, for
+                                               !! y not finite and for no profile: all zero
+
+        select case (profile%kind)
+        case (profile_s1002)
+            call s1002_at(y, z, dz, d2z, status)
+        case (profile_uic60, profile_60e1)
+            call rail_head_at(profile%head, y, z, dz, d2z, status)
+        case (profile_points)
+            call sampled_profile_at(profile%sampled, y, z, dz, d2z, status)
+        case default
+            z = 0.0_wp
+            dz = 0.0_wp
+            d2z = 0.0_wp
+            call set_status(status, st_out_of_range, 'there is no profile')
+        end select
+    end subroutine profile_at
+end module faststrip_geometry_profile

@@ -1,0 +1,207 @@
+!> The rail head UIC60 / 60E1: arcs R300, R80, R13 and a flank 1:20, each tangent to the next,
+!> symmetric, 72 mm wide where the flank begins; canted by a rotation.
+!>
+!> One number is free, the transition between R300 and R80, and two are in use (see
+!> `uic60_transition` and `en60e1_transition`): the heads they give differ by up to 0.04 mm,
+!> more than the approach of a contact under 10 kN. Results have to say which one was used.
+module faststrip_geometry_rail_uic60
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_out_of_range
+    implicit none
+    private
+
+    public :: rail_head_t, make_rail_head, rail_head_at
+    public :: uic60_transition, en60e1_transition
+
+    !> Half of 21.000 mm: the `uic60` of the Manchester benchmark and multibody programs, mm.
+    real(wp), parameter :: uic60_transition = 10.5_wp
+
+    !> Half of 20.456 mm: the `60e1` of EN 13674-1, mm.
+    real(wp), parameter :: en60e1_transition = 10.228_wp
+
+    real(wp), parameter :: radius(3) = [300.0_wp, 80.0_wp, 13.0_wp]
+
+    ! Half-width where the flank begins and where the head ends (74.3 mm wide), mm.
+    real(wp), parameter :: flank_half_width = 36.0_wp, end_half_width = 37.15_wp
+    real(wp), parameter :: flank_slope = 20.0_wp
+
+    ! Where a canted gauge face becomes vertical the head is cut this far before, mm.
+    real(wp), parameter :: vertical_margin = 1.0e-6_wp
+
+    real(wp), parameter :: largest_cant = 0.1_wp
+
+    !> A rail head: its own frame has the origin at the crown, y to the field side, z down. The
+    !> canted frame is turned by the cant and has its origin at the highest point.
+    type :: rail_head_t
+        real(wp) :: cant = 0.0_wp     !! tangent of the angle by which the top leans inwards
+        real(wp) :: y1 = 0.0_wp       !! transition R300/R80, own frame, mm
+        real(wp) :: z1 = 0.0_wp       !! its depth, mm
+        real(wp) :: y2 = 0.0_wp       !! transition R80/R13, own frame, mm
+        real(wp) :: z2 = 0.0_wp       !! its depth, mm
+        real(wp) :: z_flank = 0.0_wp  !! depth where the flank begins, mm
+        real(wp) :: centre_y(3) = 0.0_wp !! centres of R300, R80, R13 on the field side, mm
+        real(wp) :: centre_z(3) = 0.0_wp !! their depth, mm
+        ! Canted frame: joints from the gauge to the field side (the ends first and last),
+        ! centres of the five arcs between the flanks, a point and the slope of each flank.
+        real(wp) :: joint(8) = 0.0_wp !! ends and joints in the canted frame, mm
+        real(wp) :: arc_y(5) = 0.0_wp !! centres of the arcs R13, R80, R300, R80, R13, mm
+        real(wp) :: arc_z(5) = 0.0_wp !! their depth, mm
+        real(wp) :: flank_y(2) = 0.0_wp !! beginning of the flanks, mm
+        real(wp) :: flank_z(2) = 0.0_wp !! their depth there, mm
+        real(wp) :: flank_dz(2) = 0.0_wp !! slope dz/dy of the flanks
+    end type rail_head_t
+
+contains
+
+    !> The head with a given R300/R80 transition, canted.
+    !>
+    !> From a cant of 1:20 on the gauge face is vertical or undercut and no longer a function of
+    !> y: the head then ends there, on R13.
+    pure subroutine make_rail_head(transition, cant, head, status)
+        real(wp), intent(in) :: transition      !! y1, between 1 and 20, mm
+        real(wp), intent(in) :: cant            !! tangent, e.g. 1/40; within +-0.1
+        type(rail_head_t), intent(out) :: head  !! the head
+        type(status_t), intent(out) :: status   !! `st_bad_argument`
+        real(wp) :: angle_1, angle_2, angle_flank, turn, crown_y, crown_z, y_end, z_end
+        logical :: valid
+
+        call clear_status(status)
+        valid = ieee_is_finite(transition)
+        if (valid) valid = transition >= 1.0_wp .and. transition <= 20.0_wp
+        if (.not. valid) then
+            call set_status(status, st_bad_argument, 'transition R300/R80 outside 1 to 20 mm: ' &
+                            // number_text(transition))
+            return
+        end if
+        valid = ieee_is_finite(cant)
+        if (valid) valid = abs(cant) <= largest_cant
+        if (.not. valid) then
+            call set_status(status, st_bad_argument, 'rail cant outside -0.1 to 0.1: ' // &
+                            number_text(cant))
+            return
+        end if
+
+        ! The chain in its own frame: a tangent joint keeps the angle of the normal.
+        head%cant = cant
+        head%y1 = transition
+        angle_1 = asin(transition/radius(1))
+        head%z1 = radius(1)*(1.0_wp - cos(angle_1))
+        head%centre_y(1) = 0.0_wp
+        head%centre_z(1) = radius(1)
+        head%centre_y(2) = head%y1 - radius(2)*sin(angle_1)
+        head%centre_z(2) = head%z1 + radius(2)*cos(angle_1)
+        angle_flank = atan(flank_slope)
+        head%centre_y(3) = flank_half_width - radius(3)*sin(angle_flank)
+        angle_2 = asin((head%centre_y(3) - head%centre_y(2))/(radius(2) - radius(3)))
+        head%y2 = head%centre_y(2) + radius(2)*sin(angle_2)
+        head%z2 = head%centre_z(2) - radius(2)*cos(angle_2)
+        head%centre_z(3) = head%z2 + radius(3)*cos(angle_2)
+        head%z_flank = head%centre_z(3) - radius(3)*cos(angle_flank)
+
+        ! The highest point of the canted head: on R300, or on R80 for a large cant.
+        turn = atan(cant)
+        if (abs(turn) <= angle_1) then
+            call rotate(0.0_wp, radius(1), 0.0_wp, 0.0_wp, crown_y, crown_z)
+            crown_z = crown_z - radius(1)
+        else
+            call rotate(sign(head%centre_y(2), turn), head%centre_z(2), 0.0_wp, 0.0_wp, &
+                        crown_y, crown_z)
+            crown_z = crown_z - radius(2)
+        end if
+
+        call rotate(-head%centre_y(3), head%centre_z(3), crown_y, crown_z, &
+                    head%arc_y(1), head%arc_z(1))
+        call rotate(-head%centre_y(2), head%centre_z(2), crown_y, crown_z, &
+                    head%arc_y(2), head%arc_z(2))
+        call rotate(0.0_wp, radius(1), crown_y, crown_z, head%arc_y(3), head%arc_z(3))
+        call rotate(head%centre_y(2), head%centre_z(2), crown_y, crown_z, &
+                    head%arc_y(4), head%arc_z(4))
+        call rotate(head%centre_y(3), head%centre_z(3), crown_y, crown_z, &
+                    head%arc_y(5), head%arc_z(5))
+        call rotate(-head%y2, head%z2, crown_y, crown_z, head%joint(3), z_end)
+        call rotate(-head%y1, head%z1, crown_y, crown_z, head%joint(4), z_end)
+        call rotate(head%y1, head%z1, crown_y, crown_z, head%joint(5), z_end)
+        call rotate(head%y2, head%z2, crown_y, crown_z, head%joint(6), z_end)
+        call place_flank(-1.0_wp, head%flank_y(1), head%flank_z(1), head%flank_dz(1), y_end)
+        head%joint(1) = y_end
+        head%joint(2) = head%flank_y(1)
+        call place_flank(1.0_wp, head%flank_y(2), head%flank_z(2), head%flank_dz(2), y_end)
+        head%joint(7) = head%flank_y(2)
+        head%joint(8) = y_end
+
+    contains
+
+        ! A point of the own frame in the canted one: the top leans to negative y.
+        pure subroutine rotate(y, z, origin_y, origin_z, y_canted, z_canted)
+            real(wp), intent(in) :: y, z, origin_y, origin_z
+            real(wp), intent(out) :: y_canted, z_canted
+
+            y_canted = y*cos(turn) + z*sin(turn) - origin_y
+            z_canted = -y*sin(turn) + z*cos(turn) - origin_z
+        end subroutine rotate
+
+        ! One flank in the canted frame, and the y where the head ends.
+        pure subroutine place_flank(side, y, z, slope, y_last)
+            real(wp), intent(in) :: side
+            real(wp), intent(out) :: y, z, slope, y_last
+            real(wp) :: outward, depth, z_last
+
+            call rotate(side*flank_half_width, head%z_flank, crown_y, crown_z, y, z)
+            outward = cos(turn)/flank_slope + side*sin(turn)
+            if (outward > vertical_margin) then
+                slope = side*(cos(turn) - side*sin(turn)/flank_slope)/outward
+                depth = head%z_flank + flank_slope*(end_half_width - flank_half_width)
+                call rotate(side*end_half_width, depth, crown_y, crown_z, y_last, z_last)
+            else
+                slope = 0.0_wp
+                y_last = head%arc_y(merge(1, 5, side < 0.0_wp)) &
+                         + side*(radius(3) - vertical_margin)
+                y = y_last
+            end if
+        end subroutine place_flank
+    end subroutine make_rail_head
+
+    !> The canted head and its first two derivatives; the origin is its highest point.
+    pure subroutine rail_head_at(head, y, z, dz, d2z, status)
+        type(rail_head_t), intent(in) :: head !! from `make_rail_head`
+        real(wp), intent(in) :: y             !! lateral coordinate, to the field side, mm
+        real(wp), intent(out) :: z            !! depth below the highest point, mm
+        real(wp), intent(out) :: dz           !! slope dz/dy
+        real(wp), intent(out) :: d2z          !! second derivative, 1/mm
+        type(status_t), intent(out) :: status !! `st_out_of_range` beyond head%joint(1) and
+                                              !! head%joint(8) and for y not finite: all zero
+        integer, parameter :: radius_of(5) = [3, 2, 1, 2, 3]
+        integer :: i
+        real(wp) :: root
+        logical :: inside
+
+        call clear_status(status)
+        z = 0.0_wp
+        dz = 0.0_wp
+        d2z = 0.0_wp
+        inside = ieee_is_finite(y)
+        if (inside) inside = y >= head%joint(1) .and. y <= head%joint(8)
+        if (.not. inside) then
+            call set_status(status, st_out_of_range, &
+                            'no rail head at y = ' // trim(number_text(y)) // ' mm')
+        else if (y < head%joint(2)) then
+            dz = head%flank_dz(1)
+            z = head%flank_z(1) + dz*(y - head%flank_y(1))
+        else if (y > head%joint(7)) then
+            dz = head%flank_dz(2)
+            z = head%flank_z(2) + dz*(y - head%flank_y(2))
+        else
+            i = 1
+            do while (i < 5)
+                if (y < head%joint(i + 2)) exit
+                i = i + 1
+            end do
+            root = sqrt(radius(radius_of(i))**2 - (y - head%arc_y(i))**2)
+            z = head%arc_z(i) - root
+            dz = (y - head%arc_y(i))/root
+            d2z = radius(radius_of(i))**2/root**3
+        end if
+    end subroutine rail_head_at
+end module faststrip_geometry_rail_uic60

@@ -1,0 +1,74 @@
+!> A profile given by points, through a cubic spline.
+module faststrip_geometry_sampled
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
+                                         spline_not_a_knot
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_out_of_range, st_too_few_points
+    implicit none
+    private
+
+    public :: sampled_profile_t, make_sampled_profile, sampled_profile_at, min_profile_points
+
+    !> Fewest points that describe a profile.
+    integer, parameter :: min_profile_points = 5
+
+    !> Points and the slopes of the curve through them.
+    type :: sampled_profile_t
+        real(wp), allocatable :: y(:)      !! lateral coordinate, strictly increasing, mm
+        real(wp), allocatable :: z(:)      !! depth, mm
+        real(wp), allocatable :: slope(:)  !! dz/dy at the points
+    end type sampled_profile_t
+
+contains
+
+    !> The twice continuously differentiable curve through all points (not-a-knot).
+    subroutine make_sampled_profile(y, z, profile, status)
+        real(wp), intent(in) :: y(:)                     !! strictly increasing, mm
+        real(wp), intent(in) :: z(:)                     !! depth at y, mm
+        type(sampled_profile_t), intent(out) :: profile  !! points and slopes
+        type(status_t), intent(out) :: status            !! `st_too_few_points`,
+                                                         !! `st_not_finite`,
+                                                         !! `st_not_increasing`,
+                                                         !! `st_bad_argument`,
+                                                         !! `st_linear_algebra`
+        real(wp), allocatable :: work(:)
+
+        if (size(y) < min_profile_points) then
+            call set_status(status, st_too_few_points, 'a profile has fewer than 5 points')
+            return
+        end if
+        profile%y = y
+        profile%z = z
+        allocate (profile%slope(size(y)), work(spline_work_size(size(y))), source=0.0_wp)
+        call spline_setup(y, z, spline_not_a_knot, profile%slope, work, status)
+        if (is_error(status)) deallocate (profile%y, profile%z, profile%slope)
+    end subroutine make_sampled_profile
+
+    !> The curve and its first two derivatives.
+    pure subroutine sampled_profile_at(profile, y, z, dz, d2z, status)
+        type(sampled_profile_t), intent(in) :: profile !! from `make_sampled_profile`
+        real(wp), intent(in) :: y                      !! lateral coordinate, mm
+        real(wp), intent(out) :: z                     !! depth, mm
+        real(wp), intent(out) :: dz                    !! slope dz/dy
+        real(wp), intent(out) :: d2z                   !! second derivative, 1/mm
+        type(status_t), intent(out) :: status          !! `st_out_of_range` beyond the first and
+                                                       !! the last point and for y not finite:
+                                                       !! all zero
+        logical :: inside
+
+        call clear_status(status)
+        z = 0.0_wp
+        dz = 0.0_wp
+        d2z = 0.0_wp
+        inside = ieee_is_finite(y) .and. allocated(profile%slope)
+        if (inside) inside = y >= profile%y(1) .and. y <= profile%y(size(profile%y))
+        if (.not. inside) then
+            call set_status(status, st_out_of_range, 'y = ' // trim(number_text(y)) // &
+                            ' mm is beyond the points of the profile')
+            return
+        end if
+        call spline_value(profile%y, profile%z, profile%slope, y, z, dz, d2z)
+    end subroutine sampled_profile_at
+end module faststrip_geometry_sampled

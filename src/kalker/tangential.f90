@@ -1,0 +1,292 @@
+!> TANG, the tangential problem by Kalker's variational method, for bodies of like materials.
+!>
+!> Given pressures on a grid of rectangles, friction and creepages, tractions are sought that are
+!> nowhere above mu times the pressure, oppose the slip where they reach it, and have no slip where
+!> they do not (Kalker 1990): in steady rolling (T = 3) or in a single shift (T = 1). How slip is
+!> discretised says `variational_problem`, how the equations are solved `variational_newton`.
+!>
+!> Needs FFTW, and is for program, tests and reports only (`faststrip_kalker_convolution`).
+module faststrip_kalker_tangential
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_bad_material, st_no_contact, &
+                                     st_no_convergence, st_not_finite, st_out_of_range
+    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_influence_rectangle, only: coupling_constant
+    use faststrip_kalker_grid, only: contact_grid_t
+    use faststrip_tangential_motion, only: check_motion
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
+                                          add_element, state_adhesion, state_slip
+    use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
+    use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
+                                                   scheme_second_order, scheme_first_order, &
+                                                   edges_sampled, edges_of_norm
+    implicit none
+    private
+
+    public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
+    public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
+    public :: motion_rolling, motion_shift, are_alike
+
+    !> Steady rolling, or a shift of bodies that were not displaced before.
+    integer, parameter :: motion_rolling = 3, motion_shift = 1
+    !> Most elements in contact unless the options say otherwise.
+    integer, parameter :: tang_most_elements = 300000
+
+    ! Sizes beyond which nothing is promised.
+    real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
+    ! Coupling of pressures and slip below this part of 1 is none: materials given with few digits.
+    real(wp), parameter :: no_coupling = 1.0e-6_wp
+    ! r of `variational_newton` times the own compliance, tried one after the other.
+    real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
+
+    !> What the user chooses.
+    type :: tang_options_t
+        integer :: motion = motion_rolling      !! `motion_rolling`, `motion_shift`
+        integer :: scheme = scheme_second_order !! `scheme_second_order`, or `scheme_first_order`
+                                                !! for CONTACT's numbers; rolling only
+        integer :: edges = edges_sampled        !! `edges_sampled`: pressures are those at the
+                                                !! middles; `edges_of_norm`: NORM's on this grid
+        logical :: sticks_everywhere = .false.  !! friction without a bound, mu does not count
+        real(wp) :: tolerance = 1.0e-7_wp       !! of the residual, 1e-12 to 0.1
+        integer :: max_steps = 40               !! of Newton's method for each of three attempts
+        logical :: warm_start = .false. !! from the last solution, if it had as many elements
+        integer :: most_elements = tang_most_elements !! in contact
+    end type tang_options_t
+
+    !> Everything a solution needs besides its input; owned by the caller, one per thread. Arrays
+    !> grow with the grid, before the iteration.
+    type :: tang_workspace_t
+        integer :: elements = 0       !! in contact, of the last solution
+        integer :: steps = 0          !! of Newton's method
+        integer :: products = 0       !! applications of the influence
+        real(wp) :: residual = 0.0_wp !! of Coulomb's law over that without tractions
+        type(problem_t), private :: problem
+        type(newton_t), private :: newton
+        logical, private :: is_solved = .false.
+    end type tang_workspace_t
+
+contains
+
+    !> Do pressures cause no slip between bodies of these materials? TANG needs that.
+    pure logical function are_alike(material)
+        type(material_t), intent(in) :: material !! checked moduli, MPa
+
+        are_alike = abs(coupling_constant(material)) <= no_coupling
+    end function are_alike
+
+    !> Solve the tangential problem of a grid of pressures.
+    !>
+    !> Errors: `st_bad_argument` (options, a grid without elements or sides, negative pressures or
+    !> mu), `st_not_finite`, `st_bad_material` (also materials so unlike that pressures cause
+    !> slip: their coupling is not built), `st_no_contact`, `st_out_of_range` (more elements in
+    !> contact than allowed; sizes beyond all proportion), `st_workspace_too_small` (the field, no
+    !> memory), `st_no_convergence`.
+    subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, field)
+        type(tang_workspace_t), intent(inout) :: workspace !! needs no preparation
+        type(contact_grid_t), intent(in) :: grid        !! pressures in MPa; heights do not count
+        type(material_t), intent(in) :: material        !! moduli in MPa
+        real(wp), intent(in) :: mu                      !! coefficient of friction, >= 0
+        type(creepage_t), intent(in) :: creepage        !! about the reference point; for a shift
+                                                        !! the displacement in mm, its turn in rad
+        type(tang_options_t), intent(in) :: options     !! scheme, tolerance, ...
+        type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error; for a
+                                                        !! shift the friction work, N mm
+        type(status_t), intent(out) :: status           !! how it ended
+        type(tangential_field_t), intent(inout), optional :: field
+            !! filled when present; needs room for the elements in contact
+
+        integer :: attempt
+
+        workspace%elements = 0
+        workspace%steps = 0
+        workspace%products = 0
+        workspace%residual = 0.0_wp
+        call check_motion(mu, creepage, status)
+        if (.not. is_error(status)) call check_options(options, status)
+        if (.not. is_error(status)) call check_bodies(material, status)
+        if (.not. is_error(status)) call check_grid(grid, status)
+        if (is_error(status)) return
+        call make_problem(workspace%problem, grid, material, creepage, &
+                          options%motion == motion_rolling, options%scheme, options%edges, &
+                          options%most_elements, status)
+        if (is_error(status)) return
+        if (present(field)) then
+            call empty_field(field, workspace%problem%n, status)
+            if (is_error(status)) return
+        end if
+        workspace%elements = workspace%problem%n
+        if (workspace%is_solved .and. options%warm_start) then
+            workspace%is_solved = size(workspace%newton%p, 2) == workspace%problem%n
+        else
+            workspace%is_solved = .false.
+        end if
+        call size_newton(workspace%newton, workspace%problem)
+        workspace%newton%products = 0
+        if (mu*maxval(workspace%problem%pn(:workspace%problem%n)) <= smallest &
+            .and. .not. options%sticks_everywhere) then
+            call slide_freely(workspace%newton, workspace%problem)
+            workspace%is_solved = .false.
+        else
+            do attempt = 1, size(scalings)
+                if (.not. workspace%is_solved) workspace%newton%p = 0.0_wp
+                workspace%is_solved = .false.
+                call solve_newton(workspace%newton, workspace%problem, mu, &
+                                  options%sticks_everywhere, scalings(attempt), &
+                                  options%tolerance, options%max_steps)
+                workspace%steps = workspace%steps + workspace%newton%steps
+                if (workspace%newton%is_converged) exit
+            end do
+            workspace%residual = workspace%newton%residual
+            workspace%products = workspace%newton%products
+            if (.not. workspace%newton%is_converged) then
+                call set_status(status, st_no_convergence, 'the tractions did not converge: ' // &
+                                'residual '//number_text(workspace%residual))
+                return
+            end if
+            workspace%is_solved = .true.
+        end if
+        call add_up(workspace%newton, workspace%problem, result, field)
+    end subroutine tang_solve
+
+    !> Give back what the compiler does not: plans of workspaces in an array.
+    subroutine release_tang(workspace)
+        type(tang_workspace_t), intent(inout) :: workspace !! serves again
+
+        call release_problem(workspace%problem)
+    end subroutine release_tang
+
+    subroutine check_options(options, status)
+        type(tang_options_t), intent(in) :: options
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (options%motion /= motion_rolling .and. options%motion /= motion_shift) then
+            call set_status(status, st_bad_argument, 'no such motion of TANG')
+        else if (options%scheme /= scheme_second_order .and. &
+                 options%scheme /= scheme_first_order) then
+            call set_status(status, st_bad_argument, 'no such scheme of TANG')
+        else if (options%edges /= edges_sampled .and. options%edges /= edges_of_norm) then
+            call set_status(status, st_bad_argument, 'no such kind of pressures')
+        else if (.not. ieee_is_finite(options%tolerance)) then
+            call set_status(status, st_not_finite, 'the tolerance is not a finite number')
+        else if (options%tolerance < 1.0e-12_wp .or. options%tolerance > 0.1_wp) then
+            call set_status(status, st_bad_argument, 'a tolerance outside 1e-12 to 0.1: ' // &
+                            number_text(options%tolerance))
+        else if (options%max_steps < 1 .or. options%most_elements < 1) then
+            call set_status(status, st_bad_argument, 'no steps or no elements are allowed')
+        end if
+    end subroutine check_options
+
+    subroutine check_bodies(material, status)
+        type(material_t), intent(in) :: material
+        type(status_t), intent(out) :: status
+
+        real(wp) :: g
+
+        call check_material(material, status)
+        if (is_error(status)) return
+        if (max(material%e_wheel, material%e_rail) > largest .or. &
+            min(material%e_wheel, material%e_rail) < smallest) then
+            call set_status(status, st_out_of_range, "Young's moduli beyond 1e-30 to 1e30 MPa")
+            return
+        end if
+        g = combined_shear_modulus(material)
+        if (g > largest .or. g < smallest) then
+            call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
+        else if (.not. are_alike(material)) then
+            call set_status(status, st_bad_material, 'TANG is for like materials; here ' // &
+                            'pressures cause slip, K = ' // &
+                            number_text(coupling_constant(material)))
+        end if
+    end subroutine check_bodies
+
+    subroutine check_grid(grid, status)
+        type(contact_grid_t), intent(in) :: grid
+        type(status_t), intent(out) :: status
+
+        integer :: j
+
+        call clear_status(status)
+        if (.not. allocated(grid%pressure)) then
+            call set_status(status, st_bad_argument, 'a grid without pressures')
+            return
+        else if (min(grid%nx, grid%ny) < 1) then
+            call set_status(status, st_bad_argument, 'a grid without elements')
+            return
+        else if (any(shape(grid%pressure) /= [grid%nx, grid%ny])) then
+            call set_status(status, st_bad_argument, 'pressures of another shape than the grid')
+            return
+        else if (.not. all(ieee_is_finite([grid%dx, grid%dy, grid%x_first, grid%y_first]))) then
+            call set_status(status, st_not_finite, 'a side or a place of the grid is not finite')
+            return
+        else if (min(grid%dx, grid%dy) <= 0.0_wp) then
+            call set_status(status, st_bad_argument, 'elements without sides')
+            return
+        else if (max(grid%dx, grid%dy, abs(grid%x_first), abs(grid%y_first)) > largest .or. &
+                 min(grid%dx, grid%dy) < smallest .or. &
+                 max(grid%dx/grid%dy, grid%dy/grid%dx) > 1.0e6_wp) then
+            call set_status(status, st_out_of_range, 'elements or places beyond all proportion')
+            return
+        end if
+        do j = 1, grid%ny
+            if (.not. all(ieee_is_finite(grid%pressure(:, j)))) then
+                call set_status(status, st_not_finite, 'a pressure is not a finite number')
+                return
+            else if (any(grid%pressure(:, j) < 0.0_wp)) then
+                call set_status(status, st_bad_argument, 'a pressure is negative: ' // &
+                                number_text(minval(grid%pressure(:, j))))
+                return
+            end if
+        end do
+        if (maxval(grid%pressure) > largest) then
+            call set_status(status, st_out_of_range, 'a pressure is above 1e30 MPa')
+        else if (maxval(grid%pressure) < smallest) then
+            call set_status(status, st_no_contact, 'no element is in contact')
+        end if
+    end subroutine check_grid
+
+    !> Without friction all elements slide, those without rigid slip stick.
+    pure subroutine slide_freely(newton, problem)
+        type(newton_t), intent(inout) :: newton
+        type(problem_t), intent(in) :: problem
+
+        integer :: i
+
+        newton%p = 0.0_wp
+        newton%steps = 0
+        do i = 1, problem%n
+            newton%slip(:, i) = problem%rigid(:, i)
+            newton%sticks(i) = all(problem%rigid(:, i) == 0.0_wp)
+        end do
+    end subroutine slide_freely
+
+    !> Sums, and the field.
+    pure subroutine add_up(newton, problem, result, field)
+        type(newton_t), intent(in) :: newton
+        type(problem_t), intent(in) :: problem
+        type(tangential_result_t), intent(inout) :: result
+        type(tangential_field_t), intent(inout), optional :: field
+
+        integer :: i, stuck
+        real(wp) :: cell
+
+        cell = problem%dx*problem%dy
+        stuck = 0
+        do i = 1, problem%n
+            associate (p => newton%p(:, i), s => newton%slip(:, i), x => problem%x(i), &
+                       y => problem%y(i))
+                result%fx = result%fx + cell*p(1)
+                result%fy = result%fy + cell*p(2)
+                result%mz = result%mz + cell*(x*p(2) - y*p(1))
+                result%friction_power = result%friction_power - cell*(p(1)*s(1) + p(2)*s(2))
+                if (newton%sticks(i)) stuck = stuck + 1
+                if (present(field)) call add_element(field, x, y, cell, problem%pn(i), p(1), &
+                    p(2), s(1), s(2), merge(state_adhesion, state_slip, newton%sticks(i)))
+            end associate
+        end do
+        result%stick_fraction = real(stuck, wp)/problem%n
+    end subroutine add_up
+end module faststrip_kalker_tangential

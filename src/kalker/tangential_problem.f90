@@ -1,0 +1,358 @@
+!> The discretised tangential problem of TANG: elements, influence, slip.
+!>
+!> Tractions are constant on the elements in contact, displacement differences u (rail less wheel)
+!> follow by FFT. Elements stand row by row, in each row against x: the leading one first.
+!>
+!> **Rolling.** Slip over rolling speed is `s = w - du/dx`, w rigid. Between the middles of an
+!> element and of the one ahead of it stands a node, and `[u(x) - u(x + dx)]/dx` is the mean of
+!> -du/dx between the two: second order at the node, first order at the element.
+!>
+!>  1. *Sliding.* The traction opposes the slip of its element. The slip at the node is carried to
+!>     the middle with that of the node ahead, `1.5 s(node) - 0.5 s(node ahead)`, where both
+!>     elements slide. In adhesion both vanish and the node's slip serves.
+!>  2. *Leading edge.* Where nothing slides ahead, the traction is like the root of the distance
+!>     from the edge. A lattice of tractions, and nodes half a step ahead of them, has this root
+!>     begin `edge_place` = 0.826 dx ahead of the first middle, wherever the true edge is (the end
+!>     of a plane problem's solution, fitted far inside; 0.5 is the mean of the true place, and the
+!>     difference is the first-order error of the forces). A compliance c on the leading element,
+!>     `u(first) + c p(first)`, moves it: in the plane problem with `u = -k int p ln|x|`, it lies
+!>     at f dx for `c = k dx edge_strength [1/(f + edge_reach) - 1]`, a rational function because
+!>     c changes one entry of the matrix. k = 2 (1 - nu)/(pi G) along, 2/(pi G) across. Where the
+!>     element slides the compliance leaves its direction as it is.
+!>  3. *True edge.* The square of the pressure falls linearly to zero at the edge: f from the
+!>     first three elements of a row. Pressures that NORM found on the same grid are those of a
+!>     lattice too, and f follows from the ratio of the first two (`norm_edge`).
+!>
+!> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
+!>
+!> **Shift.** s = w + u, the rigid shift and the displacement: symmetric, no nodes, no edges.
+module faststrip_kalker_tangential_problem
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_text, only: integer_text
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_no_contact, &
+                                     st_out_of_range
+    use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence
+    use faststrip_kalker_convolution, only: convolution_t, reserve_convolution, set_kernel, &
+                                            release_convolution, transform_source, collect, even, &
+                                            odd
+    use faststrip_kalker_grid, only: contact_grid_t, element_x, element_y
+    implicit none
+    private
+
+    public :: problem_t, make_problem, release_problem, apply_influence, node_slip
+    public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
+
+    !> How slip is made of displacements.
+    integer, parameter :: scheme_second_order = 2, scheme_first_order = 1
+    !> What the pressures are: values at the middles of the elements, or NORM's on this grid.
+    integer, parameter :: edges_sampled = 1, edges_of_norm = 2
+
+    real(wp), parameter :: edge_strength = 2.7046_wp
+    real(wp), parameter :: edge_reach = 0.174_wp
+    ! Smallest place of an edge, just short of where the element carries nothing.
+    real(wp), parameter :: nearest_edge = -0.17_wp
+    ! norm_edge: of the plane contact of cylinders, 60 places of its edge in the grid.
+    real(wp), parameter :: edge_fit(0:4) = [-0.17462861_wp, 0.99658564_wp, 0.43443832_wp, &
+                                            0.13650724_wp, 0.15087991_wp]
+    real(wp), parameter :: largest_ratio = 0.75_wp
+    ! CONTACT's rigid slip is that of dx/6 ahead of the middle.
+    real(wp), parameter :: contact_lead = 1.0_wp/6.0_wp
+    ! Pressures below this part of the largest carry no traction.
+    real(wp), parameter :: least_pressure = 1.0e-10_wp
+
+    integer, parameter :: kernel_xx = 1, kernel_xy = 2, kernel_yy = 3
+
+    !> Elements, influence and rigid slip; arrays grow with the grid.
+    type :: problem_t
+        integer :: n = 0                   !! elements that carry traction
+        integer :: n_rows = 0              !! rows that have some
+        integer :: nx = 0                  !! columns of the convolution, one ahead of the contact
+        integer :: ny = 0                  !! rows of the convolution
+        real(wp) :: dx = 0.0_wp            !! sides, mm
+        real(wp) :: dy = 0.0_wp
+        logical :: is_rolling = .true.     !! or a shift?
+        logical :: is_second_order = .true. !! the first deviation of the header
+        integer, allocatable :: column(:)  !! of an element, 1 to nx - 1
+        integer, allocatable :: row(:)     !! of an element, 1 to ny
+        integer, allocatable :: row_start(:) !! first element of a row; of row n_rows + 1: n + 1
+        logical, allocatable :: is_leading(:) !! is nothing in contact ahead of the element?
+        real(wp), allocatable :: x(:), y(:) !! middle of an element, mm
+        real(wp), allocatable :: pn(:)     !! its pressure, MPa
+        real(wp), allocatable :: rigid(:, :) !! its rigid slip, shape (2, n)
+        real(wp), allocatable :: edge(:, :)  !! slip at its node by its own traction, the leading
+                                             !! edge's part, 1/MPa, shape (2, n)
+        real(wp), allocatable :: own_row(:, :)
+            !! slip at the nodes of a row by unit traction in it, by columns from the element to the
+            !! node, 1/MPa, shape (2, -nx:nx)
+        type(convolution_t), private :: convolution
+        real(wp), allocatable, private :: field_x(:, :), field_y(:, :) ! tractions, then u
+        ! What the kernels were made for.
+        real(wp), private :: made_for(4) = 0.0_wp
+        integer, private :: made_size(2) = 0
+    end type problem_t
+
+contains
+
+    !> Set a problem up: everything that does not change in the iteration.
+    subroutine make_problem(problem, grid, material, creepage, is_rolling, scheme, edges, &
+                            most_elements, status)
+        type(problem_t), intent(inout) :: problem    !! ready; arrays of its last use serve again
+        type(contact_grid_t), intent(in) :: grid     !! with finite pressures >= 0
+        type(material_t), intent(in) :: material     !! checked, MPa
+        type(creepage_t), intent(in) :: creepage     !! checked; a shift in mm and rad
+        logical, intent(in) :: is_rolling            !! or a shift?
+        integer, intent(in) :: scheme                !! `scheme_second_order`, `scheme_first_order`
+        integer, intent(in) :: edges                 !! `edges_sampled`, `edges_of_norm`
+        integer, intent(in) :: most_elements         !! allowed
+        type(status_t), intent(out) :: status        !! `st_no_contact`, `st_out_of_range`,
+                                                     !! `st_workspace_too_small`
+        integer :: first(2), last(2), i, j, n
+        real(wp) :: floor, lead
+
+        call clear_status(status)
+        floor = least_pressure*maxval(grid%pressure)
+        n = count(grid%pressure > floor)
+        if (n == 0) then
+            call set_status(status, st_no_contact, 'no element is in contact')
+            return
+        else if (n > most_elements) then
+            call set_status(status, st_out_of_range, 'at most ' // integer_text(most_elements) &
+                            // ' elements may be in contact for rolling, got ' // integer_text(n))
+            return
+        end if
+        first = [grid%nx, grid%ny]
+        last = 1
+        do j = 1, grid%ny
+            do i = 1, grid%nx
+                if (grid%pressure(i, j) <= floor) cycle
+                first = min(first, [i, j])
+                last = max(last, [i, j])
+            end do
+        end do
+        problem%is_rolling = is_rolling
+        problem%is_second_order = is_rolling .and. scheme == scheme_second_order
+        problem%dx = grid%dx
+        problem%dy = grid%dy
+        problem%nx = last(1) - first(1) + 2
+        problem%ny = last(2) - first(2) + 1
+        problem%n = n
+        call make_room(problem)
+        call make_kernels(problem, material, status)
+        if (is_error(status)) return
+
+        lead = 0.0_wp
+        if (is_rolling) lead = merge(0.5_wp, contact_lead, problem%is_second_order)*grid%dx
+        n = 0
+        problem%n_rows = 0
+        do j = first(2), last(2)
+            if (.not. any(grid%pressure(:, j) > floor)) cycle
+            problem%n_rows = problem%n_rows + 1
+            problem%row_start(problem%n_rows) = n + 1
+            do i = last(1), first(1), -1
+                if (grid%pressure(i, j) <= floor) cycle
+                n = n + 1
+                problem%column(n) = i - first(1) + 1
+                problem%row(n) = j - first(2) + 1
+                problem%x(n) = element_x(grid, i)
+                problem%y(n) = element_y(grid, j)
+                problem%pn(n) = grid%pressure(i, j)
+                problem%is_leading(n) = .true.
+                if (i < last(1)) problem%is_leading(n) = grid%pressure(i + 1, j) <= floor
+                problem%rigid(1, n) = creepage%cksi - problem%y(n)*creepage%cphi
+                problem%rigid(2, n) = creepage%ceta + (problem%x(n) + lead)*creepage%cphi
+            end do
+        end do
+        problem%row_start(problem%n_rows + 1) = n + 1
+        problem%edge(:, :n) = 0.0_wp
+        if (problem%is_second_order) call treat_edges(problem, material, edges)
+    end subroutine make_problem
+
+    !> Give plans and kernels back.
+    subroutine release_problem(problem)
+        type(problem_t), intent(inout) :: problem !! serves again
+
+        call release_convolution(problem%convolution)
+        problem%made_size = 0
+    end subroutine release_problem
+
+    subroutine make_room(problem)
+        type(problem_t), intent(inout) :: problem
+
+        integer :: n, nx, ny
+
+        n = problem%n
+        nx = problem%nx
+        ny = problem%ny
+        if (allocated(problem%x)) then
+            if (size(problem%x) < n) &
+                deallocate (problem%column, problem%row, problem%is_leading, problem%x, problem%y, &
+                            problem%pn, problem%rigid, problem%edge)
+        end if
+        if (.not. allocated(problem%x)) then
+            allocate (problem%column(n), problem%row(n), source=0)
+            allocate (problem%is_leading(n), source=.false.)
+            allocate (problem%x(n), problem%y(n), problem%pn(n), source=0.0_wp)
+            allocate (problem%rigid(2, n), problem%edge(2, n), source=0.0_wp)
+        end if
+        if (allocated(problem%field_x)) then
+            if (any(shape(problem%field_x) /= [nx, ny])) &
+                deallocate (problem%field_x, problem%field_y, problem%own_row, problem%row_start)
+        end if
+        if (.not. allocated(problem%field_x)) then
+            allocate (problem%field_x(nx, ny), problem%field_y(nx, ny), &
+                      problem%own_row(2, -nx:nx), source=0.0_wp)
+            allocate (problem%row_start(ny + 1), source=0)
+        end if
+    end subroutine make_room
+
+    !> Influence coefficients, unless they are there already.
+    subroutine make_kernels(problem, material, status)
+        type(problem_t), intent(inout) :: problem
+        type(material_t), intent(in) :: material
+        type(status_t), intent(out) :: status
+
+        real(wp), allocatable :: kernels(:, :, :)
+        type(rectangle_influence_t) :: influence
+        real(wp) :: wanted(4)
+        integer :: i, j
+
+        call reserve_convolution(problem%convolution, problem%nx, problem%ny, 3, 2, status)
+        if (is_error(status)) return
+        wanted = [problem%dx, problem%dy, combined_shear_modulus(material), &
+                  combined_poisson_ratio(material)]
+        if (any(problem%made_for /= wanted) .or. &
+            any(problem%made_size /= [problem%nx, problem%ny])) then
+            allocate (kernels(0:problem%nx, 0:problem%ny, 3))
+            do j = 0, problem%ny
+                do i = 0, problem%nx
+                    call rectangle_influence(i*problem%dx, j*problem%dy, problem%dx, problem%dy, &
+                                             material, influence)
+                    kernels(i, j, kernel_xx) = influence%xx
+                    kernels(i, j, kernel_xy) = influence%xy
+                    kernels(i, j, kernel_yy) = influence%yy
+                end do
+            end do
+            call set_kernel(problem%convolution, kernel_xx, kernels(:, :, kernel_xx), even, even, &
+                            status)
+            call set_kernel(problem%convolution, kernel_xy, kernels(:, :, kernel_xy), odd, odd, &
+                            status)
+            call set_kernel(problem%convolution, kernel_yy, kernels(:, :, kernel_yy), even, even, &
+                            status)
+            problem%made_for = wanted
+            problem%made_size = [problem%nx, problem%ny]
+        end if
+        do i = -problem%nx, problem%nx
+            call rectangle_influence(i*problem%dx, 0.0_wp, problem%dx, problem%dy, material, &
+                                     influence)
+            problem%own_row(:, i) = [influence%xx, influence%yy]
+        end do
+        if (problem%is_rolling) then
+            do i = -problem%nx, problem%nx - 1
+                problem%own_row(:, i) = (problem%own_row(:, i) - problem%own_row(:, i + 1)) &
+                                        /problem%dx
+            end do
+        end if
+    end subroutine make_kernels
+
+    !> The compliances of the leading elements.
+    pure subroutine treat_edges(problem, material, edges)
+        type(problem_t), intent(inout) :: problem
+        type(material_t), intent(in) :: material
+        integer, intent(in) :: edges
+
+        real(wp) :: place, c, factor
+        integer :: i, behind
+
+        factor = 2.0_wp/(pi*combined_shear_modulus(material))
+        do i = 1, problem%n
+            if (.not. problem%is_leading(i)) cycle
+            ! Elements behind the leading one without a gap.
+            do behind = 0, 1
+                if (i + behind >= problem%n) exit
+                if (problem%is_leading(i + behind + 1)) exit
+            end do
+            place = edge_place(problem%pn(i:i + behind), edges)
+            c = edge_strength*(1.0_wp/(max(place, nearest_edge) + edge_reach) - 1.0_wp)
+            ! A negative one might make the element's own compliance negative at oblique edges.
+            problem%edge(:, i) = max(c, 0.0_wp)*factor &
+                                 *[1.0_wp - combined_poisson_ratio(material), 1.0_wp]
+        end do
+    end subroutine treat_edges
+
+    !> Way from the first middle to the edge over dx, from the pressures of the first elements.
+    pure real(wp) function edge_place(p, edges) result(place)
+        real(wp), intent(in) :: p(:)  !! up to three, leading one first
+        integer, intent(in) :: edges
+
+        real(wp) :: slope, bend, root, q(3), t
+
+        if (edges == edges_of_norm) then
+            place = 0.5_wp - edge_reach
+            if (size(p) < 2) return
+            if (p(2) <= p(1)) return
+            t = min(p(1)/p(2), largest_ratio)
+            place = edge_fit(0) + t*(edge_fit(1) + t*(edge_fit(2) + t*(edge_fit(3) &
+                                                                       + t*edge_fit(4))))
+            return
+        end if
+        place = 0.5_wp
+        if (size(p) < 2) return
+        if (p(2) <= p(1)) return
+        q(:2) = (p(:2)/p(2))**2
+        place = min(q(1)/(q(2) - q(1)), 1.0_wp)
+        if (size(p) < 3) return
+        q(3) = (p(3)/p(2))**2
+        bend = 0.5_wp*(q(3) - 2.0_wp*q(2) + q(1))
+        slope = q(2) - q(1) - bend
+        root = slope**2 - 4.0_wp*bend*q(1)
+        if (slope <= 0.0_wp .or. root <= 0.0_wp) return
+        place = min(2.0_wp*q(1)/(slope + sqrt(root)), 1.0_wp)
+    end function edge_place
+
+    !> Elastic part of the slip at the nodes by tractions on the elements.
+    subroutine apply_influence(problem, p, slip)
+        type(problem_t), intent(inout) :: problem !! made; its fields are room to work in
+        real(wp), intent(in) :: p(:, :)           !! tractions, MPa, shape (2, n)
+        real(wp), intent(inout) :: slip(:, :)     !! shape (2, n)
+
+        integer :: i
+
+        associate (fx => problem%field_x, fy => problem%field_y, c => problem%column, &
+                   r => problem%row)
+            fx = 0.0_wp
+            fy = 0.0_wp
+            do i = 1, problem%n
+                fx(c(i), r(i)) = p(1, i)
+                fy(c(i), r(i)) = p(2, i)
+            end do
+            call transform_source(problem%convolution, 1, fx)
+            call transform_source(problem%convolution, 2, fy)
+            call collect(problem%convolution, [kernel_xx, kernel_xy], [1, 2], [1.0_wp, 1.0_wp], fx)
+            call collect(problem%convolution, [kernel_xy, kernel_yy], [1, 2], [1.0_wp, 1.0_wp], fy)
+            if (problem%is_rolling) then
+                do i = 1, problem%n
+                    slip(1, i) = (fx(c(i), r(i)) - fx(c(i) + 1, r(i)))/problem%dx
+                    slip(2, i) = (fy(c(i), r(i)) - fy(c(i) + 1, r(i)))/problem%dx
+                    slip(:, i) = slip(:, i) + problem%edge(:, i)*p(:, i)
+                end do
+            else
+                do i = 1, problem%n
+                    slip(1, i) = fx(c(i), r(i))
+                    slip(2, i) = fy(c(i), r(i))
+                end do
+            end if
+        end associate
+    end subroutine apply_influence
+
+    !> Slip at the nodes, rigid and elastic.
+    subroutine node_slip(problem, p, slip)
+        type(problem_t), intent(inout) :: problem !! made
+        real(wp), intent(in) :: p(:, :)           !! tractions, MPa, shape (2, n)
+        real(wp), intent(inout) :: slip(:, :)     !! shape (2, n)
+
+        call apply_influence(problem, p, slip)
+        slip(:, :problem%n) = slip(:, :problem%n) + problem%rigid(:, :problem%n)
+    end subroutine node_slip
+end module faststrip_kalker_tangential_problem
