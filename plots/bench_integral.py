@@ -29,7 +29,7 @@ RUN = ("flags", "compiler", "cpu")
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--bench", default=BENCH, metavar="CSV",
-                        help="what `faststrip bench integral` wrote")
+                        help="what `faststrip-lab bench integral` wrote")
     parser.add_argument("-o", "--output", default="out/bench_integral.png", metavar="PNG",
                         help="picture to write")
     options = parser.parse_args(arguments)

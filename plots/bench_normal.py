@@ -26,7 +26,7 @@ SLOPE_PART = 4.0  # slopes are measured over this factor in strips, at both ends
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--bench", default=BENCH, metavar="CSV",
-                        help="what `faststrip bench normal` wrote")
+                        help="what `faststrip-lab bench normal` wrote")
     parser.add_argument("-o", "--output", default="out/bench_normal.png", metavar="PNG",
                         help="picture to write")
     options = parser.parse_args(arguments)

@@ -36,7 +36,7 @@ CLASS = 2.0 ** 0.5  # elements within this factor belong together
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--bench", default=BENCH, metavar="CSV",
-                        help="what `faststrip bench reference` wrote")
+                        help="what `faststrip-lab bench reference` wrote")
     parser.add_argument("--contact", metavar="CSV",
                         help="what CONTACT took, as reference/contact/s1002_uic60_B.csv")
     parser.add_argument("-o", "--output", default="out/bench_reference.png", metavar="PNG",

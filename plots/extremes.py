@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw what `faststrip bench extremes` measured: influence, normal, tangential, steadiness, single.
+"""Draw what `faststrip-lab bench extremes` measured: influence, normal, tangential, steadiness, single.
 
 Maps show a relative error by colour; a field is grey where there is no number, and the line above
 the map tells why. The files for rounding modes and for single precision are drawn if given.
@@ -37,7 +37,7 @@ Panel = namedtuple("Panel", "heading rows limits")
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--extremes", default=EXTREMES, metavar="CSV",
-                        help="what `faststrip bench extremes` wrote")
+                        help="what `faststrip-lab bench extremes` wrote")
     parser.add_argument("--rounding", metavar="CSV",
                         help="the part `rounding` of a program without vector functions")
     parser.add_argument("--single", metavar="CSV", help="what tools/single_precision.py wrote")

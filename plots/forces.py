@@ -33,9 +33,9 @@ TOP = 1.12  # forces over mu N beyond which a panel ends
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--forces", default="out/forces/forces.csv", metavar="CSV",
-                        help="what `faststrip bench forces` wrote")
+                        help="what `faststrip-lab bench forces` wrote")
     parser.add_argument("--times", default="out/forces/bench_tangential.csv", metavar="CSV",
-                        help="what `faststrip bench tangential` wrote")
+                        help="what `faststrip-lab bench tangential` wrote")
     parser.add_argument("--contacts", default="reference/contact", metavar="FOLDER",
                         help="CONTACT's results")
     parser.add_argument("--curves", default="out/forces/creep_forces.png", metavar="PNG",

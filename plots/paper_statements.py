@@ -18,12 +18,12 @@ FOLDER = "out/paper"
 INPUTS = {
     "curves": ("curves.csv", "what `faststrip table --curves` wrote"),
     "audit": ("audit.csv", "what `faststrip table --audit` wrote"),
-    "errata": ("errata.csv", "what `faststrip table --errata` wrote"),
+    "errata": ("errata.csv", "what `faststrip-lab errata` wrote"),
     "sweep-a": ("sweep_A.csv", "sweeps of Table 2, signs as printed, by more methods each"),
     "sweep-b": ("sweep_B.csv", "sweeps of Table 2, signs of the motion"),
     "fine": ("sweep_fine.csv", "sweeps in fine steps"),
-    "bench-integral": ("bench_integral.csv", "what `faststrip bench integral` wrote"),
-    "bench-normal": ("bench_normal.csv", "what `faststrip bench normal` wrote"),
+    "bench-integral": ("bench_integral.csv", "what `faststrip-lab bench integral` wrote"),
+    "bench-normal": ("bench_normal.csv", "what `faststrip-lab bench normal` wrote"),
 }
 SWEEPS = ("sweep-a", "sweep-b", "fine")  # of which several files may be given
 SHORT = ("id", "statement", "of", "measured", "criterion", "verdict")
@@ -44,7 +44,7 @@ def main(arguments=None):
         default = [f"{FOLDER}/{file}"] if several else f"{FOLDER}/{file}"
         parser.add_argument(f"--{name}", default=default, metavar="CSV", help=words, **several)
     parser.add_argument("--bench-reference", metavar="CSV",
-                        help="what `faststrip bench reference` wrote")
+                        help="what `faststrip-lab bench reference` wrote")
     parser.add_argument("--strips", nargs="*", default=[], metavar="CSV",
                         help="what `faststrip contact --strips` wrote, for the range of b")
     parser.add_argument("--reference-a", default="reference/contact/s1002_uic60_A.csv",

@@ -25,7 +25,7 @@ LEAST = 1e-3  # %, what is drawn for less
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--scenes", default="out/scenes.csv", metavar="CSV",
-                        help="what `faststrip bench scenes` wrote")
+                        help="what `faststrip-lab bench scenes` wrote")
     parser.add_argument("--folder", default="out/scenes", metavar="FOLDER",
                         help="picture and tables go there")
     options = parser.parse_args(arguments)

@@ -44,7 +44,7 @@ LEAST = 1e-15  # and smaller ones, zero too, at the lower
 def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--trade", default="out/trade.csv", metavar="CSV",
-                        help="what `faststrip bench trade` wrote")
+                        help="what `faststrip-lab bench trade` wrote")
     parser.add_argument("--folder", default="out/trade", metavar="FOLDER",
                         help="pictures and tables go there")
     options = parser.parse_args(arguments)

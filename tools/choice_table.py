@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Write src/faststrip/contact/choice_table.f90: which error to expect from which method.
 
-    bin/faststrip bench trade -o out/trade.csv
+    bin/faststrip-lab bench trade -o out/trade.csv
     tools/choice_table.py --take out/trade.csv   condense a measurement into reference/choice.csv
     tools/choice_table.py                        write the module and reference/choice_validation.csv
     tools/choice_table.py --check                exit 1 if they are not what would be written
@@ -314,7 +314,7 @@ module faststrip_contact_choice_table
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--take", metavar="CSV", help="what `faststrip bench trade` wrote")
+    parser.add_argument("--take", metavar="CSV", help="what `faststrip-lab bench trade` wrote")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     if options.take:

@@ -13,7 +13,7 @@ What is understood, each directive alone on its line:
     @disable    directly after @test: count the test as skipped
     @before     before a subroutine without arguments: run before each test of the file
     @after      likewise: run after each test whose @before threw nothing
-    @assert...  one of the assertions of test/funit.f90; returns from the routine if it fails
+    @assert...  one of the assertions of test/funit/funit.f90; returns from the routine if it fails
 
 Anything else that starts with @ is refused with file and line, so that a test is never dropped in
 silence. As with pFUnit, a file holds one module that has the file's name. Line markers in the

@@ -50,7 +50,7 @@ TRAPS = "-ffpe-trap=invalid,zero,overflow"
 # Not copied: what is built, and the lists themselves, which change no result.
 LEFT_OUT = {".git", ".venv", "build", "bin", "out", "__pycache__", "tools/mutants"}
 # The main program of the tests, which sets the traps.
-RUNNER = "test/generated_runner.f90"
+RUNNER = "build/tests/generated_runner.f90"
 # Written by the build, and here once and for all: a new commit alone changes no result.
 REVISION = "app/revision.f90"
 REVISION_TEXT = """\

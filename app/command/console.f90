@@ -14,7 +14,7 @@ module faststrip_command_console
     private
 
     public :: fail, fail_on_error, concerns_gap, usage_error, note, say, progress
-    public :: version_text, put_origin, printable
+    public :: name_program, program_name, version_text, put_origin, printable
     public :: exit_bad_input, exit_usage, exit_no_convergence
 
     integer, parameter :: exit_bad_input = 1
@@ -23,7 +23,24 @@ module faststrip_command_console
 
     character(len=*), parameter :: version = '0.1.0'
 
+    ! Which of the two programs speaks.
+    character(len=16) :: speaker = 'faststrip'
+
 contains
+
+    !> Say which program this is; messages, help and stamps name it.
+    subroutine name_program(name)
+        character(len=*), intent(in) :: name !! as typed
+
+        speaker = name
+    end subroutine name_program
+
+    !> Name of the program.
+    function program_name() result(name)
+        character(len=:), allocatable :: name
+
+        name = trim(speaker)
+    end function program_name
 
     !> End the program with one line on stderr.
     subroutine fail(code, text)
@@ -67,9 +84,9 @@ contains
         character(len=*), intent(in) :: command !! subcommand whose help serves; may be empty
 
         if (len(command) > 0) then
-            call fail(exit_usage, text // '; see faststrip ' // command // ' --help')
+            call fail(exit_usage, text // '; see ' // program_name() // ' ' // command // ' --help')
         else
-            call fail(exit_usage, text // '; see faststrip --help')
+            call fail(exit_usage, text // '; see ' // program_name() // ' --help')
         end if
     end subroutine usage_error
 
@@ -80,9 +97,9 @@ contains
         integer, parameter :: longest = 2000
 
         if (len(text) > longest) then
-            write (error_unit, '(3a)') 'faststrip: ', printable(text(:longest)), '...'
+            write (error_unit, '(4a)') program_name(), ': ', printable(text(:longest)), '...'
         else
-            write (error_unit, '(2a)') 'faststrip: ', printable(text)
+            write (error_unit, '(3a)') program_name(), ': ', printable(text)
         end if
     end subroutine note
 
@@ -165,14 +182,14 @@ contains
     function version_text() result(text)
         character(len=:), allocatable :: text
 
-        text = 'faststrip ' // version // ' rev ' // trim(revision)
+        text = program_name() // ' ' // version // ' rev ' // trim(revision)
     end function version_text
 
     !> The comment lines that say what made a CSV file.
     subroutine put_origin(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call put_comment(writer, version_text())
+        call put_comment(writer, 'faststrip ' // version // ' rev ' // trim(revision))
         call put_comment(writer, 'compiler ' // compiler_name() // ', ' // compiler_flags())
     end subroutine put_origin
 end module faststrip_command_console

@@ -2,7 +2,7 @@
 module faststrip_command_options
     use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: parse_real, parse_integer, integer_text
-    use faststrip_command_console, only: usage_error, say, printable
+    use faststrip_command_console, only: usage_error, say, printable, program_name
     use faststrip_command_files, only: take_input, take_output
     use faststrip_command_system, only: start_signals
     implicit none
@@ -172,7 +172,7 @@ contains
         character(len=38) :: left
         integer :: i, from, cut
 
-        call say('usage: faststrip ' // trim(command%name // ' ' // command%usage) &
+        call say('usage: ' // program_name() // ' ' // trim(command%name // ' ' // command%usage) &
                  // ' [options]')
         call say('')
         call say(command%about)

@@ -9,7 +9,6 @@ module faststrip_command_table
     use faststrip_command_console, only: fail_on_error, usage_error, progress
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_integer, option_word, refuse_value
-    use faststrip_lab_errata, only: run_errata
     use faststrip_command_table_audit, only: write_audit
     use faststrip_command_table_curves, only: write_curves, write_degrees
     use faststrip_command_table_distances, only: parse_distances
@@ -33,10 +32,9 @@ contains
             call run_audit(command)
             return
         end if
-        if (given(command, '--errata')) then
-            call write_errata(command)
-            return
-        end if
+        if (given(command, '--errata')) &
+            call usage_error('--errata is now a subcommand of its own: faststrip-lab errata', &
+                             command%name)
         if (size(command%arguments) > 0) &
             call usage_error('a file goes with --audit only: ' // command%arguments(1)%text, &
                              command%name)
@@ -67,8 +65,7 @@ contains
             // line // '(index,a6,...,a0; index = 2n; the half), without FILE.csv the published' &
             // line // 'one: errors, residual against a fresh fit, the one coefficient whose' &
             // line // 'change explains it best, errors one decade outside. The summary goes to' &
-            // line // 'stdout with -o, else to stderr. --errata: what each erratum of the paper' &
-            // line // 'costs, literal and right reading; lines to read on stdout with -o.' // line
+            // line // 'stdout with -o, else to stderr.' // line
         command%options = [ &
             option_t('--degree', 'D', 'degree of the polynomials, 0 to 40 (default 6)'), &
             option_t('--n', 'LIST', 'strip distances: 0:20 (default), 3, 0,1,5, 0:3,10'), &
@@ -80,7 +77,7 @@ contains
             option_t('-o', 'FILE', 'write the table or the audit there (default stdout)', &
                      writes=.true.), &
             option_t('--audit', '', 'check a table against the exact integral'), &
-            option_t('--errata', '', 'the paper as printed and as it should be, side by side'), &
+            option_t('--errata', '', 'now: faststrip-lab errata'), &
             option_t('--curves', 'FILE', 'exact and published curves, L from -4 to 3', &
                      writes=.true.), &
             option_t('--degrees', 'FILE', 'error of the fits for degrees 0 to 40', writes=.true.)]
@@ -104,22 +101,6 @@ contains
         if (size(command%arguments) > 0) file = command%arguments(1)%text
         call write_audit(file, fit, option_text(command, '-o', '-'))
     end subroutine run_audit
-
-    subroutine write_errata(command)
-        type(command_t), intent(in) :: command
-
-        integer :: i
-
-        do i = 1, size(command%options)
-            if (any(command%options(i)%name == [character(len=8) :: '--errata', '-o'])) cycle
-            if (command%options(i)%is_given) &
-                call usage_error('--errata goes without ' // trim(command%options(i)%name), &
-                                 command%name)
-        end do
-        if (size(command%arguments) > 0) &
-            call usage_error('--errata takes no file: ' // command%arguments(1)%text, command%name)
-        call run_errata(option_text(command, '-o', '-'))
-    end subroutine write_errata
 
     subroutine write_pictures(command, spec)
         type(command_t), intent(in) :: command

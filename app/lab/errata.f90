@@ -1,4 +1,4 @@
-!> `faststrip table --errata`: what the paper prints and what is right, side by side.
+!> `faststrip-lab errata`: what the paper prints and what is right, side by side.
 module faststrip_lab_errata
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -32,6 +32,7 @@ module faststrip_lab_errata
     use faststrip_tangential_paper, only: march_reading_t, march_sum_t, printed_march
     use faststrip_tables_printed_integral, only: printed_influence, rule_qags, rule_cquad
     use faststrip_command_console, only: fail_on_error, put_origin, say
+    use faststrip_command_options, only: command_t, option_t, parse_command, option_text
     implicit none
     private
 
@@ -57,13 +58,22 @@ module faststrip_lab_errata
 
 contains
 
-    !> Compute all demonstrations; write them as CSV and, unless that goes to stdout, as lines to
-    !> read on stdout. Ends the program on an error.
-    subroutine run_errata(path)
-        character(len=*), intent(in) :: path !! of the CSV, or `-`
-
+    !> Run the subcommand from the command line: compute all demonstrations, write them as CSV and,
+    !> unless that goes to stdout, as lines to read on stdout.
+    subroutine run_errata()
+        type(command_t) :: command
         type(findings_t) :: found
+        character(len=:), allocatable :: path
 
+        command%name = 'errata'
+        command%usage = ''
+        command%about = &
+            'What each erratum of the paper costs, literal and right reading: as CSV, and with -o' &
+            // new_line('a') // 'as lines to read on stdout.' // new_line('a')
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                                    writes=.true.)]
+        call parse_command(command, 0)
+        path = option_text(command, '-o', '-')
         allocate (found%list(0))
         call compare_matrix(found)
         call compare_jacobian(found)

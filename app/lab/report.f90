@@ -1,4 +1,4 @@
-!> `faststrip report`: everything that is measured, in one folder, with a verdict per row.
+!> `faststrip-lab report`: everything that is measured, in one folder, with a verdict per row.
 !>
 !> The runs that make the figures stand in one CSV file, the comparisons they are judged by in
 !> another; this subcommand does the runs, one after the other so that times are not disturbed,
@@ -14,6 +14,7 @@ module faststrip_lab_report
     use faststrip_command_console, only: fail, fail_on_error, note, put_origin, usage_error, &
                                          exit_bad_input
     use faststrip_command_system, only: resolved
+    use faststrip_lab_checkout, only: in_checkout
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          command_argument
     implicit none
@@ -54,9 +55,9 @@ contains
         call parse_command(command, 0)
         folder = option_text(command, '-o', 'out/report')
         python = option_text(command, '--python', 'python3')
-        manifest = option_text(command, '--manifest', 'reference/comparisons.csv')
+        manifest = option_text(command, '--manifest', in_checkout('reference/comparisons.csv'))
         quick = given(command, '--quick')
-        call read_csv(option_text(command, '--runs', 'reference/report_runs.csv'), runs, status)
+        call read_csv(option_text(command, '--runs', in_checkout('reference/report_runs.csv')), runs, status)
         call fail_on_error(status)
         do i = 1, size(run_columns)
             call require_column(runs, trim(run_columns(i)), column(i), status)
@@ -172,13 +173,22 @@ contains
                                  quoted(folder // '/data')), &
                         '{figures}', quoted(folder // '/figures'))
         select case (program)
-        case ('faststrip'); line = quoted(command_argument(0)) // ' ' // line
+        case ('faststrip-lab'); line = quoted(command_argument(0)) // ' ' // line
+        case ('faststrip'); line = quoted(sibling()) // ' ' // line
         case ('python'); line = 'FASTSTRIP_SVG=1 ' // quoted(python) // ' ' // line
         case default
-            call fail(exit_bad_input, 'neither faststrip nor python: ' // program // ' (' &
+            call fail(exit_bad_input, 'neither faststrip, faststrip-lab nor python: ' // program // ' (' &
                       // runs%file // ':' // integer_text(runs%line(row)) // ')')
         end select
     end subroutine command_line
+
+    !> The program `faststrip` beside this one.
+    function sibling() result(path)
+        character(len=:), allocatable :: path
+
+        path = command_argument(0)
+        path = path(:index(path, '/', back=.true.)) // 'faststrip'
+    end function sibling
 
     !> A text with every occurrence of a part replaced.
     pure function replaced(text, part, by) result(new)

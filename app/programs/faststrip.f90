@@ -7,10 +7,6 @@ program faststrip_main
     use faststrip_command_batch, only: run_batch
     use faststrip_command_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
-    use faststrip_lab_fuzz, only: run_fuzz
-    use faststrip_lab_report, only: run_report
-    use faststrip_lab_bench, only: run_bench
-    use faststrip_lab_scenes_reference_scenes, only: run_scenes
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -20,10 +16,6 @@ program faststrip_main
     case ('batch'); call run_batch()
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
-    case ('bench'); call run_bench()
-    case ('fuzz'); call run_fuzz()
-    case ('scenes'); call run_scenes()
-    case ('report'); call run_report()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -53,10 +45,6 @@ contains
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
-        call say('  bench WHAT             for developers: times and errors of the methods')
-        call say('  report                 everything measured, judged and drawn, in one folder')
-        call say('  fuzz                   for developers: random gaps, checked')
-        call say('  scenes                 for developers: reference forces of many contacts')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

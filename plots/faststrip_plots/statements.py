@@ -218,7 +218,7 @@ def _tip_formula(data):
         "I3", "(21)-(24)", "Off the centre line the integral follows from that at the centre by a"
         " quotient of elementary integrals", "(22)-(24), decoded", "largest relative error",
         100.0 * max(rows, default=math.nan), "%", Limits(5.0, 15.0),
-        f"of {len(rows)} points near the ends of strips, where it is worst", "table --errata",
+        f"of {len(rows)} points near the ends of strips, where it is worst", "errata",
     )
 
 
@@ -615,7 +615,7 @@ def _equations(data):
         yield judged(
             f"E{number}", f"{place}, {equation}", words, subject, quantity,
             100.0 * max(rows, default=math.nan), "%", Limits(1.0, 10.0),
-            f"demonstrations: {len(rows)}", "table --errata",
+            f"demonstrations: {len(rows)}", "errata",
         )
 
 

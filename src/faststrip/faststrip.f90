@@ -1,9 +1,8 @@
 !> What `use faststrip` gives: the embeddable core, from profiles to forces.
 !>
 !> Needs LAPACK and nothing else: no file is read or written, nothing is printed, nothing stops.
-!> Readers (`faststrip_files_profile`, `faststrip_files_gap`, `faststrip_files_csv`), GSL's
-!> quadrature (`faststrip_tables_quadrature`) and what needs FFTW
-!> (`faststrip_kalker_convolution`, Kalker's variational methods) are modules of their own.
+!> Readers (`src/files`), GSL's quadrature and the making of coefficient tables (`src/tables`) and
+!> Kalker's variational methods with FFTW (`src/kalker`) are packages of their own.
 module faststrip
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, message_length, st_ok, &

@@ -1,5 +1,5 @@
-!> Reading wheel and rail profiles from files into the frame of `faststrip_geometry_profile`: y to the
-!> field side, z down, mm, y increasing. Nothing is repaired: points out of order, double points
+!> Reading wheel and rail profiles from files into the frame of `faststrip_geometry_profile`: y to
+!> the field side, z down, mm, y increasing. Nothing is repaired: points out of order, double points
 !> and whatever is no number end the reading with the file, the line and the value.
 module faststrip_files_profile
     use faststrip_base_kinds, only: wp

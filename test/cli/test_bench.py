@@ -1,4 +1,4 @@
-"""`faststrip bench integral`: the file it writes. Times are the machine's; errors are ours."""
+"""`faststrip-lab bench integral`: the file it writes. Times are the machine's; errors are ours."""
 
 from cli_program import ProgramTest
 

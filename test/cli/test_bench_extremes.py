@@ -1,4 +1,4 @@
-"""`faststrip bench extremes`: every row a figure or a status, and figures within their bounds."""
+"""`faststrip-lab bench extremes`: every row a figure or a status, and figures within their bounds."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""`faststrip bench kalker`: Kalker's coefficients from TANG, extrapolated in the elements' size."""
+"""`faststrip-lab bench kalker`: Kalker's coefficients from TANG, extrapolated in the elements' size."""
 
 from cli_program import ROOT, ProgramTest
 

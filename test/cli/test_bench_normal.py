@@ -1,4 +1,4 @@
-"""`faststrip bench normal`, `accuracy` and `convergence`: the columns, and that they measure."""
+"""`faststrip-lab bench normal`, `accuracy` and `convergence`: the columns, and that they measure."""
 
 import math
 import statistics

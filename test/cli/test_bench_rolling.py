@@ -1,4 +1,4 @@
-"""`faststrip bench rolling`: the rows that the report's manifest judges are there."""
+"""`faststrip-lab bench rolling`: the rows that the report's manifest judges are there."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""`faststrip bench tangential` and `bench forces`: the columns, and what has been reached."""
+"""`faststrip-lab bench tangential` and `bench forces`: the columns, and what has been reached."""
 
 import statistics
 

@@ -1,4 +1,4 @@
-"""`faststrip bench trade`: errors are against the references, times are there, bad lists refused."""
+"""`faststrip-lab bench trade`: errors are against the references, times are there, bad lists refused."""
 
 from cli_program import ROOT, ProgramTest, numbers
 

@@ -1,4 +1,4 @@
-"""`faststrip table --errata`: literal and right readings side by side."""
+"""`faststrip-lab errata`: literal and right readings side by side."""
 
 from cli_program import ProgramTest, rows_of
 

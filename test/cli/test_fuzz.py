@@ -1,4 +1,4 @@
-"""`faststrip fuzz`: random gaps, a few of the cases of `./run fuzz`."""
+"""`faststrip-lab fuzz`: random gaps, a few of the cases of `./run fuzz`."""
 
 from cli_program import ProgramTest, rows_of
 

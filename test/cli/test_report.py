@@ -1,4 +1,4 @@
-"""`faststrip report`: runs, verdicts and the files it leaves; exit 1 where one fails."""
+"""`faststrip-lab report`: runs, verdicts and the files it leaves; exit 1 where one fails."""
 
 import os
 import subprocess

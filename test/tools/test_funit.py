@@ -1,4 +1,4 @@
-"""What the assertions of test/funit.f90 let pass and what they fail, with traps on."""
+"""What the assertions of test/funit/funit.f90 let pass and what they fail, with traps on."""
 
 import unittest
 

@@ -248,7 +248,7 @@ class Verdicts(unittest.TestCase):
         self.write("src/arithmetic.f90", ARITHMETIC)
         self.write("src/caller.f90", CALLER)
         self.write("test/pf/numerics/test_caller.pf", FORTRAN_TEST)
-        for name in ("tools/pf2f90.py", "test/funit.f90", "test/funit_runner.f90"):
+        for name in ("tools/pf2f90.py", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
         (self.folder / ".venv").symlink_to(ROOT / ".venv")

@@ -46,7 +46,7 @@ class Project(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
-        for name in ("run", "fpm.toml", "test/funit.f90", "test/funit_runner.f90"):
+        for name in ("run", "fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             self.copy(name)
         for name in ("requirements.txt", "pf2f90.py", "run_pytests.py"):
             self.copy(f"tools/{name}")

@@ -1,4 +1,4 @@
-!> `faststrip bench accuracy`: errors of the strip solver against CONTACT.
+!> `faststrip-lab bench accuracy`: errors of the strip solver against CONTACT.
 module faststrip_lab_bench_accuracy
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word

@@ -1,4 +1,4 @@
-!> `faststrip bench`: what things cost and how accurate they are.
+!> `faststrip-lab bench`: what things cost and how accurate they are.
 module faststrip_lab_bench
     use faststrip_base_kinds, only: wp
     use faststrip_command_console, only: usage_error
@@ -19,6 +19,7 @@ module faststrip_lab_bench
     use faststrip_lab_bench_scenes, only: bench_scenes
     use faststrip_lab_bench_trade, only: bench_trade
     use faststrip_lab_bench_certificate, only: run_certificate_study
+    use faststrip_lab_checkout, only: in_checkout
     implicit none
     private
 
@@ -62,7 +63,7 @@ contains
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
         rounds = option_integer(command, '--rounds', 21, least=1, most=1000)
-        folder = option_text(command, '--contacts', 'reference/contact')
+        folder = option_text(command, '--contacts', in_checkout('reference/contact'))
         call take_input(folder)
         most_strips = option_integer(command, '--most-strips', bench_normal_most_strips, &
                                      least=1)
@@ -84,9 +85,9 @@ contains
             call bench_tangential(file, folder, rounds)
         case ('forces')
             call allow([character(len=name_length) :: '--contacts', '--scenes'])
-            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
+            call take_input(option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')))
             call bench_forces(file, folder, option_text(command, '--scenes', &
-                                                        'reference/scenes/scenes.csv'))
+                                                        in_checkout('reference/scenes/scenes.csv')))
         case ('certificate')
             call allow([character(len=name_length) ::])
             call run_certificate_study(file)
@@ -108,24 +109,24 @@ contains
         case ('extremes')
             call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
                         '--references', '--scenes'])
-            call take_input(option_text(command, '--references', 'reference/influence'))
-            call take_input(option_text(command, '--scenes', 'example/scenes'))
+            call take_input(option_text(command, '--references', in_checkout('reference/influence')))
+            call take_input(option_text(command, '--scenes', in_checkout('example/scenes')))
             call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
                                 given(command, '--quick'), folder, &
-                                option_text(command, '--references', 'reference/influence'), &
-                                option_text(command, '--scenes', 'example/scenes'))
+                                option_text(command, '--references', in_checkout('reference/influence')), &
+                                option_text(command, '--scenes', in_checkout('example/scenes')))
         case ('scenes')
             call allow([character(len=name_length) :: '--scenes'])
-            call take_input(option_text(command, '--scenes', 'example/scenes'))
-            call bench_scenes(file, option_text(command, '--scenes', 'example/scenes'))
+            call take_input(option_text(command, '--scenes', in_checkout('example/scenes')))
+            call bench_scenes(file, option_text(command, '--scenes', in_checkout('example/scenes')))
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
-            call take_input(option_text(command, '--methods', 'reference/trade_methods.csv'))
-            call take_input(option_text(command, '--scenes', 'reference/scenes/scenes.csv'))
+            call take_input(option_text(command, '--methods', in_checkout('reference/trade_methods.csv')))
+            call take_input(option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')))
             call bench_trade(file, option_text(command, '--methods', &
-                                               'reference/trade_methods.csv'), folder, &
-                             option_text(command, '--scenes', 'reference/scenes/scenes.csv'), &
+                                               in_checkout('reference/trade_methods.csv')), folder, &
+                             option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')), &
                              given(command, '--quick'))
         case default
             call usage_error('WHAT must be a bench of the list, got ''' // what // '''', &

@@ -2,13 +2,13 @@
 !> errors, and by how much they are too large.
 !>
 !> Hertz ellipses are judged by the exact solution; the 20 gaps of the reference and random gaps by
-!> Kalker's method on two grids, carried on (`faststrip_lab_bench_certificate_truth`). Many strips are no
-!> truth: all strips share that their sections are taken for semi-ellipses. The gaps are held
+!> Kalker's method on two grids, carried on (`faststrip_lab_bench_certificate_truth`). Many strips
+!> are no truth: all strips share that their sections are taken for semi-ellipses. The gaps are held
 !> against CONTACT as well, on its grid.
 !>
 !> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
 !> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
-!> its own. The random gaps here are those of `faststrip fuzz`, unseen by these factors. Those of
+!> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those of
 !> slopes and waves from strip to strip were settled with an eye on the same families, with seed 11;
 !> the gaps here are of another seed.
 module faststrip_lab_bench_certificate
@@ -34,6 +34,7 @@ module faststrip_lab_bench_certificate
                                                      elements_along, elements_across
     use faststrip_command_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
+    use faststrip_lab_checkout, only: in_checkout
     implicit none
     private
 
@@ -186,7 +187,7 @@ contains
     subroutine try_gaps(study)
         type(study_t), intent(inout) :: study
 
-        character(len=*), parameter :: folder = 'reference/contact/'
+        character(len=:), allocatable :: folder
         type(csv_table_t) :: table
         type(norm_workspace_t) :: norm
         type(contact_t) :: contact
@@ -196,6 +197,7 @@ contains
         real(wp), allocatable :: load(:), penetration(:), pmax(:), area(:)
         integer :: i
 
+        folder = in_checkout('reference/contact') // '/'
         call read_csv(folder // 's1002_uic60_B.csv', table, status)
         call fail_on_error(status)
         call column_numbers(table, 'Fn_N', load, status)

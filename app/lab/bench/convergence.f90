@@ -1,4 +1,4 @@
-!> `faststrip bench convergence`: errors of the strip solver against the number of strips.
+!> `faststrip-lab bench convergence`: errors of the strip solver against the number of strips.
 module faststrip_lab_bench_convergence
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word

@@ -1,4 +1,4 @@
-!> `faststrip bench extremes`: how accurate and how steady everything is where it is hardest.
+!> `faststrip-lab bench extremes`: how accurate and how steady everything is where it is hardest.
 module faststrip_lab_bench_extremes
     use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv

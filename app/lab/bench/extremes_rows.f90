@@ -1,4 +1,4 @@
-!> The rows of `faststrip bench extremes`: one measured error, or one word that says why not.
+!> The rows of `faststrip-lab bench extremes`: one measured error, or one word that says why not.
 module faststrip_lab_bench_extremes_rows
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp

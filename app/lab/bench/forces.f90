@@ -1,4 +1,4 @@
-!> `faststrip bench forces`: errors of all tangential methods against Kalker's exact theory.
+!> `faststrip-lab bench forces`: errors of all tangential methods against Kalker's exact theory.
 !>
 !> Four sets: Hertz contacts (`hertz_creep.csv`), the paper's 20 contacts with either sign of the
 !> creepages (`s1002_uic60_B.csv`, `_A.csv`), and contacts of many kinds solved by NORM and TANG

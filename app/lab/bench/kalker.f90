@@ -1,4 +1,4 @@
-!> `faststrip bench kalker`: Kalker's coefficients of the linear theory from TANG.
+!> `faststrip-lab bench kalker`: Kalker's coefficients of the linear theory from TANG.
 !>
 !> Where nothing slides the tractions grow beyond all bounds at the trailing edge, and forces err by
 !> the first order of the elements' size, with a scatter by where the edge lies in them. Each grid

@@ -1,4 +1,4 @@
-!> `faststrip bench normal`: times of the strip solver.
+!> `faststrip-lab bench normal`: times of the strip solver.
 !>
 !> All are times of the processor, of many runs the median (`us` is an older name of it), the 95th
 !> percentile and the worst; parts are medians alone. So a machine that also does other

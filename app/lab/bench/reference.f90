@@ -1,4 +1,4 @@
-!> `faststrip bench reference`: times of Kalker's variational method.
+!> `faststrip-lab bench reference`: times of Kalker's variational method.
 !>
 !> All are times of the processor: of many runs the median (`us` is an older name of it), the 95th
 !> percentile and the worst. What a start costs elsewhere, the strips'

@@ -1,4 +1,4 @@
-!> The part of `faststrip bench reference` that times TANG.
+!> The part of `faststrip-lab bench reference` that times TANG.
 !>
 !> Pressures are NORM's on the same grid, which is not counted. Iterations are those inside Newton's
 !> steps, each applies the influence once.

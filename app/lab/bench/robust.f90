@@ -1,4 +1,4 @@
-!> `faststrip bench robust`: what the answers are worth where smooth contacts end: the fixed
+!> `faststrip-lab bench robust`: what the answers are worth where smooth contacts end: the fixed
 !> lattice that is fallen back to, and gaps with kinks and flat tops.
 !>
 !> Lattice: against CONTACT in the 20 contacts and against Hertz on 25 ellipses. Kinks and flat

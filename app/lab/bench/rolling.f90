@@ -1,4 +1,4 @@
-!> `faststrip bench rolling`: errors and times of TANG against CONTACT.
+!> `faststrip-lab bench rolling`: errors and times of TANG against CONTACT.
 module faststrip_lab_bench_rolling
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word, number_text

@@ -1,4 +1,4 @@
-!> `faststrip bench scenes`: the scenes of example/scenes by several methods.
+!> `faststrip-lab bench scenes`: the scenes of example/scenes by several methods.
 module faststrip_lab_bench_scenes
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &

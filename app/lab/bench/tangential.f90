@@ -1,4 +1,4 @@
-!> `faststrip bench tangential`: what the tangential methods cost, side by side in one run.
+!> `faststrip-lab bench tangential`: what the tangential methods cost, side by side in one run.
 !>
 !> All are times of the processor: of many rounds the median (`us` is an older name of it), the 95th
 !> percentile and the worst; `us_with_field` is a median.

@@ -1,4 +1,4 @@
-!> The cases of `faststrip fuzz`: odd numbers have shapes drawn in units of their Hertz ellipse
+!> The cases of `faststrip-lab fuzz`: odd numbers have shapes drawn in units of their Hertz ellipse
 !> (`faststrip_lab_fuzz_gaps`), even ones gaps as the field hands them over
 !> (`faststrip_lab_fuzz_field_gaps`).
 module faststrip_lab_fuzz_cases

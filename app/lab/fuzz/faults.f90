@@ -1,4 +1,4 @@
-!> Errors planted in answers, to see that the judges of `faststrip fuzz` tell them.
+!> Errors planted in answers, to see that the judges of `faststrip-lab fuzz` tell them.
 !>
 !> They are put in after the solution and before it is judged, into every answer, those that the
 !> judges ask for by themselves among them: what a wrong solver would hand over.

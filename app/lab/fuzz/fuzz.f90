@@ -1,4 +1,4 @@
-!> `faststrip fuzz`: contacts of many random gaps, solved and judged.
+!> `faststrip-lab fuzz`: contacts of many random gaps, solved and judged.
 module faststrip_lab_fuzz
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text

@@ -1,4 +1,4 @@
-!> The judges of `faststrip fuzz`, what each demands, and what a named limitation excuses.
+!> The judges of `faststrip-lab fuzz`, what each demands, and what a named limitation excuses.
 !>
 !> A judge measures how far an answer is from what must hold, in units of what is allowed: up to
 !> one is well. `ok` has to please them all. A limitation is excused only from what it is about:

@@ -1,4 +1,4 @@
-!> One case of `faststrip fuzz`: solved, spoiled if asked, judged.
+!> One case of `faststrip-lab fuzz`: solved, spoiled if asked, judged.
 module faststrip_lab_fuzz_run
     use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_set_flag, &
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow

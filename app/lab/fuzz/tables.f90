@@ -1,4 +1,4 @@
-!> The tables and the CSV rows of `faststrip fuzz`.
+!> The tables and the CSV rows of `faststrip-lab fuzz`.
 module faststrip_lab_fuzz_tables
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word
@@ -47,7 +47,7 @@ contains
         if (any(is_bad)) &
             call fail(exit_bad_input, integer_text(count(is_bad)) // ' of ' &
                       // integer_text(size(verdicts)) // ' cases failed a check; one alone with ' &
-                      // 'faststrip fuzz --case CASE')
+                      // 'faststrip-lab fuzz --case CASE')
     end subroutine print_verdicts
 
     !> Judge by judge: how many cases it saw, how many broke its rule, how many of these were

@@ -1,4 +1,4 @@
-!> `faststrip scenes`: reference forces of the contacts of `reference_gaps`, by NORM and TANG on
+!> `faststrip-lab scenes`: reference forces of the contacts of `reference_gaps`, by NORM and TANG on
 !> two grids.
 module faststrip_lab_scenes_reference_scenes
     use faststrip_base_kinds, only: wp

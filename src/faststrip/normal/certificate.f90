@@ -52,8 +52,8 @@
 !> The factors of e_k, m_k and u_k were chosen on 800 random contacts of 16 families, solved by NORM
 !> on two grids, with 5 to 41 strips. Those of s_k and of the fourth difference would be 1 and 0.010
 !> for waves of two strips on a half-space; that of s_k was lowered with an eye on families of
-!> `faststrip fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a tenth
-!> larger in the median. `faststrip bench certificate` judges them.
+!> `faststrip-lab fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a tenth
+!> larger in the median. `faststrip-lab bench certificate` judges them.
 !> All factors are of experience, no bounds in the strict sense.
 module faststrip_normal_certificate
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

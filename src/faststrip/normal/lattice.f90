@@ -15,7 +15,7 @@
 !> 0.15 s at most.
 !>
 !> Measured errors, mean/max, against CONTACT (0.1 mm) in the 20 contacts of the paper's section 5
-!> and against 25 Hertz ellipses of a/b = 0.004 to 100 (`faststrip bench robust`):
+!> and against 25 Hertz ellipses of a/b = 0.004 to 100 (`faststrip-lab bench robust`):
 !>
 !>     n    20 contacts: penetration   pmax          Hertz: penetration   pmax
 !>     5      0.69 / 1.7 %             7.1 / 28 %       0.38 / 0.93 %      1.3 / 2.6 %

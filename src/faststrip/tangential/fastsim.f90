@@ -150,8 +150,8 @@ contains
                             ', ' // trim(number_text(c%c23)))
         else if (max(a, b, g, load, c%c11, c%c22, c%c23) > largest .or. &
                  min(a, b, g, c%c11, c%c22, c%c23) < 1.0_wp/largest) then
-            call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage ' // &
-                            'coefficients beyond all proportion')
+            call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage' // &
+                            ' coefficients beyond all proportion')
         else
             call add_ellipse(a, b, 0.0_wp, load, c, g, mu, creepage, nx, ny, fastsim_variant_t(), &
                              result, areas, field)

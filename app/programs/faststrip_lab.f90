@@ -1,0 +1,56 @@
+!> The command line of the laboratory: what measures and tries faststrip inside its own checkout.
+program faststrip_lab
+    use faststrip_command_console, only: say, usage_error, version_text, name_program
+    use faststrip_command_options, only: command_argument
+    use faststrip_lab_fuzz, only: run_fuzz
+    use faststrip_lab_report, only: run_report
+    use faststrip_lab_errata, only: run_errata
+    use faststrip_lab_bench, only: run_bench
+    use faststrip_lab_scenes_reference_scenes, only: run_scenes
+    implicit none
+
+    call name_program('faststrip-lab')
+    if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
+    select case (command_argument(1))
+    case ('bench'); call run_bench()
+    case ('fuzz'); call run_fuzz()
+    case ('scenes'); call run_scenes()
+    case ('errata'); call run_errata()
+    case ('report'); call run_report()
+    case ('--help', '-h', 'help')
+        call need_nothing_more()
+        call print_help()
+    case ('--version', '-V')
+        call need_nothing_more()
+        call say(version_text())
+    case default
+        if (index(command_argument(1), '-') == 1) &
+            call usage_error('unknown option: ' // command_argument(1), '')
+        call usage_error('unknown subcommand: ' // command_argument(1), '')
+    end select
+
+contains
+
+    subroutine need_nothing_more()
+        if (command_argument_count() > 1) &
+            call usage_error('too many arguments: ' // command_argument(2), '')
+    end subroutine need_nothing_more
+
+    subroutine print_help()
+        call say('usage: faststrip-lab SUBCOMMAND [arguments] [options]')
+        call say('')
+        call say('Times, errors and trials of faststrip, for its developers; needs the checkout.')
+        call say('')
+        call say('  bench WHAT             times and errors of the methods')
+        call say('  report                 everything measured, judged and drawn, in one folder')
+        call say('  errata                 the paper as printed and as it should be')
+        call say('  fuzz                   random gaps, checked')
+        call say('  scenes                 reference forces of many contacts')
+        call say('')
+        call say('  SUBCOMMAND --help      what a subcommand takes')
+        call say('  --version              name, version and revision')
+        call say('')
+        call say('Units are mm, N, MPa, rad. Exit codes: 1 bad input, 2 usage, 3 no convergence,')
+        call say('128 + n ended by signal n.')
+    end subroutine print_help
+end program faststrip_lab
