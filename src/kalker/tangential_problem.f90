@@ -7,21 +7,21 @@
 !> element and of the one ahead of it stands a node, and `[u(x) - u(x + dx)]/dx` is the mean of
 !> -du/dx between the two: second order at the node, first order at the element.
 !>
-!>  1. *Sliding.* The traction opposes the slip of its element. The slip at the node is carried to
-!>     the middle with that of the node ahead, `1.5 s(node) - 0.5 s(node ahead)`, where both
-!>     elements slide. In adhesion both vanish and the node's slip serves.
-!>  2. *Leading edge.* Where nothing slides ahead, the traction is like the root of the distance
-!>     from the edge. A lattice of tractions, and nodes half a step ahead of them, has this root
-!>     begin `edge_place` = 0.826 dx ahead of the first middle, wherever the true edge is (the end
-!>     of a plane problem's solution, fitted far inside; 0.5 is the mean of the true place, and the
-!>     difference is the first-order error of the forces). A compliance c on the leading element,
-!>     `u(first) + c p(first)`, moves it: in the plane problem with `u = -k int p ln|x|`, it lies
-!>     at f dx for `c = k dx edge_strength [1/(f + edge_reach) - 1]`, a rational function because
-!>     c changes one entry of the matrix. k = 2 (1 - nu)/(pi G) along, 2/(pi G) across. Where the
-!>     element slides the compliance leaves its direction as it is.
-!>  3. *True edge.* The square of the pressure falls linearly to zero at the edge: f from the
-!>     first three elements of a row. Pressures that NORM found on the same grid are those of a
-!>     lattice too, and f follows from the ratio of the first two (`norm_edge`).
+!> - **K1** *Sliding.* The traction opposes the slip of its element. The slip at the node is
+!>   carried to the middle with that of the node ahead, `1.5 s(node) - 0.5 s(node ahead)`, where
+!>   both elements slide. In adhesion both vanish and the node's slip serves.
+!> - **K2** *Leading edge.* Where nothing slides ahead, the traction is like the root of the
+!>   distance from the edge. A lattice of tractions, and nodes half a step ahead of them, has this
+!>   root begin `edge_place` = 0.826 dx ahead of the first middle, wherever the true edge is (the
+!>   end of a plane problem's solution, fitted far inside; 0.5 is the mean of the true place, and
+!>   the difference is the first-order error of the forces). A compliance c on the leading element,
+!>   `u(first) + c p(first)`, moves it: in the plane problem with `u = -k int p ln|x|`, it lies at
+!>   f dx for `c = k dx edge_strength [1/(f + edge_reach) - 1]`, a rational function because c
+!>   changes one entry of the matrix. k = 2 (1 - nu)/(pi G) along, 2/(pi G) across. Where the
+!>   element slides the compliance leaves its direction as it is.
+!> - **K3** *True edge.* The square of the pressure falls linearly to zero at the edge: f from the
+!>   first three elements of a row. Pressures that NORM found on the same grid are those of a
+!>   lattice too, and f follows from the ratio of the first two (`norm_edge`).
 !>
 !> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
 !>
@@ -73,7 +73,7 @@ module faststrip_kalker_tangential_problem
         real(wp) :: dx = 0.0_wp            !! sides, mm
         real(wp) :: dy = 0.0_wp
         logical :: is_rolling = .true.     !! or a shift?
-        logical :: is_second_order = .true. !! the first deviation of the header
+        logical :: is_second_order = .true. !! K1 of the header
         integer, allocatable :: column(:)  !! of an element, 1 to nx - 1
         integer, allocatable :: row(:)     !! of an element, 1 to ny
         integer, allocatable :: row_start(:) !! first element of a row; of row n_rows + 1: n + 1

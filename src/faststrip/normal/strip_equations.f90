@@ -8,9 +8,9 @@
 !>     H sum_s p0_s I_ks(xd_k) = D - h_k - A_k xd_k^2,       sum_k (pi/2) p0_k xd_k w_k = Q
 !>
 !> Deviations from the paper:
-!> 1. Source and field strip are exchanged in (6), (9), (17), (18), (20): the integral runs over
-!>    the strip that carries the pressure.
-!> 2. The displacement at the tip is the exact integral, not the quotient (22)-(24).
+!> - **N1** Source and field strip are exchanged in (6), (9), (17), (18), (20): the integral runs
+!>   over the strip that carries the pressure.
+!> - **N2** The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient

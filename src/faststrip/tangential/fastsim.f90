@@ -13,8 +13,10 @@
 !>
 !> and the bound is the parabolic one, `mu (2Q/(pi a b)) (1 - (x/a)^2 - (y/b)^2)`.
 !>
-!> Deviation 1: the bound is scaled (by less than 3e-4 from 50x50 elements on) so that its sum
-!> over the elements is mu Q exactly, whatever the grid.
+!> One deviation from Kalker:
+!>
+!> - **F1** The bound is scaled (by less than 3e-4 from 50x50 elements on) so that its sum over the
+!>   elements is mu Q exactly, whatever the grid.
 !>
 !> Two variants in use (`fastsim_variant_t`):
 !>

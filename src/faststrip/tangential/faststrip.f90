@@ -7,50 +7,50 @@
 !> is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's
 !> eq. (25)-(48) once corrected). What differs from the paper, and why:
 !>
-!>  1. **Flexibility** `L_i = l_i (xd/a)^gamma`, gamma = 3/8. FASTSIM has gamma = 0 (one flexibility
-!>     for the patch), strip theory gamma = 1 (each strip is a half-plane of its own, Carter's);
-!>     a patch whose strips hang together lies between. The factors l_i make the linear forces
-!>     Kalker's on an ellipse for any gamma (`strip_moments`):
-!>     l1 = 2 a I1/(C11 G), l2 = 2 a I1/(C22 G), l3 = (2/3) a sqrt(a/b) I3/(C23 G).
-!>  2. **Bound** `mu p0 k (1 - t^2)^m (1 - alpha t)`, t = x/xd, k from `sum = pi/2` over the points,
-!>     so that each strip saturates at mu times its load and the contact at mu N exactly (the paper
-!>     scales afterwards). With m = 1 and alpha = 1/3 marching at constant creepage gives Carter's
-!>     force `1 - (1 - delta)^2` exactly at every creepage (the slope of the force over creepage is
-!>     half the squared length of the adhesion zone in both; comparing them gives the bound), so
-!>     alpha > 0 repairs what a linear traction in adhesion spoils. Measured best with this gamma:
-!>     alpha = 0.15. With spin the traction in adhesion is symmetric and so is the bound: alpha
-!>     falls to zero with the share of spin, and m from 1 towards 0.7 with saturation by spin, for
-!>     the elliptic bound (m = 1/2) is the true one where all slides.
-!>  3. **Spin in x**: the adhesion slope of `-y cphi`, y from the centroid of the patch, is the mean
-!>     of the one that goes with L1 and the one that makes the linear moment C33. The motion of
-!>     the centroid itself, `cksi - y_c cphi`, is longitudinal creepage like any other: forces do
-!>     not depend on where the reference point lies.
-!>  4. **Slip**: with three flexibilities scaling the elastic predictor back to the bound points the
-!>     wrong way. The step is implicit in the slip s = -lambda p,
-!>     `p_i = (K_i/h q_i - e_i)/(K_i/h + lambda)`, |p| = bound, q the traction one step ahead; e_i
-!>     goes from `K_i` times the slope of adhesion (lambda = 0) to the rigid slip (lambda large)
-!>     on the scale `sqrt(K1 K2)/xd`, a property of the strip and not of the grid.
-!>  5. **Flexibility in slip**: K_i moves half way from L_i to L3 with the share of spin and falls
-!>     by up to a third with saturation: the traction of a spinning patch turns within the patch,
-!>     and short waves are stiffer than long ones.
-!>  6. **Moment**: traction that grows linearly from the edge has its centre at -xd/3 and gives
-!>     neither C32 = -C23 nor C33. The arms are stretched so that the linear moments are
-!>     Kalker's; the stretch fades as a strip saturates.
-!>  7. **Stick**: where deviation 2 gives Carter's force, a strip sticks over the share s of its
-!>     length in which Carter's sticks over s^2; the stick fraction counts s^2, with spin too. The
-!>     states of the field are those of the marching.
-!>  8. **Friction power**: what the creepages feed in, `-(Fx cksi + Fy ceta + Mz cphi)`, all of
-!>     which turns into heat in steady rolling, whatever the elasticity. The sum over the elements
-!>     of the implicit march falls short of it by what its steps damp away (a third with 15
-!>     points); the field takes the traction of each step at its middle, which leaves some percent,
-!>     and its slip is scaled to give the power.
+!> - **S1** **Flexibility** `L_i = l_i (xd/a)^gamma`, gamma = 3/8. FASTSIM has gamma = 0 (one
+!>   flexibility for the patch), strip theory gamma = 1 (each strip is a half-plane of its own,
+!>   Carter's); a patch whose strips hang together lies between. The factors l_i make the linear
+!>   forces Kalker's on an ellipse for any gamma:
+!>   `l1 = 2 a I1/(C11 G), l2 = 2 a I1/(C22 G), l3 = (2/3) a sqrt(a/b) I3/(C23 G)`.
+!> - **S2** **Bound** `mu p0 k (1 - t^2)^m (1 - alpha t)`, t = x/xd, k from `sum = pi/2` over the
+!>   points, so that each strip saturates at mu times its load and the contact at mu N exactly (the
+!>   paper scales afterwards). With m = 1 and alpha = 1/3 marching at constant creepage gives
+!>   Carter's force `1 - (1 - delta)^2` exactly at every creepage (the slope of the force over
+!>   creepage is half the squared length of the adhesion zone in both; comparing them gives the
+!>   bound), so alpha > 0 repairs what a linear traction in adhesion spoils. Measured best with
+!>   this gamma: alpha = 0.15. With spin the traction in adhesion is symmetric and so is the bound:
+!>   alpha falls to zero with the share of spin, and m from 1 towards 0.7 with saturation by spin,
+!>   for the elliptic bound (m = 1/2) is the true one where all slides.
+!> - **S3** **Spin in x**: the adhesion slope of `-y cphi`, y from the centroid of the patch, is
+!>   the mean of the one that goes with L1 and the one that makes the linear moment C33. The motion
+!>   of the centroid itself, `cksi - y_c cphi`, is longitudinal creepage like any other: forces do
+!>   not depend on where the reference point lies.
+!> - **S4** **Slip**: with three flexibilities scaling the elastic predictor back to the bound
+!>   points the wrong way. The step is implicit in the slip s = -lambda p,
+!>   `p_i = (K_i/h q_i - e_i)/(K_i/h + lambda)`, |p| = bound, q the traction one step ahead; e_i
+!>   goes from `K_i` times the slope of adhesion (lambda = 0) to the rigid slip (lambda large) on
+!>   the scale `sqrt(K1 K2)/xd`, a property of the strip and not of the grid.
+!> - **S5** **Flexibility in slip**: K_i moves half way from L_i to L3 with the share of spin and
+!>   falls by up to a third with saturation: the traction of a spinning patch turns within the
+!>   patch, and short waves are stiffer than long ones.
+!> - **S6** **Moment**: traction that grows linearly from the edge has its centre at -xd/3 and
+!>   gives neither C32 = -C23 nor C33. The arms are stretched so that the linear moments are
+!>   Kalker's; the stretch fades as a strip saturates.
+!> - **S7** **Stick**: where S2 gives Carter's force, a strip sticks over the share s of
+!>   its length in which Carter's sticks over s^2; the stick fraction counts s^2, with spin too.
+!>   The states of the field are those of the marching.
+!> - **S8** **Friction power**: what the creepages feed in, `-(Fx cksi + Fy ceta + Mz cphi)`, all
+!>   of which turns into heat in steady rolling, whatever the elasticity. The sum over the elements
+!>   of the implicit march falls short of it by what its steps damp away (a third with 15 points);
+!>   the field takes the traction of each step at its middle, which leaves some percent, and its
+!>   slip is scaled to give the power.
 !>
-!> gamma, alpha, the range of m and the factors of 4 and 5 are tuned: round numbers near a broad
+!> gamma, alpha, the range of m and the factors of S4 and S5 are tuned: round numbers near a broad
 !> minimum of the errors against CONTACT on 161 Hertz cases and 40 S1002/UIC60 cases. Fitted to one
 !> half of these, the method has on the other half the errors it has on the first (force vector on
 !> the Hertz cases: 0.60 and 0.65 % of mu N, 0.62 and 0.61 with the halves exchanged). The 240
 !> contacts of `reference/scenes`, of eight other kinds of gap, came later, and no constant was
-!> fitted to them; the mean errors there are 0.5 and 0.9 % of mu N (Fx, Fy), 1.1 % of mu N c (Mz).
+!> fitted to them; the errors there stand in docs/validation.md.
 module faststrip_tangential_faststrip
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, is_error, st_out_of_range, &
@@ -76,14 +76,14 @@ module faststrip_tangential_faststrip
     !> Points along each strip unless told otherwise.
     integer, parameter :: default_points = 15
 
-    ! The constants of the list above.
-    real(wp), parameter :: gamma_length = 0.375_wp  ! 1; roots of roots
-    real(wp), parameter :: asymmetry = 0.15_wp      ! 2, alpha without spin
-    real(wp), parameter :: flattening = 0.3_wp      ! 2, m = 1 - flattening at most
-    real(wp), parameter :: longitudinal_part = 0.5_wp ! 3
-    real(wp), parameter :: slip_onset = 2.0_wp      ! 4
-    real(wp), parameter :: spin_part = 0.5_wp       ! 5
-    real(wp), parameter :: stiffening = 0.5_wp      ! 5
+    ! The constants of the list above, by its labels.
+    real(wp), parameter :: gamma_length = 0.375_wp  ! S1; roots of roots
+    real(wp), parameter :: asymmetry = 0.15_wp      ! S2, alpha without spin
+    real(wp), parameter :: flattening = 0.3_wp      ! S2, m = 1 - flattening at most
+    real(wp), parameter :: longitudinal_part = 0.5_wp ! S3
+    real(wp), parameter :: slip_onset = 2.0_wp      ! S4
+    real(wp), parameter :: spin_part = 0.5_wp       ! S5
+    real(wp), parameter :: stiffening = 0.5_wp      ! S5
     real(wp), parameter :: half_saturation = 2.0_wp ! linear force over mu N at saturation 1/2
 
     ! int_{-1}^{1} (1 - s^2)^e ds for e = (2 - gamma)/2 and (3 - gamma)/2; of s^2 (1 - s^2)^e1.
@@ -482,7 +482,7 @@ contains
     !>
     !> The slip of the implicit step is that of the way from the element ahead, where the traction
     !> is the mean of both; what goes into the field at the element itself gives the same heat
-    !> (deviation 8). The last element has also the half step to the trailing edge, on which the
+    !> (S8). The last element has also the half step to the trailing edge, on which the
     !> traction falls to nothing.
     pure subroutine note_elements(block, strips, creepage, ahead_x, ahead_y, i, n, field)
         type(block_t), intent(in) :: block
@@ -553,7 +553,7 @@ contains
         end do
     end subroutine add_block
 
-    !> Flexibility where the patch slides (deviation 5).
+    !> Flexibility where the patch slides (S5).
     elemental real(wp) function in_slip(l, l3, spin_share, saturation)
         real(wp), intent(in) :: l, l3, spin_share, saturation
 
@@ -664,7 +664,7 @@ contains
 
     !> Bring those of a few lanes that left the bound back to it.
     !>
-    !> The step is implicit in the slip (deviation 4): with f = lambda times the way,
+    !> The step is implicit in the slip (S4): with f = lambda times the way,
     !>
     !>     p_i = (K_i q_i - way e_i)/(K_i + f),   |p| = bound.
     !>

@@ -30,14 +30,14 @@
 !>
 !> It has no moment of its own.
 !>
-!> Deviation 1 (Polach): the sum of both parts, which may exceed mu N (by up to a third with strong
-!> spin), is shortened to mu N.
+!> Deviations from their authors:
 !>
-!> Deviation 2 (all): the moment about the reference point has the arm of the force, `-y0 Fx`, in
-!> addition to the law's own.
-!>
-!> Deviation 3 (all): the friction power is what the creepages feed in, `-(Fx cksi + Fy ceta +
-!> Mz cphi)`, all of which turns into heat in steady rolling; below zero it counts as zero.
+!> - **L1** (Polach) The sum of both parts, which may exceed mu N (by up to a third with strong
+!>   spin), is shortened to mu N.
+!> - **L2** (all) The moment about the reference point has the arm of the force, `-y0 Fx`, in
+!>   addition to the law's own.
+!> - **L3** (all) The friction power is what the creepages feed in, `-(Fx cksi + Fy ceta +
+!>   Mz cphi)`, all of which turns into heat in steady rolling; below zero it counts as zero.
 !>
 !> None of them knows where a patch sticks; the stick fraction is 1 for the linear theory and 0,
 !> without a meaning, for the others.

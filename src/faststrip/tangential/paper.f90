@@ -11,20 +11,21 @@
 !> **As printed** (`paper_solve`): with T0 = mu p0_i of each strip (34), and only those corrections
 !> without which it does not run or its moment is none:
 !>
-!>  1. (41) adds `s (ae - xe)` at every point, so that the traction at the n-th point is the sum of
-!>     all ways from the edge so far, about n/3 times what it should be: `s (x_previous - xe)`.
-!>  2. (44) gives a moment without lengths, of the other sign: `Mz = sum(x py - y px)` in mm.
-!>  3. (31), nx = Int(8a), counts a in mm: the number of points is the caller's.
-!>  4. Several patches: each has its own ellipse (26)-(29) and its own mu N in (46)-(48).
+!> - **P1** (41) adds `s (ae - xe)` at every point, so that the traction at the n-th point is the
+!>   sum of all distances from the edge so far, about n/3 times what it should be:
+!>   `s (x_previous - xe)`.
+!> - **P2** (44) gives a moment without lengths, of the other sign: `Mz = sum(x py - y px)` in mm.
+!> - **P3** (31), nx = Int(8a), counts a in mm: the number of points is the caller's.
+!> - **P4** Several patches: each has its own ellipse (26)-(29) and its own mu N in (46)-(48).
 !>
 !> Its linear forces are 3 pi/8 = 1.18 times Kalker's on an ellipse, and sliding it gives mu N only
 !> there.
 !>
 !> **As corrected** (`corrected_solve`), in addition:
 !>
-!>  5. one T0 for the patch, with which (30), (42) and (46) belong together;
-!>  6. (46)-(48) divide by the sum of the bounds instead of pi/2, its value on an ellipse, so that
-!>     sliding gives mu N on any patch.
+!> - **P5** one T0 for the patch, with which (30), (42) and (46) belong together;
+!> - **P6** (46)-(48) divide by the sum of the bounds instead of pi/2, its value on an ellipse, so
+!>   that sliding gives mu N on any patch.
 !>
 !> It then is FASTSIM with strips for rows: equal to it on an ellipse.
 !>
