@@ -133,9 +133,14 @@ def judge(row: dict, folder: str) -> Verdict:
     reference = _reference(row, table, chosen)
     sizes = _sizes(row, table, chosen, values[chosen], reference, measure)
     value = float(_WAYS[reduce](sizes))
+    word = "pass" if accepts(row, value) else "FAIL"
+    return Verdict(row, value, int(chosen.sum()), word, "")
+
+
+def accepts(row: dict, value: float) -> bool:
+    """Does a value of a row's metric hold its tolerance?"""
     at_least, bound = _bound(row)
-    good = value >= bound if at_least else value <= bound
-    return Verdict(row, value, int(chosen.sum()), "pass" if good else "FAIL", "")
+    return value >= bound if at_least else value <= bound
 
 
 def _bound(row):

@@ -28,8 +28,8 @@ class Callers(HostTest):
                 self.write(FILES[language], text)
             else:
                 self.shell(text)
-                program = re.search(r"-o (\w+)", text)[1]
-                found[program] = self.results(f"./{program}")
+                for program in re.findall(r"-o (\w+)", text):
+                    found[program] = self.results(f"./{program}")
         found["python"] = self.results(f"'{ROOT}/.venv/bin/python' caller.py",
                                        PYTHONPATH=str(ROOT / "python"))
         self.assertEqual(set(found), {"caller_fortran", "caller_f77", "caller_c", "python"})

@@ -81,7 +81,7 @@ module faststrip_tangential_paper
 
 contains
 
-    !> TFASTSTRIP as printed (corrections 1 to 4).
+    !> TFASTSTRIP as printed (P1 to P4).
     pure subroutine paper_solve(strips, material, mu, creepage, points_per_strip, result, status, &
                                 field)
         type(contact_strips_t), intent(in) :: strips !! a normal solution

@@ -1,0 +1,391 @@
+#!/usr/bin/env python3
+"""Fill the documents with measured figures, which stand in reference/measured.csv alone.
+
+    tools/validation.py                 write docs/validation.md and fill the marked places
+    tools/validation.py --check         exit 1 and name what is not as this tool would write it
+    tools/validation.py --take FOLDER   before that, condense the full report in FOLDER, with
+                                        data/certificate.csv of `bench certificate`, into
+                                        reference/measured.csv
+
+A marked place of README.md or docs/*.md is `<!-- measured: NAME -->...<!-- end -->`. NAME is a
+table of TABLES here, or TABLE/ROW/COLUMN of reference/measured.csv: two digits of that number, or
+of a hundred times it where NAME ends in `%`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import re
+import sys
+from pathlib import Path
+
+from measured import ROOT, Measured, condense, measured_csv  # first: it finds the plots' package
+from pages import FENCE
+
+from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.verdicts import (
+    CHAPTERS, accepts, read_manifest, shown, shown_tolerance,
+)
+
+MEASURED = "reference/measured.csv"
+MANIFEST = "reference/comparisons.csv"
+CHOICE = "reference/choice_validation.csv"
+PAGE = "docs/validation.md"
+PLACE = re.compile(r"<!-- measured: (?P<name>.*?) -->(?P<text>.*?)<!-- end -->", re.DOTALL)
+
+FIGURES = ("penetration", "area", "pmax", "Fx", "Fy", "Mz")
+FORCES = ("Fx", "Fy", "Mz")
+LABELS = {
+    "faststrip": "FASTSTRIP", "fastsim": "FASTSIM", "faststrip-paper": "TFASTSTRIP as printed",
+    "faststrip-corrected": "TFASTSTRIP as corrected", "fastsim-elliptic": "FASTSIM, elliptic bound",
+    "fastsim-weighted": "FASTSIM, one flexibility", "linear": "linear theory", "polach": "Polach",
+    "she": "Shen, Hedrick and Elkins", "cold": "from nothing", "warm_load": "load changed by 5 %",
+    "warm_shift": "wheelset moved by 0.05 mm",
+}
+KALKER = {"NORM": "kalker_normal", "TANG": "kalker_tangential"}
+CONTACTS = {
+    "strip + faststrip": "strips + FASTSTRIP",
+    "strip + fastsim": "strips + FASTSIM on the equal ellipse",
+    "hertz + fastsim": "Hertz + FASTSIM",
+}
+ESTIMATES = {"certificate": "strips", "richardson": "strips, from two numbers of them",
+             "norm": "kalker_normal"}
+INFLUENCE = {
+    "published": "published polynomial, degree 6", "refit 6": "fresh fit, degree 6",
+    "refit 9": "fresh fit, degree 9", "refit 12": "fresh fit, degree 12",
+    "closed": "closed evaluation", "gsl 1-D": "GSL, one dimension",
+    "gsl 2-D": "GSL, two dimensions",
+}
+# of the trade, those the README shows
+TRADE_SHORT = (
+    "Hertz + FASTSTRIP 7x8", "strips + FASTSTRIP 5x8", "strips + FASTSTRIP 15x15",
+    "NORM + TANG 0.8 mm", "NORM + TANG 0.4 mm", "NORM + TANG 0.2 mm",
+)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--take", metavar="FOLDER")
+    parser.add_argument("--root", default=str(ROOT), metavar="FOLDER",
+                        help="the checkout whose documents are meant")
+    options = parser.parse_args(arguments)
+    root = Path(options.root)
+    if options.take:
+        write(root / MEASURED, measured_csv(*condense(options.take)))
+    wanted = documents(root)
+    changed = [path for path, text in wanted.items()
+               if not path.is_file() or path.read_text(encoding="utf-8") != text]
+    if options.check:
+        for path in changed:
+            print(f"validation: not as measured: {path.relative_to(root)}; run"
+                  " tools/validation.py", file=sys.stderr)
+        return 1 if changed else 0
+    for path in changed:
+        write(path, wanted[path])
+        print(path.relative_to(root))
+    return 0
+
+
+def write(path, text):
+    """Write a file in one go: whole or as it was."""
+    rest = path.with_name(path.name + ".part")
+    rest.write_text(text, encoding="utf-8")
+    os.replace(rest, path)
+
+
+def documents(root):
+    """Every document with its marked places filled, and the page made here."""
+    figures = Figures(root)
+    page = root / PAGE
+    found = {page: validation_page(figures)}
+    for path in [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]:
+        if path != page and path.is_file():
+            found[path] = filled(path.read_text(encoding="utf-8"), figures,
+                                 path.relative_to(root))
+    return found
+
+
+def filled(text, figures, path):
+    """A text with its marked places filled; code stays as it is."""
+    def fill(match):
+        return f"<!-- measured: {match['name']} -->{figures.place(match['name'])}<!-- end -->"
+
+    parts, last = [], 0
+    for start, end in [fence.span() for fence in FENCE.finditer(text)] + [(len(text), len(text))]:
+        words = text[last:start]
+        if words.count("<!-- measured:") != len(PLACE.findall(words)):
+            raise InputError(f"a marked place that does not end: {path}")
+        parts += [PLACE.sub(fill, words), text[start:end]]
+        last = end
+    return "".join(parts)
+
+
+class Figures:
+    """The measured figures of a checkout, as the documents show them."""
+
+    def __init__(self, root):
+        self.measured = Measured(root / MEASURED)
+        self.manifest = read_manifest(str(root / MANIFEST))
+        self.choice = read_table(str(root / CHOICE))
+
+    def place(self, name):
+        """What stands in a marked place."""
+        if name in TABLES:
+            return f"\n{TABLES[name](self)}\n"
+        percent = name.endswith("%")
+        parts = name.rstrip("% ").split("/")
+        if len(parts) != 3:
+            raise InputError(f"neither a table nor TABLE/ROW/COLUMN: {name}")
+        try:
+            value = float(self.measured.word(*parts))
+        except ValueError:
+            raise InputError(f"not a number: {name}") from None
+        return digits(100.0 * value if percent else value)
+
+    def pair(self, table, row, name, factor=1.0):
+        """`mean / largest`, or a dash."""
+        if (table, row, f"{name}_mean") not in self.measured.cells:
+            return "–"
+        return " / ".join(digits(factor * self.measured.number(table, row, f"{name}_{word}"))
+                          for word in ("mean", "max"))
+
+    def triple(self, table, row, name):
+        """`median / 95th percentile / largest`."""
+        return " / ".join(digits(self.measured.number(table, row, f"{name}_{word}"))
+                          for word in ("median", "p95", "worst"))
+
+
+def digits(value):
+    """A number as people read it: two digits, whole numbers from ten on as they are."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    if abs(value) >= 9.95:
+        return f"{value:.0f}"
+    if abs(value) < 1e-4:
+        mantissa, power = f"{value:.1e}".split("e")
+        return f"{mantissa}e{int(power)}"
+    return f"{value:.{1 - math.floor(math.log10(abs(float(f'{value:.1e}'))))}f}"
+
+
+def label(name, labels):
+    """A name of the data, word by word as people call them."""
+    return " ".join(labels.get(word, word) for word in name.split())
+
+
+def table(header, rows):
+    """A Markdown table; columns of figures stand on the right."""
+    columns = list(zip(*rows)) or [()] * len(header)
+    rule = ["---:" if all(re.match(r"[\d–-]", cell) for cell in cells) else "---"
+            for cells in columns]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in [header, rule, *rows])
+
+
+def contacts_table(figures):
+    return table(["method", "penetration %", "area %", "pmax %", "Fx % of mu N", "Fy % of mu N",
+                  "Mz % of mu N c"],
+                 [[CONTACTS.get(row, row), *(figures.pair("contacts", row, name) for name in FIGURES)]
+                  for row in figures.measured.rows("contacts")])
+
+
+def forces_table(figures, own):
+    rows = [row for row in figures.measured.rows("forces") if row.startswith(f"{own} ")]
+    return table(["method", "contacts", "Fx % of mu N", "Fy % of mu N", "Mz % of mu N c"],
+                 [[LABELS.get(row.split(" ", 1)[1], row),
+                   figures.measured.word("forces", row, "contacts"),
+                   *(figures.pair("forces", row, name) for name in FORCES)] for row in rows])
+
+
+def rolling_table(figures):
+    return table(["scheme and elements", "Fx % of mu N", "Fy % of mu N", "Mz % of mu N c"],
+                 [[row.replace(" ", " order, ", 1),
+                   *(figures.pair("rolling", row, name) for name in ("fx", "fy", "mz"))]
+                  for row in figures.measured.rows("rolling")])
+
+
+def convergence_table(figures):
+    kinds = {"hertz": "ellipses, against Hertz", "shift": "20 contacts, against 301 strips"}
+    return table(["contacts and strips", "penetration %", "pmax %", "area %"],
+                 [[f"{kinds[row.split()[0]]}: {row.split()[1]}",
+                   *(figures.pair("convergence", row, name, 100.0)
+                     for name in ("penetration", "pmax", "area"))]
+                  for row in figures.measured.rows("convergence")])
+
+
+def trade_table(figures, rows=None):
+    return table(["method", "contacts", "error %: mean / largest",
+                  "ms: median / 95th percentile / largest"],
+                 [[label(row, KALKER), figures.measured.word("trade", row, "contacts"),
+                   figures.pair("trade", row, "error"), figures.triple("trade", row, "ms")]
+                  for row in rows or figures.measured.rows("trade")])
+
+
+def influence_table(figures):
+    def nanoseconds(row, loop):
+        if ("influence", row, f"ns_{loop}") not in figures.measured.cells:
+            return "–"
+        return digits(figures.measured.number("influence", row, f"ns_{loop}"))
+
+    return table(["method", "largest relative error", "ns, one by one", "ns, in a row of 21"],
+                 [[INFLUENCE.get(row, row),
+                   digits(figures.measured.number("influence", row, "rel_err")),
+                   nanoseconds(row, "scalar"), nanoseconds(row, "row")]
+                  for row in figures.measured.rows("influence")])
+
+
+def times_table(figures):
+    rows = figures.measured.rows("times")
+    return table(["stage", "µs: median / 95th percentile / largest"],
+                 [[label(row, LABELS), figures.triple("times", row, "us")] for row in rows])
+
+
+def extremes_table(figures):
+    return table(["what", "cases", "largest relative error"],
+                 [[row, figures.measured.word("extremes", row, "cases"),
+                   digits(figures.measured.number("extremes", row, "largest"))]
+                  for row in figures.measured.rows("extremes")])
+
+
+def certificate_table(figures):
+    names = ("penetration", "pmax", "area")
+
+    def cells(row):
+        for name in names:
+            if ("certificate", row, f"{name}_bounded") in figures.measured.cells:
+                share = figures.measured.number("certificate", row, f"{name}_bounded")
+                ratio = figures.measured.number("certificate", row, f"{name}_ratio")
+                cases = figures.measured.word("certificate", row, f"{name}_cases")
+                yield f"{100.0 * share:.0f} % of {cases}, {digits(ratio)} times"
+            else:
+                yield "–"
+
+    return table(["estimate and contacts", *names],
+                 [[f"{ESTIMATES.get(own, own)}: {contacts}", *cells(f"{own}, {contacts}")]
+                  for own, contacts in (row.split(", ", 1)
+                                        for row in figures.measured.rows("certificate"))])
+
+
+def choice_table(figures):
+    columns = ("target", "tolerance", "contacts", "promised", "met_of_promised", "speedup")
+    cells = [figures.choice.words(name) for name in columns]
+    return table([name.replace("_", " ") for name in columns],
+                 [[column[k] for column in cells] for k in range(len(figures.choice))])
+
+
+def statements_table(figures):
+    return table(["verdict", "statements"],
+                 [[row, figures.measured.word("statements", row, "count")]
+                  for row in figures.measured.rows("statements")])
+
+
+def verdict_table(figures, chapter):
+    rows = []
+    for row in figures.manifest:
+        if row["chapter"] != chapter:
+            continue
+        if ("verdicts", row["id"], "value") in figures.measured.cells:
+            value = figures.measured.number("verdicts", row["id"], "value")
+            word = "holds" if accepts(row, value) else "does not hold"
+            number = figures.measured.word("verdicts", row["id"], "rows")
+        else:
+            value, word, number = math.nan, "not measured yet", "–"
+        rows.append([f"`{row['id']}`", number, shown(row, value), shown_tolerance(row), word,
+                     label(row["source"], KALKER)])
+    return table(["comparison", "rows", "value", "tolerance", "verdict", "reference"], rows)
+
+
+def stamp(figures):
+    lines = [line for line in figures.measured.comments
+             if line.startswith(("faststrip ", "compiler ", "processor "))]
+    return "\n".join(f"- {line}" for line in lines)
+
+
+TABLES = {
+    "contacts": contacts_table,
+    "forces of other gaps": lambda figures: forces_table(figures, "scenes"),
+    "forces of ellipses": lambda figures: forces_table(figures, "hertz"),
+    "rolling": rolling_table,
+    "convergence": convergence_table,
+    "trade": trade_table,
+    "trade, short": lambda figures: trade_table(figures, TRADE_SHORT),
+    "influence": influence_table,
+    "times": times_table,
+    "extremes": extremes_table,
+    "certificate": certificate_table,
+    "choice": choice_table,
+    "statements": statements_table,
+    "stamp": stamp,
+} | {chapter: (lambda figures, own=chapter: verdict_table(figures, own)) for chapter in CHAPTERS}
+
+# The page: headings, words, and the tables that belong to them.
+SECTIONS = (
+    ("What it was made from", "", "stamp"),
+    ("Verification: against exact solutions",
+     "Each row is a line of `reference/comparisons.csv`, which says how it is computed.",
+     "verification"),
+    ("At the extremes",
+     "Strips 1e-12 to 1e12 times as wide as long, up to a million strips apart, against quadruple"
+     " precision; ellipses with a/b from 1e-3 to 1e3 under loads from 1e-6 to 1e9 N, 15 strips,"
+     " against Hertz (`bench extremes`).", "extremes"),
+    ("Validation: against other codes",
+     "CONTACT's penetration and largest pressure are those of its 0.1 mm grid; everything else is"
+     " extrapolated in its grid. References of `kalker_normal` and `kalker_tangential` are this"
+     " project's own, themselves held against CONTACT.", "validation"),
+    ("The 20 contacts of the paper's section 5",
+     "Against full CONTACT, mean / largest size of the error. c is the root of area over pi.",
+     "contacts"),
+    ("Strips: convergence", "Errors against the number of strips, mean / largest.", "convergence"),
+    ("Creep forces on gaps of other kinds",
+     "Eight families of gaps with loads, materials, friction and creepages drawn at random, against"
+     " kalker_normal and kalker_tangential; no constant was fitted to them. Mean / largest.",
+     "forces of other gaps"),
+    ("Creep forces on ellipses",
+     "From no slip to saturation, against full CONTACT. Mean / largest. On these contacts and the"
+     " paper's the constants of FASTSTRIP were chosen.", "forces of ellipses"),
+    ("Kalker's method in rolling",
+     "`kalker_tangential` against CONTACT extrapolated, the paper's contacts with the physical"
+     " signs, mean / largest.", "rolling"),
+    ("What the error estimates bound",
+     "How many of the true errors the estimates bound, and how many times as large they are in the"
+     " median (`bench certificate`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
+     " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
+     " second of the 20 contacts and on random gaps of other distributions.", "certificate"),
+    ("The trade: error against time",
+     "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
+     " core, from nothing (`bench trade`).", "trade"),
+    ("Only what a contact requires",
+     "How often the automatic choice keeps its promise, on the contacts that did not serve to"
+     " calibrate it; `speedup` is against always taking the finest strips.", "choice"),
+    ("Influence integral",
+     "Geometric means of times over n = 0, 1, 10 and b = 0.02, 0.3, 5 (`bench integral`).",
+     "influence"),
+    ("Times of the stages", "Processor time on the paper's contacts (`bench normal`,"
+     " `bench tangential`, 15 strips by 15 points).", "times"),
+    ("The paper's statements",
+     "The report tests the paper's statements one by one and gives each a verdict.", "statements"),
+)
+
+
+def validation_page(figures):
+    """The whole of docs/validation.md."""
+    parts = [
+        "<!-- Written by tools/validation.py from reference/comparisons.csv and"
+        " reference/measured.csv; change those, not this. -->",
+        "# Validation",
+        "What the last full report has measured, condensed. `./run report` measures everything"
+        " anew, with pictures; `./run stored measured` also writes this page anew. Times are of one"
+        " machine and depend on what else it does.",
+    ]
+    for title, words, name in SECTIONS:
+        parts += [part for part in (f"## {title}", words, TABLES[name](figures)) if part]
+    return "\n\n".join(parts) + "\n"
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except InputError as error:
+        sys.exit(f"validation: {error}")
