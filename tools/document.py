@@ -30,7 +30,7 @@ PAGES = (
 )
 API = ("Fortran interface", "api/index.html")
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
-# What FORD's pages load from a network: a style sheet, which docs/api.css stands in for, and scripts.
+# What FORD's pages load from a network: a style sheet, in whose place is docs/api.css, and scripts.
 LOADED = re.compile(r'<link [^>]*href="https?://[^>]*>|<script[^>]*src="https?://[^>]*>\s*</script>'
                     r'|<script type="text/x-mathjax-config">.*?</script>', re.DOTALL)
 
@@ -59,7 +59,10 @@ def build_api():
         up = "../" * (len(path.relative_to(SITE / "api").parts) - 1) or "./"
         text = LOADED.sub("", path.read_text(encoding="utf-8"))
         style = f'<link href="{up}css/api.css" rel="stylesheet">\n  </head>'
-        path.write_text(text.replace("</head>", style, 1), encoding="utf-8")
+        text = text.replace("</head>", style, 1)
+        # The name at the top leads back to the other pages.
+        path.write_text(re.sub(r'(class="navbar-brand" href=)"[^"]*"', rf'\1"{up}../index.html"',
+                               text), encoding="utf-8")
 
 
 def build_pages():

@@ -31,22 +31,20 @@ def prose(text):
     return CODE.sub("", COMMENT.sub("", FENCE.sub("", text)))
 
 
-def slug(heading, separator="-"):
+def slug(heading):
     """The anchor of a heading, as GitHub makes it."""
     words = re.sub(r"\]\([^)]*\)|[`*\[\]$]", "", heading).strip().lower()
-    return re.sub(r"[^\w\- ]", "", words).replace(" ", separator)
+    return re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
 
 
 def anchors(text):
-    """The anchors of a page's headings; the second of a name gets `-1`."""
-    found = {}
+    """The anchors of a page's headings, in their order; the second of a name gets `-1`."""
+    found, count = [], {}
     for match in HEADING.finditer(COMMENT.sub("", FENCE.sub("", text))):
         name = slug(match[2])
-        count = found.get(name, 0)
-        found[name] = count + 1
-        if count:
-            found[f"{name}-{count}"] = 1
-    return set(found)
+        found.append(f"{name}-{count[name]}" if name in count else name)
+        count[name] = count.get(name, 0) + 1
+    return found
 
 
 def links(text):
@@ -97,6 +95,7 @@ def to_html(text, target_of):
     import markdown  # of tools/requirements-docs.txt, which the tests do without
     from latex2mathml.converter import convert
 
+    names = anchors(text)
     kept = []
 
     def keep(words):
@@ -124,8 +123,9 @@ def to_html(text, target_of):
         return re.sub(r"@KEPT(\d+)@", own, words)
 
     text = put_back(text, only_code=True)
-    body = markdown.markdown(text, extensions=["tables", "fenced_code", "sane_lists", "toc"],
-                             extension_configs={"toc": {"slugify": slug}})
+    body = markdown.markdown(text, extensions=["tables", "fenced_code", "sane_lists"])
+    names = iter(names)
+    body = re.sub(r"<h([1-6])>", lambda match: f'<h{match[1]} id="{next(names)}">', body)
     return put_back(body, only_code=False)
 
 

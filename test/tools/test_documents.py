@@ -39,7 +39,7 @@ class OfTheProject(unittest.TestCase):
 
     def test_paths_that_pages_name_exist(self):
         """In backticks: files of the folders that a page of the project may name."""
-        name = re.compile(r"`((?:src|test|tools|reference|example|include|docs|plots|\.ci)/[\w./-]+)`")
+        name = re.compile(r"`((?:src|test|tools|reference|example|include|docs|plots|app|\.ci)/[\w./-]+)`")
         for path in PAGES:
             if path.name == "CHANGELOG.md":
                 continue
@@ -69,6 +69,13 @@ class OfTheProject(unittest.TestCase):
         for path in sorted((ROOT / "src").rglob("*.f90")):
             self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?i)\bdeviation \d",
                                 path.name)
+
+    def test_docstrings_hold_no_formula_that_needs_a_script(self):
+        """FORD leaves `$$` and `\\(` to MathJax, which the site does without."""
+        for path in sorted((ROOT / "src").rglob("*.f90")):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                if "!>" in line or "!!" in line:
+                    self.assertNotRegex(line, r"\$\$|\\\(|\\\[", path.name)
 
     def test_every_status_word_is_explained(self):
         (status,) = (ROOT / "src").rglob("status.f90")
@@ -102,7 +109,7 @@ class OfTheProject(unittest.TestCase):
             self.assertEqual(body.count("<math"), len(pages.formulas(text)), path.name)
             for left in ("@KEPT", "<script", "<merror", "\\frac", "<p>|"):
                 self.assertNotIn(left, body, path.name)
-            made = set(re.findall(r'<h\d id="([^"]+)"', body))
+            made = re.findall(r'<h\d id="([^"]+)"', body)
             self.assertEqual(made, pages.anchors(text), path.name)
 
 

@@ -46,13 +46,12 @@ class OfTheProject(unittest.TestCase):
             for line in validation.PLACE.sub("", text).splitlines():
                 self.assertNotRegex(line, FIGURE, name)
 
-    def test_every_comparison_is_in_the_page_and_every_verdict_has_one(self):
+    def test_every_comparison_is_in_the_page(self):
         page = (ROOT / validation.PAGE).read_text(encoding="utf-8")
         figures = validation.Figures(ROOT)
         ids = [row["id"] for row in figures.manifest]
         self.assertGreater(len(ids), 40)
         self.assertEqual([name for name in ids if f"| `{name}` |" not in page], [])
-        self.assertEqual(set(figures.measured.rows("verdicts")) - set(ids), set())
 
     def test_every_table_of_the_file_is_shown(self):
         shown = set()

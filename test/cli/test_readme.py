@@ -1,0 +1,41 @@
+"""What the README shows of the program: its first case runs, its figures are today's."""
+
+import re
+import sys
+import unittest
+
+from cli_program import ROOT, ProgramTest
+
+sys.path.insert(0, str(ROOT / "tools"))
+
+import measured  # noqa: E402
+import validation  # noqa: E402
+
+# How far a figure may be from the stored one before the stored one is stale, relative.
+STALE = 0.1
+
+
+class Readme(ProgramTest):
+    def test_the_first_case_runs_as_it_stands(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        section = text.split("## A first case of your own")[1].split("\n## ")[0]
+        self.write("my.nml", re.search(r"```fortran\n(.*?)```", section, re.DOTALL)[1])
+        words = re.search(r"`bin/faststrip (.*?)`", section)[1].split()
+        self.assertEqual([row["status"] for row in self.good(*words)], ["ok"])
+        self.assertEqual({path.name for path in self.folder.iterdir()},
+                         {"my.nml", "strips.csv", "fields.csv"})
+
+    def test_the_figures_are_those_of_today(self):
+        """Errors on the paper's contacts, computed anew; ./run stored measured stores them."""
+        self.good("sweep", ROOT / "example" / "s1002_uic60.nml", "-o", "sweep.csv")
+        stored = measured.Measured(ROOT / validation.MEASURED)
+        rows = measured.contact_rows(str(self.folder / "sweep.csv"))
+        self.assertGreater(len(rows), 30)
+        for table, row, column, value in rows:
+            with self.subTest(row=row, column=column):
+                known = stored.number(table, row, column)
+                self.assert_close(float(value), known, STALE)
+
+
+if __name__ == "__main__":
+    unittest.main()
