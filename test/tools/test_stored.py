@@ -38,7 +38,7 @@ class OfTheProject(unittest.TestCase):
         for row in rows:
             self.assertLessEqual(set(row["stamped"].split()), set(row["files"].split()))
             program = row["command"].split()[0]
-            self.assertIn(program, ("bin/faststrip", "python"))
+            self.assertIn(program, ("bin/faststrip", "bin/faststrip-lab", "python"))
             if program == "python":
                 self.assertTrue((ROOT / row["command"].split()[1]).exists(), row["command"])
 
