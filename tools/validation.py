@@ -58,11 +58,6 @@ INFLUENCE = {
     "closed": "closed evaluation", "gsl 1-D": "GSL, one dimension",
     "gsl 2-D": "GSL, two dimensions",
 }
-# of the trade, those the README shows
-TRADE_SHORT = (
-    "Hertz + FASTSTRIP 7x8", "strips + FASTSTRIP 5x8", "strips + FASTSTRIP 15x15",
-    "NORM + TANG 0.8 mm", "NORM + TANG 0.4 mm", "NORM + TANG 0.2 mm",
-)
 
 
 def main(arguments=None):
@@ -102,7 +97,8 @@ def documents(root):
     figures = Figures(root)
     page = root / PAGE
     found = {page: validation_page(figures)}
-    for path in [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]:
+    pages = sorted((root / "docs").glob("*.md"))
+    for path in [root / "README.md", root / "CONTRIBUTING.md", *pages]:
         if path != page and path.is_file():
             found[path] = filled(path.read_text(encoding="utf-8"), figures,
                                  path.relative_to(root))
@@ -187,7 +183,8 @@ def table(header, rows):
 def contacts_table(figures):
     return table(["method", "penetration %", "area %", "pmax %", "Fx % of mu N", "Fy % of mu N",
                   "Mz % of mu N c"],
-                 [[CONTACTS.get(row, row), *(figures.pair("contacts", row, name) for name in FIGURES)]
+                 [[CONTACTS.get(row, row),
+                   *(figures.pair("contacts", row, name) for name in FIGURES)]
                   for row in figures.measured.rows("contacts")])
 
 
@@ -215,12 +212,12 @@ def convergence_table(figures):
                   for row in figures.measured.rows("convergence")])
 
 
-def trade_table(figures, rows=None):
+def trade_table(figures):
     return table(["method", "contacts", "error %: mean / largest",
                   "ms: median / 95th percentile / largest"],
                  [[label(row, KALKER), figures.measured.word("trade", row, "contacts"),
                    figures.pair("trade", row, "error"), figures.triple("trade", row, "ms")]
-                  for row in rows or figures.measured.rows("trade")])
+                  for row in figures.measured.rows("trade")])
 
 
 def influence_table(figures):
@@ -310,7 +307,6 @@ TABLES = {
     "rolling": rolling_table,
     "convergence": convergence_table,
     "trade": trade_table,
-    "trade, short": lambda figures: trade_table(figures, TRADE_SHORT),
     "influence": influence_table,
     "times": times_table,
     "extremes": extremes_table,

@@ -16,6 +16,30 @@ import pages  # noqa: E402
 PAGES = [ROOT / source for _, source, _ in document.PAGES]
 LABEL = r"- \*\*([NFSPLK]\d+)\*\* "
 
+# Tuned numbers of the code, by file and name, and how docs/method.md says them.
+CONSTANTS = (
+    ("strip_state.f90", "end_grading", "0.7", "$g = 0.7$"),
+    ("strip_equations.f90", "leaving_length_ratio", "0.15", "its length falls below 0.15 of its"),
+    ("strip_ends.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
+    ("strip_patches.f90", "fewest_strips_small_patch", "9", "but at least nine"),
+    ("strip.f90", "scout_strips", "7", "Seven strips find the patches"),
+    ("strip.f90", "first_level", "15", "15 refine them"),
+    ("strip.f90", "most_at_once", "20", "more than 20 are reached by further levels"),
+    ("strip.f90", "level_factor", "3", "each with at most three times the strips"),
+    ("strip.f90", "end_tolerance", "0.03", "when they rest within 0.03 strip"),
+    ("strip.f90", "coupling_move", "1.0", "when ends move less than one strip"),
+    ("strip.f90", "max_passes", "40", "40 passes in a level"),
+    ("strip.f90", "max_splits_at_all", "8", "eight splits"),
+    ("strip.f90", "max_couplings", "4", "four tries to couple"),
+    ("certificate.f90", "penetration_factor", "0.6", "$0.60\\, (\\mathrm{rms}\\, e + 3"),
+    ("certificate.f90", "penetration_middle", "3.0", "e + 3\\, \\mathrm{mean} \\lvert m"),
+    ("certificate.f90", "area_factor", "1.5", "$1.50\\, (\\mathrm{rms}\\, t + 3.5"),
+    ("certificate.f90", "area_middle", "3.5", "t + 3.5\\, \\mathrm{mean} \\lvert m"),
+    ("limitations.f90", "default_resolution", "0.1", "(10 % unless told otherwise)"),
+    ("limitations.f90", "doubtful_slope", "0.2", "slopes above 0.2"),
+    ("faststrip.f90", "gamma_length", "0.375", "$\\gamma = 3/8$"),
+)
+
 
 def labels(folder):
     """The labels of deviations that modules define, with the file of each."""
@@ -38,12 +62,15 @@ class OfTheProject(unittest.TestCase):
         self.assertGreater(links, 40)
 
     def test_paths_that_pages_name_exist(self):
-        """In backticks: files of the folders that a page of the project may name."""
-        name = re.compile(r"`((?:src|test|tools|reference|example|include|docs|plots|app|\.ci)/[\w./-]+)`")
+        """Files of the project in backticks, and the commands of code blocks."""
+        name = re.compile(r"`((?:src|app|test|tools|reference|example|include|docs|plots|\.ci)"
+                          r"/[\w./-]+)`")
+        command = re.compile(r"(?m)^(?:\./|\.venv/bin/python )?((?:tools|\.ci)/[\w./-]+|run(?= ))")
         for path in PAGES:
             if path.name == "CHANGELOG.md":
                 continue
-            for named in name.findall(path.read_text(encoding="utf-8")):
+            text = path.read_text(encoding="utf-8")
+            for named in name.findall(text) + command.findall(text):
                 with self.subTest(page=path.name, named=named):
                     self.assertTrue((ROOT / named).exists())
 
@@ -76,6 +103,16 @@ class OfTheProject(unittest.TestCase):
             for line in path.read_text(encoding="utf-8").splitlines():
                 if "!>" in line or "!!" in line:
                     self.assertNotRegex(line, r"\$\$|\\\(|\\\[", path.name)
+
+    def test_constants_that_the_method_names_are_those_of_the_code(self):
+        text = " ".join((ROOT / "docs" / "method.md").read_text(encoding="utf-8").split())
+        for file, name, value, phrase in CONSTANTS:
+            with self.subTest(name):
+                path = next(path for path in sorted((ROOT / "src" / "faststrip").rglob(file))
+                            if f" {name} = " in path.read_text(encoding="utf-8"))
+                found = re.search(rf"\b{name} = ([-\d.e]+)", path.read_text(encoding="utf-8"))
+                self.assertEqual(found[1], value)
+                self.assertIn(phrase, text)
 
     def test_every_status_word_is_explained(self):
         (status,) = (ROOT / "src").rglob("status.f90")
@@ -135,7 +172,8 @@ class Tools(unittest.TestCase):
         bad = self.page("[x](gone.md) [y](b.md#gone) [z](#gone) [w](b.md#nor-a-heading)\n")
         self.assertEqual(pages.broken_links(bad, self.folder),
                          ["a.md: no such file: gone.md", "a.md: no such anchor: b.md#gone",
-                          "a.md: no such anchor: #gone", "a.md: no such anchor: b.md#nor-a-heading"])
+                          "a.md: no such anchor: #gone",
+                          "a.md: no such anchor: b.md#nor-a-heading"])
         outside = self.page("[x](../)\n")
         self.assertEqual(len(pages.broken_links(outside, self.folder)), 1)
 
