@@ -6,10 +6,14 @@
 !> (`faststrip_numerics_torn_spline`); the longitudinal term A = 1/(2R), which jumps where a
 !> profile's radius jumps, is linear between them. The curve is cut once into monotone pieces, so
 !> that the level sets are found exactly, however small they are beside the distance of the points.
+!>
+!> Of a gap and its mirror image (y to -y) one counts as the image of the other (`is_mirror_image`),
+!> and its curve is made from the other's: so the two curves agree to the last digit.
 module faststrip_geometry_gap_curve
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_workspace_too_small, st_bad_argument
+    use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
     use faststrip_geometry_gap, only: gap_t, check_gap, check_gap_points
     use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size, &
                                               tame_interval
@@ -18,6 +22,7 @@ module faststrip_geometry_gap_curve
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
     public :: gap_at, gap_curvature, level_intervals
+    public :: is_mirror_image, mirror_gap_curve
     public :: gap_inv2r, largest_turn, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
@@ -29,6 +34,7 @@ module faststrip_geometry_gap_curve
         integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
         real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
+        logical :: is_image = .false. !! see `is_mirror_image`
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
         real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
@@ -111,6 +117,7 @@ contains
         type(status_t), intent(inout) :: status
 
         integer :: n
+        logical :: is_image
 
         n = size(y)
         curve%n = 0
@@ -119,15 +126,71 @@ contains
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
-        curve%least_inv2r = flattest_ratio*usual_inv2r(inv2r)
         curve%turn_is_known = .false.
+        is_image = is_mirror_image(y, h, inv2r)
+        if (is_image) then
+            call reverse_negated(curve%y(:n))
+            call reverse(curve%h(:n))
+            call reverse(curve%inv2r(:n))
+        end if
+        curve%least_inv2r = flattest_ratio*usual_inv2r(curve%inv2r(:n))
         call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
                                curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
                                curve%is_step(:n), curve%work, status)
         if (is_error(status)) return
         curve%n = n
+        curve%is_image = .false.
         call cut_into_monotone_pieces(curve)
+        if (is_image) call mirror_gap_curve(curve)
     end subroutine take_points
+
+    !> Which of a gap and its mirror image is the image? That which is lower, or has its point
+    !> farther from y = 0, or the smaller longitudinal term, at the first point that tells it from
+    !> the other; a symmetric gap is not.
+    pure logical function is_mirror_image(y, h, inv2r) result(is_image)
+        real(wp), intent(in) :: y(:)     !! points, ascending, mm
+        real(wp), intent(in) :: h(:)     !! heights there, mm
+        real(wp), intent(in) :: inv2r(:) !! longitudinal terms there, 1/mm
+
+        integer :: i, j
+
+        is_image = .false.
+        do i = 1, size(y)
+            j = size(y) + 1 - i
+            if (h(i) /= h(j)) then
+                is_image = h(i) < h(j)
+                return
+            else if (y(i) /= -y(j)) then
+                is_image = y(i) < -y(j)
+                return
+            else if (inv2r(i) /= inv2r(j)) then
+                is_image = inv2r(i) < inv2r(j)
+                return
+            end if
+        end do
+    end function is_mirror_image
+
+    !> Mirror a curve, y to -y; twice gives the same curve to the last digit.
+    pure subroutine mirror_gap_curve(curve)
+        type(gap_curve_t), intent(inout) :: curve !! a gap that was set
+
+        integer :: n, nodes
+
+        n = curve%n
+        nodes = curve%n_pieces + 1
+        call reverse_negated(curve%y(:n))
+        call reverse(curve%h(:n))
+        call reverse(curve%inv2r(:n))
+        call reverse_exchanged(curve%slope_from(:n - 1), curve%slope_to(:n - 1))
+        call reverse(curve%is_step(:n - 1))
+        call reverse(curve%bend(:n))
+        call reverse(curve%is_torn(:n))
+        call reverse_negated(curve%y_node(:nodes))
+        call reverse(curve%h_node(:nodes))
+        if (curve%turn_is_known) call reverse_negated(curve%turn(:n))
+        curve%y_lowest = -curve%y_lowest
+        curve%is_image = .not. curve%is_image
+    end subroutine mirror_gap_curve
 
     !> Refuse more points than there is room for; the points themselves are not looked at.
     pure subroutine check_room(curve, n, status)
@@ -150,20 +213,22 @@ contains
     pure real(wp) function usual_inv2r(inv2r) result(usual)
         real(wp), intent(in) :: inv2r(:)
 
-        real(wp) :: total
+        real(wp) :: total, unit
         integer :: i, n
 
         usual = minval(inv2r)
         if (usual >= flattest_ratio*maxval(inv2r) .and. usual > 0.0_wp) return
+        ! In a power of two for a unit, so that other units of length leave the digits as they are.
+        usual = 0.0_wp
+        unit = scale(1.0_wp, exponent(maxval(inv2r)) - 1)
         total = 0.0_wp
         n = 0
         do i = 1, size(inv2r)
             if (inv2r(i) <= 0.0_wp) cycle
             n = n + 1
-            total = total + log(inv2r(i))
+            total = total + log(max(inv2r(i)/unit, tiny(1.0_wp)))
         end do
-        usual = 0.0_wp
-        if (n > 0) usual = exp(total/n)
+        if (n > 0) usual = unit*exp(total/n)
     end function usual_inv2r
 
     pure subroutine cut_into_monotone_pieces(curve)

@@ -64,13 +64,13 @@ contains
         if (status%code /= 0) return
 
         ! The long axis lies along the smaller curvature; work with ratios above one.
-        target = abs(log(inv2r_y) - log(inv2r_x))
-        if (target > largest_log_ratio) then
+        if (abs(log(inv2r_y) - log(inv2r_x)) > largest_log_ratio) then
             call set_status(status, st_out_of_range, 'curvatures beyond all proportion: ' // &
                             trim(number_text(inv2r_x)) // ' and ' // trim(number_text(inv2r_y)) &
                             // ' 1/mm')
             return
         end if
+        target = abs(log(inv2r_y/inv2r_x))
         axes = target/1.5_wp
         do i = 1, most_steps
             call ellipse_integrals(exp(-axes), k, d, s, slope)
@@ -92,8 +92,10 @@ contains
                             'load ' // trim(number_text(load)) // ' N')
             return
         end if
-        long = exp(log_long)
-        short = exp(log_long - axes)
+        long = cube_root(1.5_wp*d*fraction(load)*fraction(compliance) &
+                         /fraction(min(inv2r_x, inv2r_y)), &
+                         exponent(load) + exponent(compliance) - exponent(min(inv2r_x, inv2r_y)))
+        short = long*exp(-axes)
         if (inv2r_x <= inv2r_y) then
             hertz%a = long
             hertz%b = short
@@ -106,6 +108,19 @@ contains
         hertz%pmax = 1.5_wp*load/hertz%area
         hertz%load = load
     end subroutine hertz_solve
+
+    !> Cube root of `mantissa*2**power`. With another unit of length or force that is a power of two
+    !> the root has the same digits, which it would not have by a logarithm: so has all that starts
+    !> from it.
+    pure real(wp) function cube_root(mantissa, power) result(root)
+        real(wp), intent(in) :: mantissa !! positive, of about one
+        integer, intent(in) :: power
+
+        integer :: thirds
+
+        thirds = (power - modulo(power, 3))/3
+        root = scale(scale(mantissa, power - 3*thirds)**(1.0_wp/3.0_wp), thirds)
+    end function cube_root
 
     pure subroutine check_arguments(compliance, inv2r_x, inv2r_y, load, status)
         real(wp), intent(in) :: compliance, inv2r_x, inv2r_y, load

@@ -230,13 +230,16 @@ contains
         real(wp), intent(in) :: compliance, load
         real(wp), intent(out) :: depth
 
-        real(wp) :: low, high
+        real(wp), parameter :: reach_of_search = 2.0_wp**200
+        real(wp) :: low, high, unit
         integer :: i
 
-        low = smallest_penetration
-        high = largest_penetration
+        ! In a length of the case's own, with which the unit of length does not matter.
+        unit = sqrt(compliance*load)
+        low = unit/reach_of_search
+        high = unit*reach_of_search
         do i = 1, 70
-            depth = sqrt(low)*sqrt(high)
+            depth = low*sqrt(high/low)
             if (start_load(curve, compliance, depth) < load) then
                 low = depth
             else

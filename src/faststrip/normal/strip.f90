@@ -12,6 +12,9 @@
 !> Many strips are reached by levels: 7 find the patches, 15 and more refine them. Where 20 or
 !> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
 !> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
+!>
+!> Of a gap and its mirror image one is solved and mirrored (`is_mirror_image`): what is decided on
+!> the way, rounding included, is the same on a left and on a right wheel.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -27,7 +30,7 @@ module faststrip_normal_strip
     use faststrip_normal_limitations, only: check_curvature, check_penetration, &
                                             name_limitations, name_steps, add_limitation, &
                                             default_resolution
-    use faststrip_normal_strips, only: contact_strips_t, strips_load
+    use faststrip_normal_strips, only: contact_strips_t, strips_load, mirror_strips
     use faststrip_normal_strip_equations, only: effort_work, step_work
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_coupled, only: settle_coupled
@@ -36,9 +39,10 @@ module faststrip_normal_strip
                                               drop_slivers
     use faststrip_normal_strip_profile, only: profile_integral, profile_peak
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
-                                            set_strip_gap, place_strips, remember
+                                            set_strip_gap, place_strips, remember, mirror_old
     use faststrip_normal_strip_start, only: start_patches, resume_patches
     use faststrip_normal_types, only: normal_result_t, goal_t
+    use faststrip_geometry_gap_curve, only: mirror_gap_curve
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps, overlap_left
     implicit none
     private
@@ -172,11 +176,82 @@ contains
         type(status_t), intent(inout) :: status
 
         character(len=message_length) :: words
+        real(wp) :: penetration ! above the lowest height
+        integer :: n_settled    ! strips per patch that settled, 0: the lattice's answer
+        logical :: all_settled, mirrored
+
+        mirrored = workspace%curve%is_image
+        if (workspace%old%n > 0 .and. (workspace%old_is_mirrored .neqv. mirrored)) &
+            call mirror_old(workspace)
+        workspace%old_is_mirrored = mirrored
+        if (mirrored) call mirror_gap_curve(workspace%curve)
+        call search(workspace, compliance, goal, options, strips, result, n_settled, &
+                    all_settled, status)
+        if (mirrored) then
+            call mirror_gap_curve(workspace%curve)
+            call mirror_strips(strips)
+            if (.not. is_error(status)) call mirror_ends(result)
+        end if
+        if (is_error(status)) return
+        penetration = result%penetration - workspace%curve%h_lowest
+        if (n_settled > 0) then
+            if (overlap_left(workspace%curve, compliance, penetration, strips) &
+                > tolerated_overlap) &
+                call add_limitation(status, st_overlap_left, 'surfaces overlap outside the ' &
+                                    //'patches by more than 1 % of the penetration: a rough gap, ' &
+                                    //'or one that is cut off')
+        end if
+        call name_limitations(workspace%curve, strips, status)
+        if (.not. is_error(status)) &
+            call name_steps(workspace%curve, penetration, strips, status)
+        call check_penetration(workspace%curve, result%penetration, status)
+        if (is_error(status)) then
+            workspace%old%n = 0
+            result = normal_result_t()
+            return
+        end if
+        if (n_settled == 0) return
+        if (options%strips_per_patch /= strips_auto .and. n_settled > options%strips_per_patch) then
+            words = count_text(n_settled)
+            call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
+            call add_words(words, ' were asked, which did not settle')
+            call add_limitation(status, st_more_strips, words)
+        end if
+        ! Of itself, auto asks for as many as are resolved.
+        if (.not. (all_settled .or. options%strips_per_patch == strips_auto)) &
+            call add_limitation(status, st_fewer_strips, &
+                                'fewer strips than asked: more did not settle')
+    end subroutine solve
+
+    !> The ends of a result under y -> -y.
+    pure subroutine mirror_ends(result)
+        type(normal_result_t), intent(inout) :: result
+
+        real(wp) :: y_min
+
+        y_min = result%y_min
+        result%y_min = -result%y_max
+        result%y_max = -y_min
+    end subroutine mirror_ends
+
+    !> Solve by levels of strips, or else by the lattice.
+    subroutine search(workspace, compliance, goal, options, strips, result, n_settled, &
+                      all_settled, status)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(goal_t), intent(in) :: goal
+        type(strip_options_t), intent(in) :: options
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+        integer, intent(out) :: n_settled    ! strips per patch of the solution; 0: the lattice's
+        logical, intent(out) :: all_settled  ! did as many as were asked settle?
+        type(status_t), intent(inout) :: status
+
         type(patches_t) :: patches
         type(normal_result_t) :: coarser
         real(wp) :: penetration
-        integer :: level, levels(most_levels), n_levels, first_counted, n_settled
-        logical :: near, resumed, scratch, settled
+        integer :: level, levels(most_levels), n_levels, first_counted
+        logical :: near, resumed, scratch
 
         call forget_lattice_errors(workspace%lattice)
         call plan_levels(options%strips_per_patch, levels, n_levels, first_counted)
@@ -200,9 +275,9 @@ contains
                         merge(options%tolerance, max(options%tolerance, coarse_tolerance), &
                               level >= first_counted), &
                         levels(level), maxval(levels(:n_levels)), near, patches, penetration, &
-                        strips, result, settled)
-            if (settled) then
-                if (level >= first_counted) n_settled = level
+                        strips, result, all_settled)
+            if (all_settled) then
+                if (level >= first_counted) n_settled = levels(level)
                 near = .true.
                 resumed = .false.
                 scratch = .false.
@@ -244,33 +319,8 @@ contains
         workspace%old_load = result%load
         workspace%old_penetration = penetration
         ! What did not settle is no start for the next solution.
-        if (.not. settled) workspace%old%n = 0
-        if (overlap_left(workspace%curve, compliance, &
-                         result%penetration - workspace%curve%h_lowest, strips) &
-            > tolerated_overlap) &
-            call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
-                                //'by more than 1 % of the penetration: a rough gap, or one that ' &
-                                //'is cut off')
-        call name_limitations(workspace%curve, strips, status)
-        if (.not. is_error(status)) &
-            call name_steps(workspace%curve, penetration, strips, status)
-        call check_penetration(workspace%curve, result%penetration, status)
-        if (is_error(status)) then
-            workspace%old%n = 0
-            result = normal_result_t()
-        end if
-        if (options%strips_per_patch /= strips_auto &
-            .and. levels(n_settled) > options%strips_per_patch .and. .not. is_error(status)) then
-            words = count_text(levels(n_settled))
-            call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
-            call add_words(words, ' were asked, which did not settle')
-            call add_limitation(status, st_more_strips, words)
-        end if
-        ! Of itself, auto asks for as many as are resolved.
-        if (.not. (settled .or. options%strips_per_patch == strips_auto .or. is_error(status))) &
-            call add_limitation(status, st_fewer_strips, &
-                                'fewer strips than asked: more did not settle')
-    end subroutine solve
+        if (.not. all_settled) workspace%old%n = 0
+    end subroutine search
 
     !> How wrong the last solution of a workspace is: by its certificate, and by the estimate of the
     !> lattice that was fallen back to. Nothing is allocated. Errors: those of `certify_strips`.
@@ -368,12 +418,6 @@ contains
         call summarize(strips, penetration, result)
         call set_status(status, st_fallback_used, &
                         'the ends of the contact patches did not settle: fixed lattice used')
-        call name_limitations(workspace%curve, strips, status)
-        if (.not. is_error(status)) &
-            call name_steps(workspace%curve, penetration - workspace%curve%h_lowest, strips, &
-                            status)
-        call check_penetration(workspace%curve, penetration, status)
-        if (is_error(status)) result = normal_result_t()
     end subroutine fall_back
 
     !> Passes with one number of strips until the ends rest; keeps the best converged pass.

@@ -7,7 +7,7 @@ module faststrip_normal_strip_patches
 
     public :: patch_t, patches_t, max_patches, fewest_strips
     public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
-    public :: cut_leaving_strips, free_ends, drop_slivers
+    public :: cut_leaving_strips, free_ends, drop_slivers, mirror_patches
 
     !> Most patches a contact may have at a time.
     integer, parameter :: max_patches = 16
@@ -243,6 +243,27 @@ contains
         patches%at%pushes_from = 0
         patches%at%pushes_to = 0
     end subroutine free_ends
+
+    !> Mirror patches, y to -y.
+    pure subroutine mirror_patches(patches)
+        type(patches_t), intent(inout) :: patches !! in the order of y, before and after
+
+        type(patches_t) :: seen
+        integer :: p
+
+        seen = patches
+        do p = 1, patches%n
+            associate (from => seen%at(patches%n + 1 - p), to => patches%at(p))
+                to = from
+                to%y_from = -from%y_to
+                to%y_to = -from%y_from
+                to%too_far_from = -from%too_far_to
+                to%too_far_to = -from%too_far_from
+                to%pushes_from = from%pushes_to
+                to%pushes_to = from%pushes_from
+            end associate
+        end do
+    end subroutine mirror_patches
 
     !> Drop patches that have shrunk to nothing.
     pure subroutine drop_slivers(narrowest, patches)

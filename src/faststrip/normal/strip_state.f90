@@ -2,16 +2,18 @@
 module faststrip_normal_strip_state
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
-    use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch
+    use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch, &
+                                              mirror_patches
     implicit none
     private
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
-    public :: place_edges, place_strips, remember, flattest
+    public :: place_edges, place_strips, remember, mirror_old, flattest
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     real(wp), parameter :: flattest = 1.0e-9_wp
@@ -26,10 +28,13 @@ module faststrip_normal_strip_state
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
         real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
+        logical :: old_is_mirrored = .false. !! was their gap solved as its mirror image?
         integer :: max_strips = 0   !! room, all patches together
         real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:) ! of the strips
         real(wp), allocatable :: p0(:), half_length(:)
         real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
+        real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
+                                       !! strips', so that the unit of length does not matter
         logical, allocatable :: leaves(:)
     end type strip_workspace_t
 
@@ -165,6 +170,7 @@ contains
         integer :: p, k, i
 
         i = 0
+        workspace%old_inv2r = workspace%inv2r(1)
         do p = 1, patches%n
             middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
             half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
@@ -174,13 +180,27 @@ contains
                                         - middle)/half
                 ellipse = sqrt(1.0_wp - workspace%old_eta(i)**2)
                 workspace%old_p0(i) = workspace%p0(i)/ellipse
-                workspace%old_half_length(i) = workspace%half_length(i)*sqrt(workspace%inv2r(i)) &
-                                               /ellipse
+                workspace%old_half_length(i) = workspace%half_length(i)/ellipse &
+                                               *sqrt(workspace%inv2r(i)/workspace%old_inv2r)
             end do
         end do
         patches%at%seed_length = 0.0_wp
         workspace%old = patches
     end subroutine remember
+
+    !> Mirror the solution that was kept, y to -y: the next gap is solved the other way round.
+    pure subroutine mirror_old(workspace)
+        type(strip_workspace_t), intent(inout) :: workspace
+
+        integer :: n
+
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        call reverse_negated(workspace%old_eta(:n))
+        call reverse(workspace%old_p0(:n))
+        call reverse(workspace%old_half_length(:n))
+        call mirror_patches(workspace%old)
+        workspace%newton%kept = .false.
+    end subroutine mirror_old
 
     !> Start strip i, at `eta` of its patch, from old patch q at `eta_old`.
     pure subroutine start_from_old(workspace, q, eta_old, eta, i)
@@ -202,7 +222,7 @@ contains
                                           eta_old)
         workspace%half_length(i) = ellipse*between(workspace%old_eta(k:k + 2), &
                                                    workspace%old_half_length(k:k + 2), eta_old) &
-                                   /sqrt(workspace%inv2r(i))
+                                   /sqrt(workspace%inv2r(i)/workspace%old_inv2r)
     end subroutine start_from_old
 
     !> The parabola through three points, not beyond them by more than they differ.

@@ -2,10 +2,11 @@
 module faststrip_normal_strips
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument
+    use faststrip_numerics_reversal, only: reverse, reverse_exchanged
     implicit none
     private
 
-    public :: contact_strips_t, reserve_strips, strip_load, strips_load
+    public :: contact_strips_t, reserve_strips, mirror_strips, strip_load, strips_load
 
     !> Contact patches cut into strips along the rolling direction x, each with the pressure
     !> `p(x) = p0 sqrt(1 - (x/xd)^2)` (eq. (1)). Strips are ordered by y, patches too; the first
@@ -43,6 +44,19 @@ contains
                   strips%half_length(capacity), strips%p0(capacity), source=0.0_wp)
         allocate (strips%patch(capacity), source=0)
     end subroutine reserve_strips
+
+    !> Mirror strips, y to -y.
+    pure subroutine mirror_strips(strips)
+        type(contact_strips_t), intent(inout) :: strips !! a normal solution
+
+        associate (n => strips%n)
+            call reverse_exchanged(strips%y_left(:n), strips%y_right(:n))
+            call reverse(strips%half_length(:n))
+            call reverse(strips%p0(:n))
+            call reverse(strips%patch(:n))
+            strips%patch(:n) = strips%n_patches + 1 - strips%patch(:n)
+        end associate
+    end subroutine mirror_strips
 
     !> Load of one strip, N: integral of its pressure, `(pi/2) p0 xd w`.
     elemental real(wp) function strip_load(p0, half_length, width)
