@@ -108,6 +108,28 @@ class Fuzz(ProgramTest):
         self.assertEqual((row["family"], row["status"]), ("concave", "ok"))
         self.assertLess(float(row["scale"]), 1.0)
 
+    def test_rounding_turns_no_decision(self):
+        """Contacts whose answer or status was another after y -> -y or in another unit."""
+        for seed, case in ((1, 1571), (1, 5711), (1, 4531), (5, 1863), (21, 101), (21, 1361),
+                           (21, 1363), (22, 291), (22, 383), (22, 473)):
+            with self.subTest(seed=seed, case=case):
+                self.run_program("fuzz", "--seed", seed, "--case", case, "--thorough",
+                                 "-o", "case.csv")
+                row = self.read("case.csv")[0]
+                for judge in ("mirror", "scale", "stiffness"):
+                    self.assertLess(float(row[judge]), 1e-3, row)
+                    self.assertGreaterEqual(float(row[judge]), 0.0, row)
+
+    def test_a_wall_stands_behind_all_patches_and_far_enough(self):
+        """Two patches in dips between points, and contacts that felt a wall 12 points away."""
+        for case in (3689, 3719, 5489):
+            with self.subTest(case):
+                self.run_program("fuzz", "--case", case, "--thorough", "-o", "case.csv")
+                row = self.read("case.csv")[0]
+                self.assertEqual(row["status"], "ok", row)
+                self.assertLess(float(row["wall"]), 0.1, row)
+                self.assertGreaterEqual(float(row["wall"]), 0.0, row)
+
     def test_a_lost_patch_is_told(self):
         self.run_program("fuzz", "--cases", 400, "--family", "contacts", "-o", "whole.csv")
         self.run_program("fuzz", "--cases", 400, "--family", "contacts", "--plant", "patch_lost",
