@@ -130,6 +130,18 @@ class Fuzz(ProgramTest):
                 self.assertLess(float(row["wall"]), 0.1, row)
                 self.assertGreaterEqual(float(row["wall"]), 0.0, row)
 
+    def test_a_strip_on_a_step_is_known_as_well_as_its_place(self):
+        """Patches with a fill value of 1e10 mm in them, and one that a planted error moves."""
+        for case in (138, 2390):
+            with self.subTest(case):
+                self.run_program("fuzz", "--case", case, "-o", "case.csv")
+                row = self.read("case.csv")[0]
+                self.assertEqual((row["status"], row["violation"]), ("conformal", ""), row)
+                self.assertGreaterEqual(float(row["centre"]), 0.0, row)
+                self.run_program("fuzz", "--case", case, "--plant", "penetration_slight",
+                                 "-o", "case.csv")
+                self.assertGreater(float(self.read("case.csv")[0]["centre"]), 1.0, row)
+
     def test_a_lost_patch_is_told(self):
         self.run_program("fuzz", "--cases", 400, "--family", "contacts", "-o", "whole.csv")
         self.run_program("fuzz", "--cases", 400, "--family", "contacts", "--plant", "patch_lost",

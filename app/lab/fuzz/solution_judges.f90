@@ -26,6 +26,9 @@ module faststrip_lab_fuzz_solution_judges
     real(wp), parameter :: rounding = 1.0e-9_wp
     ! Of D - h_lowest. The strips close the gap here to Newton's last step.
     real(wp), parameter :: closed_tolerance = 1.0e-4_wp
+    ! Of a patch's width: what Newton's last steps, 1e-6 each, of the two ends and of the strip
+    ! itself may leave of a strip's place.
+    real(wp), parameter :: place_tolerance = 3.0e-6_wp
     real(wp), parameter :: middle_tolerance = 0.1_wp
     real(wp), parameter :: overlap_tolerance = 0.02_wp
     real(wp), parameter :: area_tolerance = 1.0e-3_wp
@@ -188,7 +191,7 @@ contains
         type(normal_result_t), intent(in) :: result
         type(verdict_t), intent(inout) :: verdict
 
-        real(wp) :: depth, compliance, y, middle, weight, weights, h, inv2r
+        real(wp) :: depth, compliance, y, middle, weight, weights, h, inv2r, shift, play
         integer :: k, stride, first, last
 
         depth = result%penetration - curve%h_lowest
@@ -207,12 +210,17 @@ contains
             end if
             if (modulo(k, stride) /= 0 .and. k /= first .and. k /= last) cycle
             y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            ! On a step in a patch (a fill value of 1e10 mm) the height moves by many penetrations
+            ! over the width to which the strip's place is known; elsewhere by next to nothing.
+            shift = place_tolerance*(strips%y_right(last) - strips%y_left(first))
+            play = abs(height_at(y + shift) - height_at(y - shift))/depth
             associate (xd => strips%half_length(k))
                 call report_badness(verdict, judge_centre, abs(opening(0.0_wp, y)) &
-                                    /closed_tolerance)
-                call report_badness(verdict, judge_tip, abs(opening(xd, y))/closed_tolerance)
+                                    /(closed_tolerance + play))
+                call report_badness(verdict, judge_tip, abs(opening(xd, y)) &
+                                    /(closed_tolerance + play))
                 weight = strips%y_right(k) - strips%y_left(k)
-                middle = middle + weight*abs(opening(0.5_wp*xd, y))
+                middle = middle + weight*max(abs(opening(0.5_wp*xd, y)) - play, 0.0_wp)
                 weights = weights + weight
             end associate
         end do
@@ -229,6 +237,13 @@ contains
             opening = (h + inv2r*x**2 - result%penetration &
                        + compliance*displacement(strips, x, at))/depth
         end function opening
+
+        real(wp) function height_at(at)
+            real(wp), intent(in) :: at
+
+            call gap_at(curve, at, h, inv2r)
+            height_at = h
+        end function height_at
 
         !> Places on the line x = 0, more than half an end strip away from the patches: what is
         !> nearer belongs to where the ends are.
