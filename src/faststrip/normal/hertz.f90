@@ -70,7 +70,7 @@ contains
                             // ' 1/mm')
             return
         end if
-        target = abs(log(inv2r_y/inv2r_x))
+        target = log(max(inv2r_x, inv2r_y)/min(inv2r_x, inv2r_y))
         axes = target/1.5_wp
         do i = 1, most_steps
             call ellipse_integrals(exp(-axes), k, d, s, slope)
