@@ -9,8 +9,9 @@
 !> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
 !> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
 !> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those of
-!> slopes and waves from strip to strip were settled with an eye on the same families, with seed 11;
-!> the gaps here are of another seed.
+!> slopes and waves from strip to strip were settled with an eye on the same families, with seed 11,
+!> those of a varying 1/(2R), of wide strips and of load with 12, 13 and 21; the gaps here are of
+!> another seed.
 module faststrip_lab_bench_certificate
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal
@@ -46,7 +47,7 @@ module faststrip_lab_bench_certificate
                                                          '21', '31', '41', 'auto']
     integer, parameter :: extent_strips = 41 ! whose solution is the size of the truth's grids
     integer, parameter :: n_ellipses = 25, ellipse_points = 401
-    integer, parameter :: seed = 12 ! not 11, see above
+    integer, parameter :: seed = 31 ! none of these, see above
     integer, parameter :: per_family = 24, most_drawn = 3000, most_random_points = 20000
 
     !> Families of random gaps whose solution is smooth, with pressures that are finite: no slopes
