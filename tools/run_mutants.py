@@ -12,12 +12,14 @@ The mutants of a room stand in tools/mutants/ROOM.toml, one table each:
     index = 2                      # which one, if the text stands there more often
     replacement = "what takes its place"
     why = "what a user would get wrong"
-    first = "test/cli/test_auto.py"            # optional: tests of Python to begin with
+    first = "test/cli/test_auto.py"            # optional: tests to begin with, a file of Python or
+                                               # a filter of the Fortran tests
     equivalent = "why no test can see it"      # only where that is so
 
-A mutant is killed if a test fails that passes without it, or if the tests do not end. The tests of
-its room come first, then all others; with --quick only those of its room. What does not compile is
-invalid: it judges nothing. Results are kept in build/mutants/ under a hash of the tree and of the
+A mutant is killed if a test fails that passes without it, and fails once more when it is run
+alone, or if the tests crash or do not end (counted apart). The tests of its room come first, then
+all others; with --quick only those of its room. What does not compile is invalid: it judges
+nothing. Results are kept in build/mutants/ under a hash of the tree and of the
 mutant, so that a run which was broken off goes on where it was. Exit 1 if a mutant survives that
 is not named equivalent, if one so named is killed, or if one is invalid; 2 if the tests fail
 without any mutant.
@@ -64,6 +66,10 @@ end module faststrip_command_revision
 # A stage of tests may take this many times longer than without a mutant, and some seconds more.
 TIME_FACTOR = 8.0
 TIME_EXTRA = 60.0
+# A test that fails, and passes when it is run alone, fails for another reason than the mutant: the
+# stage is run so many times at most.
+ATTEMPTS = 3
+TIME_OUT = "time-out"
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
 FACES = ["test/embed/test_values.py", "test/embed/test_python.py",
@@ -373,15 +379,24 @@ class Job:
 
     def stage(self, kind, what):
         """The first test that fails, or None. The stage `what` is a filter or a list of files."""
+        for _ in range(ATTEMPTS):
+            failure = self.attempt(kind, what)
+            if failure is None or not is_test(failure) or self.attempt(kind, what, only=failure):
+                return failure
+        return None
+
+    def attempt(self, kind, what, only=None):
+        """The same, tried once; of one test if there is an `only`."""
         self.prepare(kind)
         extra = {"FASTSTRIP_INSTALLED": str(self.prefix)} if kind == "installed" else {}
         if kind == "fortran":
-            command = [str(self.folder / "build" / "runner"), what]
+            command = [str(self.folder / "build" / "runner"), only or what]
         else:
             present = [name for name in what if (self.folder / name).exists()]
             if not present:
                 return None
-            command = [str(self.base.python), "tools/run_pytests.py", *present]
+            part = only.split(".", 1)[-1] if only else ""
+            command = [str(self.base.python), "tools/run_pytests.py", "--filter", part, *present]
         limit = self.seconds.get(stage_name(kind, what))
         limit = None if limit is None else TIME_FACTOR * limit + TIME_EXTRA
         return first_failure(command, self.folder, {**environment(), **extra}, limit)
@@ -417,11 +432,18 @@ class Job:
 def stages_of(mutant, quick):
     """The tests a mutant meets, in order; a change of Python meets no Fortran test."""
     own = OWN_STAGES[mutant.room]
-    if mutant.first:
+    if mutant.first and mutant.first.endswith(".py"):
         own = [("python", [mutant.first])] + own
+    elif mutant.first:
+        own = [("fortran", mutant.first)] + own
     others = [] if quick else [stage for stage in ALL_STAGES if stage not in own]
     return [stage for stage in own + others
             if stage[0] != "fortran" or mutant.file.endswith(".f90")]
+
+
+def is_test(failure):
+    """Is it the name of a test, or a crash or a time-out?"""
+    return not failure.startswith(("crash ", TIME_OUT))
 
 
 def last_error(text):
@@ -457,7 +479,7 @@ def first_failure(command, folder, variables, limit):
                 last = line.split()[0]
         code = process.wait()
         if late.is_set():
-            return f"time-out after {last}"
+            return f"{TIME_OUT} after {last}"
         return None if code == 0 else f"crash ({code}) after {last}"
     finally:
         if timer:
@@ -557,14 +579,14 @@ def run(mutants, base, results, options):
 
 def tell(found):
     """Print the table and the counts; whether all is well."""
-    counts = {"killed": 0, "survived": 0, "equivalent": 0, "invalid": 0}
+    counts = {"killed": 0, TIME_OUT: 0, "survived": 0, "equivalent": 0, "invalid": 0}
     bad = []
     print(f"\n{'mutant':44} {'verdict':10} by")
     for mutant, verdict, by in found:
         shown = verdict
         if verdict == "survived" and mutant.equivalent:
             shown, by = "equivalent", mutant.equivalent
-        counts[shown] += 1
+        counts[TIME_OUT if shown == "killed" and by.startswith(TIME_OUT) else shown] += 1
         if shown in ("survived", "invalid"):
             bad.append(mutant)
         elif shown == "killed" and mutant.equivalent:
@@ -574,7 +596,8 @@ def tell(found):
     for mutant in bad:
         print(f"\nsee {mutant.id} in {mutant.room}.toml: {mutant.file}\n"
               f"    {mutant.text}\n    -> {mutant.replacement}\n    {mutant.why}")
-    print(f"\n{len(found)} mutants: " + ", ".join(f"{n} {word}" for word, n in counts.items()))
+    print(f"\n{len(found)} mutants: " + ", ".join(f"{n} {word}" for word, n in counts.items()
+                                              if n or word != TIME_OUT))
     return not bad
 
 

@@ -47,6 +47,13 @@ class Sums(unittest.TestCase):
     def test_half(self):
         self.assertEqual(sums.half(4), 2)
 """
+UNSTEADY = """
+    def test_an_unsteady_one(self):
+        seen = pathlib.Path("seen")
+        is_new = not seen.exists()
+        seen.touch()
+        self.assertFalse(is_new and pathlib.Path.cwd().name == "job_0")
+"""
 LIST = """\
 [[mutant]]
 id = "plots-smaller"
@@ -210,7 +217,7 @@ class Verdicts(unittest.TestCase):
         self.assertRegex(said, r"plots-endless +killed +time-out")
         self.assertRegex(said, r"plots-equal +equivalent +equals are equal")
         self.assertEqual(said.splitlines()[-1],
-                         "3 mutants: 2 killed, 0 survived, 1 equivalent, 0 invalid")
+                         "3 mutants: 1 killed, 1 time-out, 0 survived, 1 equivalent, 0 invalid")
         self.assertEqual((self.folder / "plots/sums.py").read_text("utf-8"), MODULE)
 
     def test_a_survivor_an_invalid_one_and_one_named_wrongly(self):
@@ -220,6 +227,18 @@ class Verdicts(unittest.TestCase):
         self.assertIn("although it is named equivalent", said)
         self.assertEqual(said.splitlines()[-1],
                          "3 mutants: 1 killed, 1 survived, 0 equivalent, 1 invalid")
+
+    def test_a_test_that_fails_now_and_then_kills_nothing(self):
+        # It fails once, as one may that waits for a busy machine.
+        self.write("test/plots/test_sums.py", TEST + UNSTEADY)
+        said = self.judge(1, "--jobs", "1", text=SURVIVOR)
+        self.assertRegex(said, r"plots-nobody-looks +survived +all tests")
+
+    def test_the_tests_to_begin_with_may_be_fortran(self):
+        first = run_mutants.Mutant("normal", {"id": "", "file": "a.f90", "why": "", "text": "",
+                                              "replacement": "", "first": "normal/test_hertz"})
+        self.assertEqual(run_mutants.stages_of(first, True),
+                         [("fortran", "normal/test_hertz"), ("fortran", "normal/")])
 
     def test_a_run_goes_on_where_it_was(self):
         self.judge(1, text=SURVIVOR)
