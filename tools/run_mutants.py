@@ -49,6 +49,7 @@ import tomllib
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
 FLAGS = "-Og -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
 TRAPS = "-ffpe-trap=invalid,zero,overflow"
+C_FLAGS = "-Og -fPIC"
 # Not copied: what is built, and the lists themselves, which change no result.
 LEFT_OUT = {".git", ".venv", "build", "bin", "out", "__pycache__", "tools/mutants"}
 # The main program of the tests, which sets the traps.
@@ -212,7 +213,7 @@ def module_text(path):
 
 
 class Source:
-    """A Fortran file: the modules it makes and those it uses."""
+    """A Fortran file: the modules it makes and those it uses; or a C file, with neither."""
 
     MADE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)\s*(?:!.*)?$", re.I | re.M)
     USED = re.compile(r"^\s*use\b(?:\s*,[^:\n]*)?\s*(?:::)?\s*(\w+)", re.I | re.M)
@@ -221,16 +222,21 @@ class Source:
         self.name = name
         self.object = name.replace("/", "_") + ".o"
         self.text = (root / name).read_text(encoding="utf-8")
+        self.made, self.used = set(), set()
+        if name.endswith(".c"):
+            return
         self.made = {word.lower() for word in self.MADE.findall(self.text)}
         self.used = {word.lower() for word in self.USED.findall(self.text)} - self.made
 
     def compile(self, path, folder, modules, target):
         """Compile it from a path; modules are sought in some folders, what is made goes to one."""
-        traps = TRAPS.split() if self.name == RUNNER else []
+        command = ["gcc", "-c", *C_FLAGS.split()]
+        if self.name.endswith(".f90"):
+            traps = TRAPS.split() if self.name == RUNNER else []
+            command = ["gfortran", "-c", *FLAGS.split(), *traps, "-J", str(target),
+                       *(f"-I{place}" for place in (target, *modules))]
         done = subprocess.run(
-            ["gfortran", "-c", *FLAGS.split(), *traps, "-J", str(target),
-             *(f"-I{place}" for place in (target, *modules)), str(path),
-             "-o", str(target / self.object)],
+            [*command, str(path), "-o", str(target / self.object)],
             cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, encoding="utf-8", errors="replace", check=False)
         if done.returncode != 0:
@@ -274,7 +280,8 @@ class Base:
         manifest = tomllib.loads((self.folder / "fpm.toml").read_text(encoding="utf-8"))
         link = manifest.get("build", {}).get("link", [])
         self.libraries = [f"-l{name}" for name in ([link] if isinstance(link, str) else link)]
-        paths = [path for place in ("src", "app") for path in (self.folder / place).rglob("*.f90")]
+        paths = [path for place in ("src", "app") for kind in ("*.f90", "*.c")
+                 for path in (self.folder / place).rglob(kind)]
         paths += (self.folder / "test").glob("*.f90")
         levels = in_order([Source(self.folder, path.relative_to(self.folder).as_posix())
                            for path in sorted(paths)])
@@ -289,7 +296,8 @@ class Base:
 
     def compiled(self, source, keys):
         """Compile a file if that is needed; its name and the hash of what it was made from."""
-        digest = hashlib.sha256(f"{FLAGS} {TRAPS} {source.text}".encode())
+        flags = C_FLAGS if source.name.endswith(".c") else f"{FLAGS} {TRAPS}"
+        digest = hashlib.sha256(f"{flags} {source.text}".encode())
         for module in sorted(source.used):
             digest.update(module_text(self.objects / f"{module}.mod") or b"")
         key = digest.hexdigest()
@@ -410,7 +418,7 @@ class Job:
             source.write_text(text, encoding="utf-8")
             self.clear()
             try:
-                if source.suffix == ".f90":
+                if source.suffix in (".f90", ".c"):
                     self.compile(mutant.file)
                 elif source.suffix == ".py":
                     compile(text, mutant.file, "exec")
