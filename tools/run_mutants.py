@@ -73,7 +73,7 @@ ATTEMPTS = 3
 TIME_OUT = "time-out"
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
-FACES = ["test/embed/test_values.py", "test/embed/test_python.py",
+FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
          "test/embed/test_callers.py", "test/embed/test_legacy.py"]
 FORTRAN_ROOMS = ("ground", "numerics", "influence", "profile", "normal", "tangential", "contact",
                  "errata")
@@ -81,7 +81,7 @@ OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],
     "app": [("python", ["test/cli"])],
-    "python": [("installed", FACES[:2])],
+    "python": [("installed", FACES[:3])],
     "plots": [("python", ["test/plots"])],
 }
 TABLES = ["test/tools/test_choice_table.py", "test/tools/test_kalker_table.py"]

@@ -119,6 +119,8 @@ class Processes(HostTest):
         return subprocess.Popen(
             [sys.executable, name, *words], cwd=self.folder, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, encoding="utf-8",
+            # A shell starts what runs in its background with Ctrl-C ignored.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             env={**self.installed.environment, "PYTHONPATH": str(ROOT / "python")})
 
     def test_errors_come_back_from_a_pool(self):

@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 
 import matplotlib.image
+import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "plots"))
@@ -58,6 +59,36 @@ class Forces(unittest.TestCase):
         for name in ("curves.png", "shifts.png", "trade.png"):
             self.assertIn(self.path(name), said)
             self.assertGreater(matplotlib.image.imread(self.path(name)).std(), 0.02)
+
+    def test_curves_show_each_contact_and_its_error(self):
+        table = read_table(str(CONTACTS / "hertz_creep.csv"), ("case",))
+        groups = table.words("case")
+        lines = ["set,group,case,method,Fx_err,Fy_err,force_err,Mz_err"]
+        lines += [f"hertz,{group},{k + 1},{method},{0.1 * k},{0.2 * k},0.0,{0.3 * k}"
+                  for method in forces.METHODS for k, group in enumerate(groups)]
+        (self.folder / "forces.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        errors = forces.Errors(read_table(self.path("forces.csv"), ("set",)))
+        figure = forces.curves_figure(errors, str(CONTACTS))
+        names = ("a_mm", "b_mm", "a_over_b", "u", "mu", "N", "Fx_extrap", "Fy_extrap", "Mz_extrap")
+        value = {name: table.numbers(name) for name in names}
+        bound = value["mu"] * value["N"]
+        c = numpy.sqrt(value["a_mm"] * value["b_mm"])
+        number = numpy.arange(len(groups))
+        rows = (("long", value["Fx_extrap"] / bound, 1e-3),
+                ("spin", value["Fy_extrap"] / bound, 2e-3),
+                ("spin", value["Mz_extrap"] / (bound * c), 3e-3))
+        for row, (group, force, error) in enumerate(rows):
+            for column, ratio in enumerate(forces.RATIOS):
+                chosen = numpy.flatnonzero((numpy.array(groups) == group)
+                                           & numpy.isclose(value["a_over_b"], ratio))
+                chosen = chosen[numpy.argsort(value["u"][chosen])]
+                drawn = figure.axes[3 * row + column].get_lines()
+                self.assertEqual(len(drawn), len(forces.METHODS) + 1)
+                for line in drawn:
+                    off = 0.0 if line.get_marker() == "o" else error * number[chosen]
+                    numpy.testing.assert_allclose(line.get_xdata(), value["u"][chosen])
+                    numpy.testing.assert_allclose(line.get_ydata(), -(force[chosen] + off),
+                                                  rtol=1e-6, atol=1e-9)
 
     def test_bad_input(self):
         self.write_forces([*forces.METHODS, "guess"])
