@@ -8,10 +8,10 @@
 !>
 !> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
 !> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
-!> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those of
-!> slopes and waves from strip to strip were settled with an eye on the same families, with seed 11,
-!> those of a varying 1/(2R), of wide strips and of load with 12, 13 and 21; the gaps here are of
-!> another seed.
+!> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those
+!> of slopes and waves from strip to strip were settled with an eye on the same families, with seed
+!> 11, those of a varying 1/(2R), of wide strips and of load with 12, 13 and 21; the gaps here are
+!> of another seed.
 module faststrip_lab_bench_certificate
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal

@@ -62,9 +62,9 @@
 !> The factors of e_k, m_k and u_k were chosen on 800 random contacts of 16 families, solved by NORM
 !> on two grids, with 5 to 41 strips. Those of s_k and of the fourth difference would be 1 and 0.010
 !> for waves of two strips on a half-space; that of s_k was lowered with an eye on families of
-!> `faststrip-lab fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a tenth
-!> larger in the median. That of C(m_k), 0.7 before, makes up in the median for the terms of A, of
-!> needles and of load, which were settled with seeds 12, 13 and 21.
+!> `faststrip-lab fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a
+!> tenth larger in the median. That of C(m_k), 0.7 before, makes up in the median for the terms of
+!> A, of needles and of load, which were settled with seeds 12, 13 and 21.
 !> `faststrip-lab bench certificate` judges them with another.
 !> All factors are of experience, no bounds in the strict sense.
 module faststrip_normal_certificate
