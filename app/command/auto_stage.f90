@@ -7,6 +7,7 @@ module faststrip_command_auto_stage
     use faststrip_base_creepage, only: creepage_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
                                          tangential_method_name, tangential_fastsim, &
                                          gives_elements
@@ -43,6 +44,7 @@ contains
 
         integer, parameter :: numbers(3) = [target_forces, target_pmax, target_penetration]
         type(gap_curve_t) :: curve
+        type(contact_case_t) :: case
         type(indicators_t) :: indicators
         type(contact_methods_t) :: core
         real(wp) :: expected
@@ -53,8 +55,11 @@ contains
         if (is_error(status)) return
         call set_gap_curve(curve, gap, status)
         if (is_error(status)) return
-        call find_indicators(curve, material, mu, demand%by_load, demand%load, &
-                             demand%penetration, creepage, indicators, status)
+        case%demand_t = demand
+        case%material = material
+        case%mu = mu
+        case%creepage = creepage
+        call find_indicators(curve, case, indicators, status)
         if (is_error(status)) return
         target = findloc(targets == methods%target, .true., dim=1)
         call choose_methods(indicators, numbers(target), methods%tolerance, core, expected, status)

@@ -8,8 +8,7 @@ module faststrip_command_norm_stage
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       release_norm, set_norm_gap, norm_solve, &
-                                       norm_solve_penetration
+                                       release_norm, set_norm_gap, norm_solve_demand
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_kalker_normal_rows, only: rows_as_strips, count_rows
     use faststrip_normal_types, only: normal_result_t
@@ -77,14 +76,8 @@ contains
         end if
         if (methods%norm_start == 'strips') &
             options%two_levels = stage%start%workspace%strips%n == 0
-        if (demand%by_load) then
-            call norm_solve(stage%workspace, normal_compliance(material), demand%load, options, &
-                            normal, status, stage%start%workspace%strips, tell_of_grid)
-        else
-            call norm_solve_penetration(stage%workspace, normal_compliance(material), &
-                                        demand%penetration, options, normal, status, &
-                                        stage%start%workspace%strips, tell_of_grid)
-        end if
+        call norm_solve_demand(stage%workspace, normal_compliance(material), demand, options, &
+                               normal, status, stage%start%workspace%strips, tell_of_grid)
         if (.not. is_error(status)) certificate = stage%workspace%certificate
     end subroutine solve_by_norm
 

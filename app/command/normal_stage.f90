@@ -7,7 +7,7 @@ module faststrip_command_normal_stage
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_resolution, add_limitation, default_resolution
     use faststrip_normal_strip, only: estimate_strips
-    use faststrip_normal_types, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
                                          normal_strip, tangential_faststrip
     use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
@@ -25,13 +25,6 @@ module faststrip_command_normal_stage
         real(wp) :: resolution_limit = default_resolution
             !! largest estimated error of a resolved one
     end type normal_stage_t
-
-    !> What presses the bodies together.
-    type :: demand_t
-        logical :: by_load = .true.      !! is the load given, or the penetration?
-        real(wp) :: load = 0.0_wp        !! normal force, N
-        real(wp) :: penetration = 0.0_wp !! approach from h = 0, mm
-    end type demand_t
 
 contains
 
@@ -82,9 +75,7 @@ contains
         end if
         if (is_error(status)) return
         case%material = material
-        case%by_load = demand%by_load
-        case%load = demand%load
-        case%penetration = demand%penetration
+        case%demand_t = demand
         case%methods = stage%methods
         case%estimate = stage%methods%normal /= normal_strip ! of which `certify` does
         case%resolution_limit = stage%resolution_limit

@@ -31,14 +31,15 @@ module faststrip
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
-                                      hertz_solve_gap_penetration, hertz_strips
+                                      hertz_solve_gap_penetration, hertz_solve_gap_demand, &
+                                      hertz_strips
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve, &
-                                      strip_solve_penetration, strips_auto
-    use faststrip_normal_types, only: normal_result_t
+                                      strip_solve_penetration, strip_solve_demand, strips_auto
+    use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           field_power, strip_forces_t, &
                                           reserve_strip_forces, state_adhesion, state_slip
@@ -61,7 +62,8 @@ module faststrip
                                          tangential_fastsim_weighted, tangential_linear, &
                                          tangential_she, tangential_polach, gives_elements, &
                                          gives_stick
-    use faststrip_contact_solve, only: contact_case_t, contact_result_t, workspace_t, &
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_solve, only: contact_result_t, workspace_t, &
                                        reserve_workspace, reserve_contact_field, &
                                        set_contact_gap, solve_contact, solve_contact_normal, &
                                        solve_contact_tangential, most_gap_points

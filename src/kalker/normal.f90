@@ -37,13 +37,13 @@ module faststrip_kalker_normal
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: minimiser_t, size_minimiser, task_t, minimise, &
                                               minimised_t, kernel_influence, kernel_inverse
-    use faststrip_normal_types, only: normal_result_t, goal_t
+    use faststrip_normal_types, only: normal_result_t, demand_t, above_lowest
     implicit none
     private
 
-    public :: norm_options_t, norm_workspace_t, goal_t
+    public :: norm_options_t, norm_workspace_t, demand_t
     public :: reserve_norm, release_norm, set_norm_gap
-    public :: norm_solve, norm_solve_penetration, norm_solve_heights
+    public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
@@ -163,9 +163,30 @@ contains
         call check_input(workspace, compliance, options, status)
         if (.not. is_error(status)) call check_load(load, status)
         if (is_error(status)) return
-        call solve_gap(workspace, compliance, goal_t(by_load=.true., load=load), options, result, &
-                       status, strips, watch)
+        call solve_gap(workspace, compliance, demand_t(load=load), options, result, status, &
+                       strips, watch)
     end subroutine norm_solve
+
+    !> The same for a load or a penetration.
+    subroutine norm_solve_demand(workspace, compliance, demand, options, result, status, strips, &
+                                watch)
+        type(norm_workspace_t), intent(inout) :: workspace !! with a gap set
+        real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand        !! load or penetration
+        type(norm_options_t), intent(in) :: options !! sides, tolerance, start
+        type(normal_result_t), intent(out) :: result !! load, penetration, area, ...
+        type(status_t), intent(out) :: status       !! how it ended
+        type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
+        procedure(norm_watch), optional :: watch    !! is told of each grid
+
+        if (demand%by_load) then
+            call norm_solve(workspace, compliance, demand%load, options, result, status, &
+                                strips, watch)
+        else
+            call norm_solve_penetration(workspace, compliance, demand%penetration, options, &
+                                        result, status, strips, watch)
+        end if
+    end subroutine norm_solve_demand
 
     !> Solve the normal problem of the gap in the workspace for a penetration; the load is in the
     !> result. Errors as `norm_solve`, and `st_no_contact`: the bodies do not reach each other, or
@@ -192,8 +213,8 @@ contains
                             //trim(number_text(workspace%curve%h_lowest))//' mm')
         else
             call solve_gap(workspace, compliance, &
-                           goal_t(by_load=.false., &
-                                  penetration=penetration - workspace%curve%h_lowest), &
+                           above_lowest(demand_t(by_load=.false., penetration=penetration), &
+                                        workspace%curve%h_lowest), &
                            options, result, status, strips, watch)
         end if
     end subroutine norm_solve_penetration
@@ -206,14 +227,14 @@ contains
     !>
     !> Errors: as `norm_solve_penetration`; `st_bad_argument`: sides, a grid without elements;
     !> `st_not_finite`: a height, a place; `st_out_of_range`: the contact runs to the grid's rim.
-    subroutine norm_solve_heights(workspace, height, dx, dy, x_first, y_first, compliance, goal, &
+    subroutine norm_solve_heights(workspace, height, dx, dy, x_first, y_first, compliance, demand, &
                                   options, result, status)
         type(norm_workspace_t), intent(inout) :: workspace !! needs no preparation
         real(wp), intent(in) :: height(:, :)        !! undeformed gap at the elements' middles, mm
         real(wp), intent(in) :: dx, dy              !! sides of the elements, mm
         real(wp), intent(in) :: x_first, y_first    !! middle of the first element, mm
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal            !! load, N, or penetration from zero height, mm
+        type(demand_t), intent(in) :: demand        !! load, or penetration from zero height
         type(norm_options_t), intent(in) :: options !! tolerance, start
         type(normal_result_t), intent(out) :: result !! penetration, area, ...
         type(status_t), intent(out) :: status       !! how it ended
@@ -237,16 +258,16 @@ contains
             call set_status(status, st_not_finite, 'a height of the grid is not a finite number')
             return
         end do
-        if (goal%by_load) then
-            call check_load(goal%load, status)
+        if (demand%by_load) then
+            call check_load(demand%load, status)
             if (is_error(status)) return
-        else if (.not. ieee_is_finite(goal%penetration)) then
+        else if (.not. ieee_is_finite(demand%penetration)) then
             call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
-                            //number_text(goal%penetration))
+                            //number_text(demand%penetration))
             return
-        else if (goal%penetration <= minval(height)) then
+        else if (demand%penetration <= minval(height)) then
             call set_status(status, st_no_contact, 'the bodies do not touch: penetration ' &
-                            //trim(number_text(goal%penetration))//' mm, lowest gap ' &
+                            //trim(number_text(demand%penetration))//' mm, lowest gap ' &
                             //trim(number_text(minval(height)))//' mm')
             return
         end if
@@ -265,9 +286,9 @@ contains
         if (options%warm_start .and. workspace%last%nx > 0) then
             call take_pressures(workspace%grid, workspace%last)
         else
-            call guess_on_heights(goal, compliance, workspace%grid)
+            call guess_on_heights(demand, compliance, workspace%grid)
         end if
-        call set_task(goal, 0.0_wp, compliance, dy, options, task, status)
+        call set_task(demand, 0.0_wp, compliance, dy, options, task, status)
         if (is_error(status)) return
         call solve_on_grid(workspace, 1, compliance, task, found, result, status)
         if (is_error(status)) return
@@ -280,10 +301,10 @@ contains
     end subroutine norm_solve_heights
 
     !> One spacing, two for an estimate, or as many as a target needs.
-    subroutine solve_gap(workspace, compliance, goal, options, result, status, strips, watch)
+    subroutine solve_gap(workspace, compliance, demand, options, result, status, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         type(norm_options_t), intent(in) :: options
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
@@ -298,7 +319,7 @@ contains
         logical :: from_strips
 
         call begin(workspace)
-        call guess_extent(workspace%curve, compliance, goal, guess, status)
+        call guess_extent(workspace%curve, compliance, demand, guess, status)
         if (is_error(status)) return
         extent = guess
         from_strips = .false.
@@ -325,7 +346,7 @@ contains
             ! A coarse grid is for a start and for estimates.
             if (level < levels .and. .not. options%error_target > 0.0_wp) &
                 tolerance = max(tolerance, coarse_tolerance)
-            call solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
+            call solve_spacing(workspace, compliance, demand, options, level, tolerance, dx, dy, &
                                extent, guess, result, status, from_strips .and. level == 1, &
                                strips, watch)
             if (is_error(status)) then
@@ -386,11 +407,11 @@ contains
     end subroutine name_what_is_left
 
     !> Solve on grids of one spacing, each larger than the one before, until it holds the contact.
-    subroutine solve_spacing(workspace, compliance, goal, options, level, tolerance, dx, dy, &
+    subroutine solve_spacing(workspace, compliance, demand, options, level, tolerance, dx, dy, &
                              extent, guess, result, status, from_strips, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         type(norm_options_t), intent(in) :: options
         integer, intent(in) :: level
         real(wp), intent(in) :: tolerance, dx, dy
@@ -407,14 +428,14 @@ contains
         integer :: placing
         logical :: is_missing
 
-        call set_task(goal, workspace%curve%h_lowest, compliance, dy, options, task, status)
+        call set_task(demand, workspace%curve%h_lowest, compliance, dy, options, task, status)
         if (is_error(status)) return
         task%tolerance = tolerance
         do placing = 1, max_placings
             call place_grid(workspace%curve, extent, dx, dy, options%most_elements, &
                             workspace%grid, status)
             if (is_error(status)) return
-            if (.not. goal%by_load .and. task%approach <= minval(workspace%grid%height)) then
+            if (.not. task%by_load .and. task%penetration <= minval(workspace%grid%height)) then
                 call set_status(status, st_no_contact, 'the elements are too large: none has its ' &
                                 //'middle where the bodies overlap')
                 return
@@ -466,29 +487,29 @@ contains
     end subroutine keep
 
     !> Load or approach in the minimiser's lengths.
-    pure subroutine set_task(goal, h_lowest, compliance, dy, options, task, status)
-        type(goal_t), intent(in) :: goal
-        real(wp), intent(in) :: h_lowest ! from which the goal's penetration counts
+    pure subroutine set_task(demand, h_lowest, compliance, dy, options, task, status)
+        type(demand_t), intent(in) :: demand
+        real(wp), intent(in) :: h_lowest ! from which the demand's penetration counts, mm
         real(wp), intent(in) :: compliance, dy
         type(norm_options_t), intent(in) :: options
         type(task_t), intent(out) :: task
         type(status_t), intent(out) :: status
 
         call clear_status(status)
-        task%by_load = goal%by_load
+        task%demand_t = demand
         task%tolerance = options%tolerance
         task%max_iterations = options%max_iterations
         task%preconditioned = options%preconditioned
-        if (goal%by_load) then
+        if (demand%by_load) then
             ! Logarithms, as the product may overflow.
-            if (abs(log(goal%load) + log(compliance) - log(dy)) > log(largest)) then
+            if (abs(log(demand%load) + log(compliance) - log(dy)) > log(largest)) then
                 call set_status(status, st_out_of_range, 'a contact beyond all proportion: load ' &
-                                //trim(number_text(goal%load))//' N')
+                                //trim(number_text(demand%load))//' N')
                 return
             end if
-            task%total = compliance*goal%load/dy
+            task%total = compliance*demand%load/dy
         else
-            task%approach = goal%penetration + h_lowest
+            task%penetration = demand%penetration + h_lowest
         end if
     end subroutine set_task
 
@@ -568,8 +589,8 @@ contains
 
     !> Proportions of pressures to start from on given heights: the overlap of the undeformed
     !> bodies at half the approach of a round contact as large as it.
-    pure subroutine guess_on_heights(goal, compliance, grid)
-        type(goal_t), intent(in) :: goal
+    pure subroutine guess_on_heights(demand, compliance, grid)
+        type(demand_t), intent(in) :: demand
         real(wp), intent(in) :: compliance
         type(contact_grid_t), intent(inout) :: grid
 
@@ -578,22 +599,22 @@ contains
         integer :: i
 
         lowest = minval(grid%height)
-        if (goal%by_load) then
+        if (demand%by_load) then
             low = 0.0_wp
             ! As if one element carried it all.
-            high = 0.75_wp*pi*compliance*(goal%load/sqrt(grid%dx*grid%dy/pi))
+            high = 0.75_wp*pi*compliance*(demand%load/sqrt(grid%dx*grid%dy/pi))
             do i = 1, 40
                 depth = 0.5_wp*(low + high)
                 radius = sqrt(max(1, count(grid%height - lowest < share*depth)) &
                               *(grid%dx*grid%dy/pi))
-                if (depth < 0.75_wp*pi*compliance*goal%load/radius) then
+                if (depth < 0.75_wp*pi*compliance*demand%load/radius) then
                     low = depth
                 else
                     high = depth
                 end if
             end do
         else
-            depth = goal%penetration - lowest
+            depth = demand%penetration - lowest
         end if
         grid%pressure = sqrt(max(share*depth - (grid%height - lowest), 0.0_wp))
     end subroutine guess_on_heights

@@ -18,7 +18,7 @@ module faststrip_kalker_normal_place
     use faststrip_normal_strip_state, only: flattest
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_kalker_grid, only: contact_grid_t, size_grid, element_x, element_y
-    use faststrip_normal_types, only: goal_t
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
@@ -44,10 +44,10 @@ module faststrip_kalker_normal_place
 contains
 
     !> Extent of the ellipse that fits the gap's width, as the strips start.
-    pure subroutine guess_extent(curve, compliance, goal, extent, status)
+    pure subroutine guess_extent(curve, compliance, demand, extent, status)
         type(gap_curve_t), intent(in) :: curve   !! a gap that was set
         real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal         !! load or penetration
+        type(demand_t), intent(in) :: demand     !! load or penetration
         type(extent_t), intent(out) :: extent    !! first guess
         type(status_t), intent(out) :: status    !! `st_no_contact`
 
@@ -56,7 +56,7 @@ contains
         integer :: i, n
 
         call clear_status(status)
-        call start_patches(curve, compliance, goal, patches, depth)
+        call start_patches(curve, compliance, demand, patches, depth)
         if (patches%n < 1 .or. .not. depth > 0.0_wp) then
             call set_status(status, st_no_contact, 'no place where the bodies touch was found')
             return

@@ -19,6 +19,7 @@
 module faststrip_kalker_normal_solver
     use faststrip_base_kinds, only: wp
     use faststrip_kalker_convolution, only: convolution_t, convolve
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
@@ -38,11 +39,10 @@ module faststrip_kalker_normal_solver
         real(wp), allocatable, dimension(:, :), private :: r, r_old, z, v, av
     end type minimiser_t
 
-    !> What is asked.
-    type :: task_t
-        logical :: by_load = .true.        !! is the sum of s given, or the approach?
+    !> What is asked: a penetration above the lowest height of the grid, or a load, whose pressures
+    !> have the sum `total`.
+    type, extends(demand_t) :: task_t
         real(wp) :: total = 0.0_wp         !! sum of s, mm, > 0
-        real(wp) :: approach = 0.0_wp      !! D, mm, above the lowest height of the grid
         real(wp) :: tolerance = 1.0e-9_wp  !! largest |gap| in contact over the depth
         integer :: max_iterations = 200    !! at most
         logical :: preconditioned = .true. !! or plain conjugate gradients?
@@ -155,7 +155,7 @@ contains
             if (.not. any(s > 0.0_wp)) then
                 place = minloc(height)
                 s(place(1), place(2)) = 1.0_wp
-                if (.not. task%by_load) s = max(task%approach - height, 0.0_wp)
+                if (.not. task%by_load) s = max(task%penetration - height, 0.0_wp)
             end if
             minimiser%inside = merge(1.0_wp, 0.0_wp, s > 0.0_wp)
             if (task%by_load) s = s*(task%total/sum(s))
@@ -164,7 +164,7 @@ contains
             factor = 1.0_wp
             if (.not. task%by_load) then
                 ! The multiple of the start with the least energy.
-                work = sum(s*(task%approach - height))
+                work = sum(s*(task%penetration - height))
                 energy = sum(s*minimiser%av)
                 if (work > 0.0_wp .and. energy > 0.0_wp) then
                     factor = work/energy
@@ -202,7 +202,7 @@ contains
         real(wp) :: total, number
         integer :: i, j
 
-        approach = task%approach
+        approach = task%penetration
         if (.not. task%by_load) return
         total = 0.0_wp
         number = 0.0_wp

@@ -23,8 +23,8 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
-                                      strip_solve_penetration
+                                      reserve_strip_workspace, set_strip_gap, &
+                                      strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_faststrip, only: faststrip_solve, default_points
@@ -375,14 +375,8 @@ contains
         if (is_error(status)) return
         call set_strip_gap(workspace, contact%gap, status)
         if (is_error(status)) return
-        if (contact%demand%by_load) then
-            call strip_solve(workspace, normal_compliance(contact%material), &
-                             contact%demand%load, strip_options_t(), strips, normal, status)
-        else
-            call strip_solve_penetration(workspace, normal_compliance(contact%material), &
-                                         contact%demand%penetration, strip_options_t(), strips, &
-                                         normal, status)
-        end if
+        call strip_solve_demand(workspace, normal_compliance(contact%material), contact%demand, &
+                                strip_options_t(), strips, normal, status)
         if (is_error(status)) return
         call faststrip_solve(strips, contact%material, contact%mu, contact%creepage, &
                              default_points, forces, tangential_status)

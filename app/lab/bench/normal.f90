@@ -288,11 +288,11 @@ contains
             times%runs = run
             gap_us(run) = between - from
             us(run) = to - between
-            iterations(run) = result%effort%iterations
-            factorings(run) = result%effort%factorings
-            values(run) = result%effort%values
-            gradients(run) = result%effort%gradients
-            operations(run) = result%effort%operations
+            iterations(run) = result%cost%iterations
+            factorings(run) = result%cost%factorings
+            values(run) = result%cost%values
+            gradients(run) = result%cost%gradients
+            operations(run) = result%cost%operations
             call system_clock(now)
             if (microseconds(begin, now) > budget_us .and. &
                 (run >= fewest_runs .or. us(run) > budget_us)) exit

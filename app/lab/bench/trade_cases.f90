@@ -7,9 +7,9 @@ module faststrip_lab_bench_trade_cases
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_files_gap, only: read_gap_file
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_indicators, only: indicators_t, find_indicators
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
                                                    scene_material
@@ -24,14 +24,9 @@ module faststrip_lab_bench_trade_cases
         'penetration', 'pmax', 'area', 'Fx', 'Fy', 'Mz']
 
     !> One contact and what a reference finds for it.
-    type :: trade_case_t
+    type, extends(contact_case_t) :: trade_case_t
         character(len=:), allocatable :: set  !! where it comes from
         character(len=:), allocatable :: name !! its name there
-        type(gap_t) :: gap                    !! undeformed gap, mm
-        type(material_t) :: material          !! MPa
-        real(wp) :: mu = 0.0_wp               !! coefficient of friction
-        real(wp) :: load = 0.0_wp             !! normal force, N
-        type(creepage_t) :: creepage          !! about y = 0
         real(wp) :: truth(n_figures) = 0.0_wp !! as `figure_names`: mm, MPa, mm2, N, N, N mm
         logical :: area_counts = .true.       !! is the area known better than to an element?
         type(indicators_t) :: indicators      !! what is told before solving
@@ -183,8 +178,7 @@ contains
         if (is_error(status)) return
         call set_gap_curve(curve, case%gap, status)
         if (is_error(status)) return
-        call find_indicators(curve, case%material, case%mu, .true., case%load, 0.0_wp, &
-                             case%creepage, case%indicators, status)
+        call find_indicators(curve, case%contact_case_t, case%indicators, status)
     end subroutine tell
 
     subroutine read_columns(file, names, table, values, status)

@@ -5,15 +5,15 @@
 module faststrip_contact_indicators
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, clear_status
-    use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
+    use faststrip_base_material, only: normal_compliance, combined_shear_modulus, &
                                        combined_poisson_ratio
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_curvature
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand
     use faststrip_normal_strip_patches, only: patches_t
     use faststrip_normal_strip_start, only: start_patches
-    use faststrip_normal_types, only: goal_t
+    use faststrip_normal_types, only: demand_t, above_lowest
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_contact_case, only: contact_case_t
     implicit none
     private
 
@@ -41,15 +41,9 @@ module faststrip_contact_indicators
 contains
 
     !> Indicators of a contact under a load or a penetration.
-    pure subroutine find_indicators(curve, material, mu, by_load, load, penetration, creepage, &
-                                    indicators, status)
-        type(gap_curve_t), intent(in) :: curve   !! a gap that was set
-        type(material_t), intent(in) :: material !! moduli in MPa, checked
-        real(wp), intent(in) :: mu               !! coefficient of friction, >= 0
-        logical, intent(in) :: by_load           !! is the load given, or the penetration?
-        real(wp), intent(in) :: load             !! N, > 0 if it is given
-        real(wp), intent(in) :: penetration      !! approach from h = 0, mm
-        type(creepage_t), intent(in) :: creepage !! about y = 0
+    pure subroutine find_indicators(curve, case, indicators, status)
+        type(gap_curve_t), intent(in) :: curve   !! its gap, that was set
+        type(contact_case_t), intent(in) :: case !! demand, material, checked, mu and creepages
         type(indicators_t), intent(out) :: indicators !! of this contact
         type(status_t), intent(out) :: status
             !! `st_no_contact`, `st_out_of_range`, `st_not_finite`: there is no contact to tell of
@@ -57,33 +51,29 @@ contains
         type(hertz_t) :: hertz
         type(patches_t) :: patches
         type(status_t) :: ellipse
-        type(goal_t) :: goal
+        type(demand_t) :: demand
 
         call clear_status(status)
-        if (by_load) then
-            call hertz_solve_gap(curve, normal_compliance(material), load, hertz, ellipse)
-        else
-            call hertz_solve_gap_penetration(curve, normal_compliance(material), penetration, &
-                                             hertz, ellipse)
-        end if
+        call hertz_solve_gap_demand(curve, normal_compliance(case%material), case%demand_t, hertz, &
+                                    ellipse)
         indicators%misfit = no_ellipse
         if (.not. is_error(ellipse)) indicators%misfit = misfit_of(curve, hertz)
         if (indicators%misfit > large_misfit) then
-            goal = goal_t(by_load, load, penetration - curve%h_lowest)
-            if (.not. by_load .and. goal%penetration <= 0.0_wp) then
+            demand = above_lowest(case%demand_t, curve%h_lowest)
+            if (.not. demand%by_load .and. demand%penetration <= 0.0_wp) then
                 status = ellipse
                 return
             end if
-            call start_patches(curve, normal_compliance(material), goal, patches, &
+            call start_patches(curve, normal_compliance(case%material), demand, patches, &
                                hertz%penetration)
             hertz%a = patches%at(1)%seed_length
             hertz%b = 0.5_wp*sum(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)
             hertz%y = 0.5_wp*(patches%at(1)%y_from + patches%at(patches%n)%y_to)
-            hertz%load = load
-            if (.not. by_load) hertz%load = 2.0_wp/3.0_wp*patches%at(1)%seed_pressure &
+            hertz%load = demand%load
+            if (.not. demand%by_load) hertz%load = 2.0_wp/3.0_wp*patches%at(1)%seed_pressure &
                                             *acos(-1.0_wp)*hertz%a*hertz%b
         end if
-        call set_saturation(hertz, material, mu, creepage, indicators, status)
+        call set_saturation(hertz, case, indicators, status)
     end subroutine find_indicators
 
     !> Largest distance from the parabola, over the penetration.
@@ -109,11 +99,9 @@ contains
     end function misfit_of
 
     !> Kalker's linear forces of the estimated ellipse over mu N.
-    pure subroutine set_saturation(size, material, mu, creepage, indicators, status)
+    pure subroutine set_saturation(size, case, indicators, status)
         type(hertz_t), intent(in) :: size
-        type(material_t), intent(in) :: material
-        real(wp), intent(in) :: mu
-        type(creepage_t), intent(in) :: creepage
+        type(contact_case_t), intent(in) :: case
         type(indicators_t), intent(inout) :: indicators
         type(status_t), intent(out) :: status
 
@@ -122,20 +110,21 @@ contains
 
         indicators%a = size%a
         indicators%b = size%b
-        call kalker_coefficients(size%a/size%b, combined_poisson_ratio(material), c, status)
+        call kalker_coefficients(size%a/size%b, combined_poisson_ratio(case%material), c, status)
         if (is_error(status)) return
         indicators%saturation = no_friction
         ab = size%a*size%b
-        scale = combined_shear_modulus(material)*ab
-        along = c%c11*abs(creepage%cksi - size%y*creepage%cphi)
-        across = c%c22*abs(creepage%ceta)
-        turning = c%c23*sqrt(ab)*abs(creepage%cphi)
+        scale = combined_shear_modulus(case%material)*ab
+        along = c%c11*abs(case%creepage%cksi - size%y*case%creepage%cphi)
+        across = c%c22*abs(case%creepage%ceta)
+        turning = c%c23*sqrt(ab)*abs(case%creepage%cphi)
         if (max(along, across, turning) <= 0.0_wp) then
             indicators%saturation = 0.0_wp
             return
         end if
         indicators%spin_share = turning**2/(along**2 + across**2 + turning**2)
-        if (mu*size%load > scale*sqrt(along**2 + across**2 + turning**2)/no_friction) &
-            indicators%saturation = scale*sqrt(along**2 + across**2 + turning**2)/(mu*size%load)
+        if (case%mu*size%load > scale*sqrt(along**2 + across**2 + turning**2)/no_friction) &
+            indicators%saturation = scale*sqrt(along**2 + across**2 + turning**2) &
+                                    /(case%mu*size%load)
     end subroutine set_saturation
 end module faststrip_contact_indicators

@@ -10,21 +10,18 @@ module faststrip_contact_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument, st_under_resolved, &
                                      st_workspace_too_small
-    use faststrip_base_material, only: material_t, check_material, normal_compliance
-    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_material, only: check_material, normal_compliance
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_geometry_gap, only: gap_t, min_gap_points
+    use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap, hertz_solve_gap_penetration, &
-                                      hertz_strips
-    use faststrip_normal_limitations, only: default_resolution, check_resolution, &
-                                            name_resolution, add_limitation, &
+    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand, hertz_strips
+    use faststrip_normal_limitations, only: check_resolution, name_resolution, add_limitation, &
                                             check_penetration, name_steps
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, strip_solve, estimate_strips, &
-                                      strip_solve_penetration, strips_auto, strips_auto_most
+                                      reserve_strip_workspace, strip_solve_demand, &
+                                      estimate_strips, strips_auto, strips_auto_most
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
@@ -35,6 +32,7 @@ module faststrip_contact_solve
     use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
                                          law_shen_hedrick_elkins, law_polach
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
                                          normal_strip, normal_equal_area, tangential_none, &
                                          tangential_faststrip, tangential_faststrip_paper, &
@@ -57,22 +55,6 @@ module faststrip_contact_solve
 
     !> Most points of a gap.
     integer, parameter :: most_gap_points = 1000000
-
-    !> One contact to be solved.
-    type :: contact_case_t
-        type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
-        type(material_t) :: material       !! moduli in MPa
-        real(wp) :: mu = 0.3_wp            !! coefficient of friction
-        logical :: by_load = .true.        !! is the load given, or the penetration?
-        real(wp) :: load = 0.0_wp          !! normal force, N
-        real(wp) :: penetration = 0.0_wp   !! approach from h = 0, mm
-        type(creepage_t) :: creepage       !! about y = 0
-        type(contact_methods_t) :: methods !! methods and resolutions
-        logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
-        logical :: estimate = .true.       !! are the errors of strips estimated? Costs about a step
-        real(wp) :: resolution_limit = default_resolution
-            !! `st_under_resolved` names an estimated relative error above this, > 0
-    end type contact_case_t
 
     !> Figures of one contact.
     type :: contact_result_t
@@ -301,14 +283,8 @@ contains
                             'the workspace has room for fewer strips than the method may need')
             return
         end if
-        if (case%by_load) then
-            call strip_solve(workspace%solver, normal_compliance(case%material), case%load, &
-                             options, workspace%strips, normal, status)
-        else
-            call strip_solve_penetration(workspace%solver, normal_compliance(case%material), &
-                                         case%penetration, options, workspace%strips, normal, &
-                                         status)
-        end if
+        call strip_solve_demand(workspace%solver, normal_compliance(case%material), case%demand_t, &
+                                options, workspace%strips, normal, status)
         if (is_error(status)) return
         if (case%estimate) &
             call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
@@ -355,13 +331,8 @@ contains
         integer :: n
 
         associate (hertz => workspace%hertz, curve => workspace%solver%curve)
-            if (case%by_load) then
-                call hertz_solve_gap(curve, normal_compliance(case%material), case%load, hertz, &
-                                     status)
-            else
-                call hertz_solve_gap_penetration(curve, normal_compliance(case%material), &
-                                                 case%penetration, hertz, status)
-            end if
+            call hertz_solve_gap_demand(curve, normal_compliance(case%material), case%demand_t, &
+                                        hertz, status)
             if (is_error(status)) return
             normal%load = hertz%load
             normal%penetration = hertz%penetration + curve%h_lowest

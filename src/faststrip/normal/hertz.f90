@@ -17,11 +17,12 @@ module faststrip_normal_hertz
                                      st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
     public :: hertz_t, hertz_solve, hertz_solve_gap, hertz_solve_gap_penetration, hertz_strips
-    public :: put_hertz_strips
+    public :: hertz_solve_gap_demand, put_hertz_strips
 
     !> A Hertz contact.
     type :: hertz_t
@@ -205,6 +206,21 @@ contains
         hertz%y = curve%y_lowest
     end subroutine hertz_solve_gap
 
+    !> The same for a load or a penetration.
+    pure subroutine hertz_solve_gap_demand(curve, compliance, demand, hertz, status)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set, mm
+        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand   !! load or penetration
+        type(hertz_t), intent(out) :: hertz    !! the contact; zero when there is an error
+        type(status_t), intent(out) :: status  !! as `hertz_solve_gap_penetration`
+
+        if (demand%by_load) then
+            call hertz_solve_gap(curve, compliance, demand%load, hertz, status)
+        else
+            call hertz_solve_gap_penetration(curve, compliance, demand%penetration, hertz, status)
+        end if
+    end subroutine hertz_solve_gap_demand
+
     !> The same for a given penetration, from h = 0; the load is in the result.
     pure subroutine hertz_solve_gap_penetration(curve, compliance, penetration, hertz, status)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set, mm
@@ -235,7 +251,7 @@ contains
         if (is_error(status)) return
         ! Penetration goes with load^(2/3).
         call hertz_solve_gap(curve, compliance, sqrt(depth/unit_load%penetration)**3, hertz, &
-                             status)
+                            status)
     end subroutine hertz_solve_gap_penetration
 
     !> The Hertz ellipse cut into strips of equal width, with the load of each strip exact: half

@@ -41,6 +41,7 @@ module faststrip_normal_lattice
     use faststrip_normal_lattice_estimate, only: lattice_errors_t, lattice_figures_t, &
                                                  lattice_figures, estimate_errors
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
@@ -150,7 +151,8 @@ contains
             return
         end if
         call start_depth(curve, compliance, load, depth)
-        call solve(workspace, curve, compliance, load, .true., n_strips, strips, depth, status)
+        call solve(workspace, curve, compliance, demand_t(load=load), n_strips, strips, depth, &
+                   status)
         if (.not. is_error(status)) penetration = depth + curve%h_lowest
     end subroutine lattice_solve
 
@@ -178,7 +180,8 @@ contains
                             trim(number_text(curve%h_lowest)) // ' mm')
             return
         end if
-        call solve(workspace, curve, compliance, depth, .false., n_strips, strips, depth, status)
+        call solve(workspace, curve, compliance, demand_t(.false., penetration=depth), n_strips, &
+                   strips, depth, status)
     end subroutine lattice_solve_penetration
 
     !> Forget them: the next answer is not of a lattice.
@@ -274,13 +277,11 @@ contains
     end function start_load
 
     !> Lay lattices until nothing overlaps outside the patches.
-    subroutine solve(workspace, curve, compliance, target, by_load, n_strips, strips, depth, &
-                     status)
+    subroutine solve(workspace, curve, compliance, demand, n_strips, strips, depth, status)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance
-        real(wp), intent(in) :: target  ! load, N, or penetration above the lowest height, mm
-        logical, intent(in) :: by_load
+        type(demand_t), intent(in) :: demand ! the penetration above the lowest height
         integer, intent(in) :: n_strips
         type(contact_strips_t), intent(inout) :: strips
         real(wp), intent(inout) :: depth ! penetration above the lowest height: first guess, result
@@ -315,7 +316,7 @@ contains
                 call place_elements(elements, workspace%y_left(:n), workspace%y_right(:n), &
                                     workspace%height(:n), workspace%inv2r(:n), &
                                     workspace%reach(:n))
-                call solve_elements(elements, compliance, target, by_load, depth, solved)
+                call solve_elements(elements, compliance, demand, depth, solved)
                 if (.not. solved) exit
                 call element_columns(elements, n, workspace%p0(:n), workspace%half_length(:n))
                 workspace%presses(:n) = workspace%p0(:n) > 0.0_wp

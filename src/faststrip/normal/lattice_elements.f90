@@ -17,6 +17,7 @@ module faststrip_normal_lattice_elements
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_rectangle, only: rectangle_potential
     use faststrip_numerics_lu, only: lu_factor, lu_solve
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
@@ -159,11 +160,10 @@ contains
     !> fewer. If not, pressures stay positive from then on and carry the load: they go towards the
     !> solution for the elements that press as far as none is left without pressure, which lowers
     !> the energy, and elements join when that is reached.
-    subroutine solve_elements(elements, compliance, target, by_load, depth, solved)
+    subroutine solve_elements(elements, compliance, demand, depth, solved)
         type(elements_t), intent(inout) :: elements !! placed
         real(wp), intent(in) :: compliance          !! H, 1/MPa
-        real(wp), intent(in) :: target              !! load, N, or penetration, mm
-        logical, intent(in) :: by_load              !! which of them
+        type(demand_t), intent(in) :: demand        !! load, or penetration above the lowest height
         real(wp), intent(inout) :: depth            !! penetration above the lowest height, mm
         logical, intent(out) :: solved              !! or was a system singular? No pressures then
 
@@ -182,9 +182,10 @@ contains
             e%presses(:n) = e%height(:n) < start_level*unit
             if (.not. any(e%presses(:n))) e%presses(minloc(e%height(:n), dim=1)) = .true.
             do rounds = 1, max_rounds
-                call solve_pressing(e, 0.5_wp*target*compliance, by_load, unit, depth, singular)
+                call solve_pressing(e, 0.5_wp*demand%load*compliance, demand%by_load, unit, depth, &
+                                    singular)
                 if (singular) return
-                if (.not. by_load) depth = target
+                if (.not. demand%by_load) depth = demand%penetration
                 if (feasible) then
                     step = 1.0_wp
                     do i = 1, n
@@ -242,13 +243,14 @@ contains
                     fewest = n + 1
                     tries = 0
                     p(:n) = max(p(:n), 0.0_wp)
-                    if (by_load) p(:n) = p(:n)*(0.5_wp*target*compliance &
-                                                /dot_product(e%area(:n), p(:n)))
+                    if (demand%by_load) p(:n) = p(:n)*(0.5_wp*demand%load*compliance &
+                                                       /dot_product(e%area(:n), p(:n)))
                     e%presses(:n) = p(:n) > 0.0_wp
                 end if
             end do
             p(:n) = max(p(:n), 0.0_wp)
-            if (by_load) p(:n) = p(:n)*(0.5_wp*target*compliance/dot_product(e%area(:n), p(:n)))
+            if (demand%by_load) &
+                p(:n) = p(:n)*(0.5_wp*demand%load*compliance/dot_product(e%area(:n), p(:n)))
             p(:n) = p(:n)/compliance
             solved = any(p(:n) > 0.0_wp)
         end associate

@@ -31,7 +31,7 @@ module faststrip_normal_strip
                                             name_limitations, name_steps, add_limitation, &
                                             default_resolution
     use faststrip_normal_strips, only: contact_strips_t, strips_load, mirror_strips
-    use faststrip_normal_strip_equations, only: effort_work, step_work
+    use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_coupled, only: settle_coupled
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
@@ -41,7 +41,7 @@ module faststrip_normal_strip
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, place_strips, remember, mirror_old
     use faststrip_normal_strip_start, only: start_patches, resume_patches
-    use faststrip_normal_types, only: normal_result_t, goal_t
+    use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_geometry_gap_curve, only: mirror_gap_curve
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps, overlap_left
     implicit none
@@ -49,7 +49,7 @@ module faststrip_normal_strip
 
     public :: strip_options_t, strip_workspace_t
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
-    public :: estimate_strips
+    public :: strip_solve_demand, estimate_strips
     public :: fewest_strips, strips_auto, strips_auto_most
 
     !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
@@ -129,10 +129,27 @@ contains
             call set_status(status, st_bad_load, &
                             'the load is not positive: '//trim(number_text(load))//' N')
         else
-            call solve(workspace, compliance, goal_t(by_load=.true., load=load), options, strips, &
-                       result, status)
+            call solve(workspace, compliance, demand_t(load=load), options, strips, result, status)
         end if
     end subroutine strip_solve
+
+    !> The same for a load or a penetration.
+    subroutine strip_solve_demand(workspace, compliance, demand, options, strips, result, status)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
+        real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand       !! load or penetration
+        type(strip_options_t), intent(in) :: options !! number of strips, tolerance, start
+        type(contact_strips_t), intent(inout) :: strips !! reserved; the strips of the solution
+        type(normal_result_t), intent(out) :: result !! load, penetration, area, ...
+        type(status_t), intent(out) :: status      !! how it ended
+
+        if (demand%by_load) then
+            call strip_solve(workspace, compliance, demand%load, options, strips, result, status)
+        else
+            call strip_solve_penetration(workspace, compliance, demand%penetration, options, &
+                                         strips, result, status)
+        end if
+    end subroutine strip_solve_demand
 
     !> Solve the normal problem of the gap in the workspace for a penetration; the load is in the
     !> result. Errors as `strip_solve`, and `st_no_contact`: the bodies do not reach each other.
@@ -161,7 +178,7 @@ contains
                             //trim(number_text(penetration))//' mm, lowest gap ' &
                             //trim(number_text(workspace%curve%h_lowest))//' mm')
         else
-            call solve(workspace, compliance, goal_t(by_load=.false., penetration=depth), &
+            call solve(workspace, compliance, demand_t(by_load=.false., penetration=depth), &
                        options, strips, result, status)
         end if
     end subroutine strip_solve_penetration
@@ -169,7 +186,7 @@ contains
     subroutine solve(workspace, compliance, goal, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         type(strip_options_t), intent(in) :: options
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
@@ -239,7 +256,7 @@ contains
                       all_settled, status)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         type(strip_options_t), intent(in) :: options
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
@@ -308,7 +325,7 @@ contains
                 scratch = .true.
             end if
         end do
-        result%iterations = result%effort%iterations
+        result%iterations = result%cost%iterations
         if (n_settled == 0) then
             workspace%old%n = 0
             call fall_back(workspace, compliance, goal, &
@@ -398,7 +415,7 @@ contains
     subroutine fall_back(workspace, compliance, goal, strips_per_patch, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         integer, intent(in) :: strips_per_patch
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
@@ -425,7 +442,7 @@ contains
                       near, patches, penetration, strips, result, settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, tolerance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         integer, intent(in) :: strips_per_patch
         integer, intent(in) :: wanted ! strips per patch in the end
         logical, intent(in) :: near ! do the strips start near a solution?
@@ -458,7 +475,7 @@ contains
             if (patches%n == 0) exit
             call place_strips(workspace, patches, n)
             if (n > min(workspace%max_strips, size(strips%p0))) exit
-            if (effort_work(result%effort) > work_to_begin &
+            if (cost_work(result%cost) > work_to_begin &
                 + most_steps*step_work(max(n, wanted))) exit
             trial = penetration
             solved = patches
@@ -469,7 +486,7 @@ contains
                     workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
                     workspace%inv2r(:n), compliance, goal, pass_tolerance, &
                     workspace%p0(:n), workspace%half_length(:n), trial, workspace%leaves(:n), &
-                    result%effort, outcome, workspace%newton)
+                    result%cost, outcome, workspace%newton)
                 result%passes = result%passes + 1
                 if (outcome == newton_strips_leave) then
                     call cut_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
@@ -511,7 +528,7 @@ contains
             if (.not. coupled) cycle
             couplings = couplings + 1
             call settle_coupled(workspace, compliance, goal, tolerance, solved, trial, &
-                                result%effort, coupled)
+                                result%cost, coupled)
             if (.not. coupled) cycle
             patches = solved
             penetration = trial

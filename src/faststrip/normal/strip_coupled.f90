@@ -13,13 +13,13 @@
 module faststrip_normal_strip_coupled
     use faststrip_base_kinds, only: wp, pi
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: add_effort, strip_residual, strip_jacobian, &
+    use faststrip_normal_strip_equations, only: add_cost, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
     use faststrip_normal_strip_state, only: strip_workspace_t, place_edges
-    use faststrip_normal_types, only: goal_t, effort_t
+    use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
 
@@ -47,14 +47,14 @@ contains
     !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
     !> nothing of patches, penetration and the workspace's strips counts.
     pure subroutine settle_coupled(workspace, compliance, goal, tolerance, patches, penetration, &
-                                   effort, settled)
+                                   cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips placed and started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal             !! load or penetration
+        type(demand_t), intent(in) :: goal           !! load or penetration
         real(wp), intent(in) :: tolerance            !! relative size of what is left
         type(patches_t), intent(inout) :: patches    !! their ends move
         real(wp), intent(inout) :: penetration       !! above the lowest height, mm
-        type(effort_t), intent(inout) :: effort      !! increased
+        type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
         type(end_t) :: ends(2*max_patches)
@@ -76,14 +76,14 @@ contains
             if (exact) then
                 if (factored == max_factorings) return
                 factored = factored + 1
-                call add_effort(effort, n, m, .true., count(.not. ends(:n_ends)%fixed))
+                call add_cost(cost, n, m, .true., count(.not. ends(:n_ends)%fixed))
                 call factor(workspace, compliance, goal, patches, ends(:n_ends), n, penetration, &
                             p_scale, singular)
                 if (singular) return
                 workspace%newton%kept = .true.
                 updates = 0
             else
-                call add_effort(effort, n, m, .false., 1)
+                call add_cost(cost, n, m, .false., 1)
                 call residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
                               workspace%newton%step)
             end if
@@ -187,7 +187,7 @@ contains
     !> Keep the last factors only if they are of a system of the same kind.
     pure subroutine check_kept(newton, goal, patches, ends)
         type(newton_workspace_t), intent(inout) :: newton
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         type(patches_t), intent(in) :: patches
         type(end_t), intent(in) :: ends(:)
 
@@ -208,7 +208,7 @@ contains
     pure subroutine residual(workspace, compliance, goal, ends, n, penetration, missing)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         type(end_t), intent(in) :: ends(:)
         integer, intent(in) :: n
         real(wp), intent(in) :: penetration
@@ -240,7 +240,7 @@ contains
                            singular)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         type(patches_t), intent(in) :: patches
         type(end_t), intent(in) :: ends(:)
         integer, intent(in) :: n

@@ -15,11 +15,11 @@ module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
-    use faststrip_normal_types, only: goal_t, effort_t
+    use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
 
-    public :: add_effort, effort_work, step_work, strip_residual
+    public :: add_cost, cost_work, step_work, strip_residual
     public :: strip_jacobian, mark_leaving_strips
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
@@ -29,39 +29,39 @@ module faststrip_normal_strip_equations
 contains
 
     !> Count one step with n strips and m equations.
-    pure subroutine add_effort(effort, n, m, factored, residuals)
-        type(effort_t), intent(inout) :: effort !! added to
+    pure subroutine add_cost(cost, n, m, factored, residuals)
+        type(cost_t), intent(inout) :: cost !! added to
         integer, intent(in) :: n                !! strips
         integer, intent(in) :: m                !! equations
         logical, intent(in) :: factored         !! was a Jacobian factored?
         integer, intent(in) :: residuals        !! residuals taken besides
 
-        effort%iterations = effort%iterations + 1
-        effort%values = effort%values + 2*n*n*residuals
-        effort%operations = effort%operations + 2.0_wp*real(m, wp)**2
+        cost%iterations = cost%iterations + 1
+        cost%values = cost%values + 2*n*n*residuals
+        cost%operations = cost%operations + 2.0_wp*real(m, wp)**2
         if (.not. factored) return
-        effort%factorings = effort%factorings + 1
-        effort%gradients = effort%gradients + 2*n*n
-        effort%operations = effort%operations + 2.0_wp/3.0_wp*real(m, wp)**3
-    end subroutine add_effort
+        cost%factorings = cost%factorings + 1
+        cost%gradients = cost%gradients + 2*n*n
+        cost%operations = cost%operations + 2.0_wp/3.0_wp*real(m, wp)**3
+    end subroutine add_cost
 
     !> What was spent, in influence numbers: as many could have been computed in that time. One with
     !> its derivatives counts three, and 100 operations of the linear algebra count one.
-    pure real(wp) function effort_work(effort) result(work)
-        type(effort_t), intent(in) :: effort !! of a solution
+    pure real(wp) function cost_work(cost) result(work)
+        type(cost_t), intent(in) :: cost !! of a solution
 
-        work = real(effort%values, wp) + 3.0_wp*real(effort%gradients, wp) &
-               + 0.01_wp*effort%operations
-    end function effort_work
+        work = real(cost%values, wp) + 3.0_wp*real(cost%gradients, wp) &
+               + 0.01_wp*cost%operations
+    end function cost_work
 
     !> The same for one step of n strips with a Jacobian.
     pure real(wp) function step_work(n) result(work)
         integer, intent(in) :: n !! strips
 
-        type(effort_t) :: effort
+        type(cost_t) :: cost
 
-        call add_effort(effort, n, 2*n + 1, .true., 0)
-        work = effort_work(effort)
+        call add_cost(cost, n, 2*n + 1, .true., 0)
+        work = cost_work(cost)
     end function step_work
 
     !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
@@ -73,7 +73,7 @@ contains
         real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
         real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal       !! load or penetration
+        type(demand_t), intent(in) :: goal     !! load or penetration
         real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
         real(wp), intent(in) :: half_length(:) !! xd, (n), mm
         real(wp), intent(in) :: penetration    !! D above the lowest height, mm
@@ -105,7 +105,7 @@ contains
         real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
         real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal       !! load or penetration
+        type(demand_t), intent(in) :: goal     !! load or penetration
         real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
         real(wp), intent(in) :: half_length(:) !! xd, (n), mm
         real(wp), intent(in) :: penetration    !! D above the lowest height, mm
@@ -166,7 +166,7 @@ contains
     pure subroutine start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, &
                                    penetration, missing, y)
         real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:)
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         real(wp), intent(in) :: p0(:), half_length(:), penetration
         real(wp), intent(inout) :: missing(:), y(:)
 

@@ -2,9 +2,9 @@
 module faststrip_normal_strip_newton
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: add_effort, strip_jacobian, mark_leaving_strips
+    use faststrip_normal_strip_equations, only: add_cost, strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_patches, only: max_patches
-    use faststrip_normal_types, only: goal_t, effort_t
+    use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
 
@@ -65,19 +65,19 @@ contains
 
     !> Pressures, half-lengths and penetration of strips with given edges under a given load.
     subroutine solve_strips(y_left, y_right, height, inv2r, compliance, goal, tolerance, p0, &
-                            half_length, penetration, leaves, effort, outcome, workspace)
+                            half_length, penetration, leaves, cost, outcome, workspace)
         real(wp), intent(in) :: y_left(:)        !! left edges, (n), mm
         real(wp), intent(in) :: y_right(:)       !! right edges, (n), mm
         real(wp), intent(in) :: height(:)        !! h on the centre lines, above the lowest, (n), mm
         real(wp), intent(in) :: inv2r(:)         !! A on the centre lines, positive, (n), 1/mm
         real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal         !! load or penetration
+        type(demand_t), intent(in) :: goal       !! load or penetration
         real(wp), intent(in) :: tolerance        !! relative size of the last step
         real(wp), intent(inout) :: p0(:)         !! start and result, (n), MPa
         real(wp), intent(inout) :: half_length(:) !! start and result, (n), mm
         real(wp), intent(inout) :: penetration   !! D above the lowest height, mm
         logical, intent(out) :: leaves(:)        !! strips that leave the contact, (n)
-        type(effort_t), intent(inout) :: effort  !! increased
+        type(cost_t), intent(inout) :: cost      !! increased
         integer, intent(out) :: outcome          !! one of the `newton_` codes
         type(newton_workspace_t), intent(inout) :: workspace !! reserved for n strips
 
@@ -105,11 +105,11 @@ contains
                 if (missing > most_growth*missing_before .and. backs < max_backs) then
                     ! The step led too far: a part of it from where it began.
                     backs = backs + 1
-                    call add_effort(effort, n, 0, .false., 1)
+                    call add_cost(cost, n, 0, .false., 1)
                     limit = part*limit
                 else
                     backs = 0
-                    call add_effort(effort, n, 2*n + 1, .true., 0)
+                    call add_cost(cost, n, 2*n + 1, .true., 0)
                     missing_before = missing
                     p_scale = largest
                     call lu_factor(2*n + 1, workspace%jacobian, workspace%pivot, singular)

@@ -6,7 +6,7 @@ module faststrip_normal_strip_start
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
-    use faststrip_normal_types, only: goal_t
+    use faststrip_normal_types, only: demand_t
     implicit none
     private
 
@@ -22,7 +22,7 @@ contains
     pure subroutine start_patches(curve, compliance, goal, patches, penetration)
         type(gap_curve_t), intent(in) :: curve      !! a gap that was set
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
-        type(goal_t), intent(in) :: goal            !! load or penetration
+        type(demand_t), intent(in) :: goal          !! load or penetration
         type(patches_t), intent(out) :: patches     !! not yet shared into strips
         real(wp), intent(out) :: penetration        !! above the lowest height, mm
 
@@ -71,7 +71,7 @@ contains
     !> lengths and pressures with load^(1/3), the penetration with load^(2/3).
     pure subroutine resume_patches(workspace, goal, patches, penetration)
         type(strip_workspace_t), intent(inout) :: workspace !! with a solution remembered
-        type(goal_t), intent(in) :: goal                    !! load or penetration
+        type(demand_t), intent(in) :: goal                  !! load or penetration
         type(patches_t), intent(out) :: patches             !! not yet shared into strips
         real(wp), intent(out) :: penetration                !! above the lowest height, mm
 
@@ -102,7 +102,7 @@ contains
     pure subroutine fit_ellipse(curve, compliance, goal, level, y_from, y_to, n, hertz, wider)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance
-        type(goal_t), intent(in) :: goal
+        type(demand_t), intent(in) :: goal
         real(wp), intent(in) :: level ! from the lowest point
         real(wp), intent(inout) :: y_from(:), y_to(:)
         integer, intent(out) :: n

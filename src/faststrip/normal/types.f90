@@ -1,26 +1,27 @@
-!> What every normal method takes and gives: what is prescribed, the figures, what they took.
+!> What every normal method takes and gives: what is prescribed, the figures, what they cost.
 module faststrip_normal_types
     use faststrip_base_kinds, only: wp
     implicit none
     private
 
-    public :: goal_t, normal_result_t, effort_t
+    public :: demand_t, above_lowest, normal_result_t, cost_t
 
-    !> What is prescribed: the load, or the penetration.
-    type :: goal_t
-        logical :: by_load = .true.
-        real(wp) :: load = 0.0_wp        !! N
-        real(wp) :: penetration = 0.0_wp !! above the lowest height, mm
-    end type goal_t
+    !> What is prescribed: the load, or the penetration. Nothing else says so: a contact
+    !> (`faststrip_contact_case`) extends it.
+    type :: demand_t
+        logical :: by_load = .true.      !! is the load given, or the penetration?
+        real(wp) :: load = 0.0_wp        !! normal force, N
+        real(wp) :: penetration = 0.0_wp !! approach from h = 0, mm
+    end type demand_t
 
-    !> What a solution took.
-    type :: effort_t
+    !> What a solution cost.
+    type :: cost_t
         integer :: iterations = 0 !! steps
         integer :: factorings = 0 !! those of them for which a Jacobian was factored
         integer :: values = 0     !! influence numbers computed
         integer :: gradients = 0  !! influence numbers computed with their derivatives
         real(wp) :: operations = 0.0_wp !! of the linear algebra, multiplications and additions
-    end type effort_t
+    end type cost_t
 
     !> Figures of a solution.
     type :: normal_result_t
@@ -35,6 +36,17 @@ module faststrip_normal_types
         integer :: strips_across = 0     !! strips across the patch that has most, 0: no strips
         integer :: passes = 0            !! how often the ends were moved
         integer :: iterations = 0        !! steps of all passes
-        type(effort_t) :: effort         !! what it took
+        type(cost_t) :: cost         !! what it took
     end type normal_result_t
+
+contains
+
+    !> The same demand where h = 0 is the lowest point of the gap: strips count from there.
+    pure type(demand_t) function above_lowest(demand, h_lowest)
+        type(demand_t), intent(in) :: demand !! from the h = 0 of the gap
+        real(wp), intent(in) :: h_lowest     !! lowest height of the gap, mm
+
+        above_lowest = demand_t(demand%by_load, demand%load, demand%penetration)
+        if (.not. demand%by_load) above_lowest%penetration = demand%penetration - h_lowest
+    end function above_lowest
 end module faststrip_normal_types

@@ -1,0 +1,29 @@
+!> One contact to be solved: what case files, rows of a batch, benches and the faces fill, and what
+!> every method takes. What only one of them needs extends it.
+module faststrip_contact_case
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_material, only: material_t
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_normal_limitations, only: default_resolution
+    use faststrip_normal_types, only: demand_t
+    use faststrip_contact_methods, only: contact_methods_t
+    implicit none
+    private
+
+    public :: contact_case_t
+
+    !> One contact to be solved. What is prescribed, `by_load`, `load` or `penetration`, is its
+    !> `demand_t`.
+    type, extends(demand_t) :: contact_case_t
+        type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
+        type(material_t) :: material       !! moduli in MPa
+        real(wp) :: mu = 0.3_wp            !! coefficient of friction
+        type(creepage_t) :: creepage       !! about y = 0
+        type(contact_methods_t) :: methods !! methods and resolutions
+        logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
+        logical :: estimate = .true.       !! are the errors of strips estimated? Costs about a step
+        real(wp) :: resolution_limit = default_resolution
+            !! `st_under_resolved` names an estimated relative error above this, > 0
+    end type contact_case_t
+end module faststrip_contact_case
