@@ -62,25 +62,27 @@ enum faststrip_base_status {
     FASTSTRIP_NO_FINITE_PATCH = 113
 };
 
+/* BEGIN methods, written by tools/methods.py */
 enum faststrip_normal {
     FASTSTRIP_NORMAL_STRIP = 1,        /* strips: any patch, any number of patches */
     FASTSTRIP_NORMAL_HERTZ = 2,        /* the Hertz ellipse where the gap is lowest */
-    FASTSTRIP_NORMAL_EQUAL_AREA = 3,   /* the strips' patches as ellipses, proportions of Hertz */
+    FASTSTRIP_NORMAL_EQUAL_AREA = 3,   /* patches as ellipses of equal area, proportions of Hertz */
     FASTSTRIP_NORMAL_EQUAL_MOMENTS = 4 /* the same, proportions of the second moments */
 };
 
 enum faststrip_tangential {
-    FASTSTRIP_TANGENTIAL_NONE = 0,      /* no creep forces */
-    FASTSTRIP_TANGENTIAL_FASTSTRIP = 1, /* marching in the strips */
-    FASTSTRIP_TANGENTIAL_FASTSIM = 2,   /* Kalker's FASTSIM on the patches' ellipses */
+    FASTSTRIP_TANGENTIAL_NONE = 0,                /* no forces */
+    FASTSTRIP_TANGENTIAL_FASTSTRIP = 1,           /* marching in the strips: the best fast one */
+    FASTSTRIP_TANGENTIAL_FASTSIM = 2,             /* Kalker's FASTSIM on the patches' ellipses */
     FASTSTRIP_TANGENTIAL_FASTSTRIP_PAPER = 3,     /* TFASTSTRIP as printed */
     FASTSTRIP_TANGENTIAL_FASTSTRIP_CORRECTED = 4, /* TFASTSTRIP as corrected */
-    FASTSTRIP_TANGENTIAL_FASTSIM_ELLIPTIC = 5,    /* FASTSIM with the elliptic bound */
+    FASTSTRIP_TANGENTIAL_FASTSIM_ELLIPTIC = 5,    /* FASTSIM with the elliptic traction bound */
     FASTSTRIP_TANGENTIAL_FASTSIM_WEIGHTED = 6,    /* FASTSIM with a single flexibility */
-    FASTSTRIP_TANGENTIAL_LINEAR = 7, /* Kalker's linear theory; no elements, nor have */
-    FASTSTRIP_TANGENTIAL_SHE = 8,    /* Shen, Hedrick and Elkins, and */
-    FASTSTRIP_TANGENTIAL_POLACH = 9  /* Polach */
+    FASTSTRIP_TANGENTIAL_LINEAR = 7,              /* Kalker's linear theory; no elements */
+    FASTSTRIP_TANGENTIAL_SHE = 8,                 /* Shen, Hedrick and Elkins; no elements */
+    FASTSTRIP_TANGENTIAL_POLACH = 9               /* Polach; no elements */
 };
+/* END methods */
 
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {

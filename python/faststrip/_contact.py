@@ -40,11 +40,26 @@ from ._library import (
 
 Array = npt.NDArray[np.float64]
 
-NORMAL = {"strip": 1, "hertz": 2, "equal_area": 3, "equal_moments": 4}
-TANGENTIAL = {
-    "none": 0, "faststrip": 1, "fastsim": 2, "faststrip-paper": 3, "faststrip-corrected": 4,
-    "fastsim-elliptic": 5, "fastsim-weighted": 6, "linear": 7, "she": 8, "polach": 9,
+# BEGIN methods, written by tools/methods.py
+NORMAL = {
+    "strip": 1,          # strips: any patch, any number of patches
+    "hertz": 2,          # the Hertz ellipse where the gap is lowest
+    "equal_area": 3,     # patches as ellipses of equal area, proportions of Hertz
+    "equal_moments": 4,  # the same, proportions of the second moments
 }
+TANGENTIAL = {
+    "none": 0,                 # no forces
+    "faststrip": 1,            # marching in the strips: the best fast one
+    "fastsim": 2,              # Kalker's FASTSIM on the patches' ellipses
+    "faststrip-paper": 3,      # TFASTSTRIP as printed
+    "faststrip-corrected": 4,  # TFASTSTRIP as corrected
+    "fastsim-elliptic": 5,     # FASTSIM with the elliptic traction bound
+    "fastsim-weighted": 6,     # FASTSIM with a single flexibility
+    "linear": 7,               # Kalker's linear theory; no elements
+    "she": 8,                  # Shen, Hedrick and Elkins; no elements
+    "polach": 9,               # Polach; no elements
+}
+# END methods
 
 # Limits of the library.
 MOST_STRIPS = 1000
@@ -206,14 +221,12 @@ class _Workspace:
 class Contact:
     """One wheel on one rail: methods, the room they need, the gap, the last solution.
 
-    normal: ``strip`` (any patch), ``hertz``, ``equal_area`` or ``equal_moments``;
-    tangential: ``faststrip``, ``fastsim``, ``none``; to compare with, ``faststrip-paper``,
-    ``faststrip-corrected``, ``fastsim-elliptic``, ``fastsim-weighted`` and, for forces alone,
-    ``linear``, ``she``, ``polach``. strips_per_patch is 1 to 1000, or ``auto``. estimate: are the
-    errors of strips estimated, which costs about one step? A result whose estimated relative error
-    of pmax is above resolution_limit is called ``under_resolved``. Use one Contact per thread;
-    calls release Python's lock while they compute. Ctrl-C ends a call; after that the contact needs
-    a gap again.
+    normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
+    each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
+    estimate: are the errors of strips estimated, which costs about one step? A result whose
+    estimated relative error of pmax is above resolution_limit is called ``under_resolved``. Use one
+    Contact per thread; calls release Python's lock while they compute. Ctrl-C ends a call; after
+    that the contact needs a gap again.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",

@@ -53,15 +53,17 @@ module faststrip
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name, method_name_length, &
-                                         normal_strip, normal_hertz, normal_equal_area, &
-                                         normal_equal_moments, tangential_none, &
-                                         tangential_faststrip, tangential_fastsim, &
-                                         tangential_faststrip_paper, &
+                                         gives_elements, gives_stick
+    ! BEGIN methods, written by tools/methods.py
+    use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_equal_area, &
+                                         normal_equal_moments, normal_norm, normal_auto, &
+                                         tangential_none, tangential_faststrip, &
+                                         tangential_fastsim, tangential_faststrip_paper, &
                                          tangential_faststrip_corrected, &
-                                         tangential_fastsim_elliptic, &
-                                         tangential_fastsim_weighted, tangential_linear, &
-                                         tangential_she, tangential_polach, gives_elements, &
-                                         gives_stick
+                                         tangential_fastsim_elliptic, tangential_fastsim_weighted, &
+                                         tangential_linear, tangential_she, tangential_polach, &
+                                         tangential_tang
+    ! END methods
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: contact_result_t, workspace_t, &
                                        reserve_workspace, reserve_contact_field, &

@@ -1,6 +1,7 @@
 !> Which methods a contact is solved by, and how finely: numbers for programs, names for people.
 module faststrip_contact_methods
-    use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                     st_bad_argument
     use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points
     implicit none
@@ -8,39 +9,103 @@ module faststrip_contact_methods
 
     public :: contact_methods_t, check_contact_methods, normal_method, tangential_method
     public :: normal_method_name, tangential_method_name, method_name_length
-    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments
-    public :: tangential_none, tangential_faststrip, tangential_fastsim
-    public :: tangential_faststrip_paper, tangential_faststrip_corrected
-    public :: tangential_fastsim_elliptic, tangential_fastsim_weighted
-    public :: tangential_linear, tangential_she, tangential_polach
+    public :: method_t, normal_table, tangential_table
     public :: gives_elements, gives_stick
     public :: most_strips, most_rows
 
-    integer, parameter :: normal_strip = 1         !! strips
-    integer, parameter :: normal_hertz = 2         !! the Hertz ellipse where the gap is lowest
-    integer, parameter :: normal_equal_area = 3    !! the strips' patches as ellipses of their area,
-                                                   !! proportions of Hertz
-    integer, parameter :: normal_equal_moments = 4 !! the same, proportions of the second moments
-
-    integer, parameter :: tangential_none = 0      !! no forces
-    integer, parameter :: tangential_faststrip = 1 !! marching in the strips
-    integer, parameter :: tangential_fastsim = 2   !! Kalker's, on the patches' ellipses
-    integer, parameter :: tangential_faststrip_paper = 3     !! TFASTSTRIP as printed
-    integer, parameter :: tangential_faststrip_corrected = 4 !! TFASTSTRIP as corrected
-    integer, parameter :: tangential_fastsim_elliptic = 5    !! FASTSIM with the elliptic bound
-    integer, parameter :: tangential_fastsim_weighted = 6    !! FASTSIM with a single flexibility
-    integer, parameter :: tangential_linear = 7 !! Kalker's linear theory; forces only, like
-    integer, parameter :: tangential_she = 8    !! Shen, Hedrick and Elkins, and
-    integer, parameter :: tangential_polach = 9 !! Polach
-
     !> Length of a method's name, characters.
     integer, parameter :: method_name_length = 24
-    character(len=method_name_length), parameter :: normal_names(4) = &
-        [character(len=method_name_length) :: 'strip', 'hertz', 'equal_area', 'equal_moments']
-    character(len=method_name_length), parameter :: tangential_names(0:9) = &
-        [character(len=method_name_length) :: 'none', 'faststrip', 'fastsim', &
-         'faststrip-paper', 'faststrip-corrected', 'fastsim-elliptic', 'fastsim-weighted', &
-         'linear', 'she', 'polach']
+
+    !> One method.
+    type :: method_t
+        integer :: number = -1                        !! for programs
+        character(len=method_name_length) :: name = '' !! for people
+        character(len=16) :: needs = ''               !! what it works on, or the library it needs
+        character(len=96) :: help = ''                !! what it is, in one line
+        logical :: in_core = .true.                   !! is it in the embeddable core?
+        logical :: gives_elements = .true.            !! tractions, or forces only?
+        logical :: gives_stick = .true.               !! how much of the contact sticks?
+    end type method_t
+
+    ! Numbers of the methods, from the tables below; written by tools/methods.py.
+    ! BEGIN methods
+    integer, parameter, public :: normal_strip = 1
+        !! strips: any patch, any number of patches
+    integer, parameter, public :: normal_hertz = 2
+        !! the Hertz ellipse where the gap is lowest
+    integer, parameter, public :: normal_equal_area = 3
+        !! patches as ellipses of equal area, proportions of Hertz
+    integer, parameter, public :: normal_equal_moments = 4
+        !! the same, proportions of the second moments
+    integer, parameter, public :: normal_norm = 5
+        !! NORM, Kalker's variational method: the reference
+    integer, parameter, public :: normal_auto = 6
+        !! both methods, the cheapest expected to do
+    integer, parameter, public :: tangential_none = 0
+        !! no forces
+    integer, parameter, public :: tangential_faststrip = 1
+        !! marching in the strips: the best fast one
+    integer, parameter, public :: tangential_fastsim = 2
+        !! Kalker's FASTSIM on the patches' ellipses
+    integer, parameter, public :: tangential_faststrip_paper = 3
+        !! TFASTSTRIP as printed
+    integer, parameter, public :: tangential_faststrip_corrected = 4
+        !! TFASTSTRIP as corrected
+    integer, parameter, public :: tangential_fastsim_elliptic = 5
+        !! FASTSIM with the elliptic traction bound
+    integer, parameter, public :: tangential_fastsim_weighted = 6
+        !! FASTSIM with a single flexibility
+    integer, parameter, public :: tangential_linear = 7
+        !! Kalker's linear theory; no elements
+    integer, parameter, public :: tangential_she = 8
+        !! Shen, Hedrick and Elkins; no elements
+    integer, parameter, public :: tangential_polach = 9
+        !! Polach; no elements
+    integer, parameter, public :: tangential_tang = 10
+        !! TANG, Kalker's variational method: the reference
+    ! END methods
+
+    ! The one list of the methods. From it come the names of the command line and its help; and,
+    ! written by tools/methods.py, the numbers above, what `use faststrip` gives, the enumerations
+    ! of the C header, the comment of the F77 face, Python's dictionaries, the README's tables.
+    ! A number stays for ever: host programs know it.
+
+    !> The normal methods, in the order that people see.
+    type(method_t), parameter :: normal_table(*) = [ &
+        method_t(1, 'strip', needs='LAPACK', &
+                 help='strips: any patch, any number of patches'), &
+        method_t(2, 'hertz', needs='an ellipse', &
+                 help='the Hertz ellipse where the gap is lowest'), &
+        method_t(3, 'equal_area', needs='LAPACK', &
+                 help='patches as ellipses of equal area, proportions of Hertz'), &
+        method_t(4, 'equal_moments', needs='LAPACK', &
+                 help='the same, proportions of the second moments'), &
+        method_t(5, 'norm', needs='FFTW', in_core=.false., &
+                 help='NORM, Kalker''s variational method: the reference'), &
+        method_t(6, 'auto', needs='FFTW', in_core=.false., &
+                 help='both methods, the cheapest expected to do')]
+
+    !> The tangential methods, in the order that people see.
+    type(method_t), parameter :: tangential_table(*) = [ &
+        method_t(1, 'faststrip', needs='strips', &
+                 help='marching in the strips: the best fast one'), &
+        method_t(3, 'faststrip-paper', needs='strips', help='TFASTSTRIP as printed'), &
+        method_t(4, 'faststrip-corrected', needs='strips', help='TFASTSTRIP as corrected'), &
+        method_t(2, 'fastsim', needs='ellipses', &
+                 help='Kalker''s FASTSIM on the patches'' ellipses'), &
+        method_t(5, 'fastsim-elliptic', needs='ellipses', &
+                 help='FASTSIM with the elliptic traction bound'), &
+        method_t(6, 'fastsim-weighted', needs='ellipses', &
+                 help='FASTSIM with a single flexibility'), &
+        method_t(7, 'linear', needs='ellipses', gives_elements=.false., &
+                 help='Kalker''s linear theory'), &
+        method_t(8, 'she', needs='ellipses', gives_elements=.false., gives_stick=.false., &
+                 help='Shen, Hedrick and Elkins'), &
+        method_t(9, 'polach', needs='ellipses', gives_elements=.false., gives_stick=.false., &
+                 help='Polach'), &
+        method_t(10, 'tang', needs='FFTW', in_core=.false., &
+                 help='TANG, Kalker''s variational method: the reference'), &
+        method_t(0, 'none', help='no forces')]
 
     !> Most strips per patch.
     integer, parameter :: most_strips = 1000
@@ -65,15 +130,14 @@ contains
         type(status_t), intent(out) :: status          !! `st_bad_argument`
 
         call clear_status(status)
-        if (methods%normal < 1 .or. methods%normal > size(normal_names)) then
-            call set_status(status, st_bad_argument, 'no such normal method: ' // &
-                            count_text(methods%normal))
-        else if (methods%tangential < 0 .or. methods%tangential > ubound(tangential_names, 1)) then
-            call set_status(status, st_bad_argument, 'no such tangential method: ' // &
-                            count_text(methods%tangential))
-        else if ((methods%strips_per_patch < 1 .and. &
-                  methods%strips_per_patch /= strips_auto) .or. &
-                 methods%strips_per_patch > most_strips) then
+        call check_method('normal', row_of(normal_table, methods%normal), methods%normal, status)
+        if (is_error(status)) return
+        call check_method('tangential', row_of(tangential_table, methods%tangential), &
+                          methods%tangential, status)
+        if (is_error(status)) return
+        if ((methods%strips_per_patch < 1 .and. &
+             methods%strips_per_patch /= strips_auto) .or. &
+            methods%strips_per_patch > most_strips) then
             call set_status(status, st_bad_argument, 'strips per patch must be 1 to 1000, or ' // &
                             '0 (left to the solver), got ' // &
                             count_text(methods%strips_per_patch))
@@ -89,19 +153,34 @@ contains
         end if
     end subroutine check_contact_methods
 
+    !> Refuse a number that the table has no method of the core for.
+    pure subroutine check_method(part, method, number, status)
+        character(len=*), intent(in) :: part
+        type(method_t), intent(in) :: method ! its row
+        integer, intent(in) :: number
+        type(status_t), intent(inout) :: status
+
+        if (method%number < 0) then
+            call set_status(status, st_bad_argument, 'no such ' // part // ' method: ' // &
+                            count_text(number))
+        else if (.not. method%in_core) then
+            call set_status(status, st_bad_argument, 'no ' // part // ' method of the core: ' // &
+                            trim(count_text(number)) // ', ' // method%name)
+        end if
+    end subroutine check_method
+
     !> The number of the normal method of this name; -1 if there is none.
     pure integer function normal_method(name)
         character(len=*), intent(in) :: name !! lower case, trailing blanks do not matter
 
-        normal_method = position(name, normal_names)
-        if (normal_method == 0) normal_method = -1
+        normal_method = number_of(normal_table, name)
     end function normal_method
 
     !> The number of the tangential method of this name; -1 if there is none.
     pure integer function tangential_method(name)
         character(len=*), intent(in) :: name !! lower case, trailing blanks do not matter
 
-        tangential_method = position(name, tangential_names) - 1
+        tangential_method = number_of(tangential_table, name)
     end function tangential_method
 
     !> The name of a normal method; blank if there is none.
@@ -109,8 +188,7 @@ contains
         integer, intent(in) :: method            !! one of the `normal_` numbers
         character(len=method_name_length) :: name !! blank-padded
 
-        name = ''
-        if (method >= 1 .and. method <= size(normal_names)) name = normal_names(method)
+        name = name_of(normal_table, method)
     end function normal_method_name
 
     !> The name of a tangential method; blank if there is none.
@@ -118,31 +196,58 @@ contains
         integer, intent(in) :: method            !! one of the `tangential_` numbers
         character(len=method_name_length) :: name !! blank-padded
 
-        name = ''
-        if (method >= 0 .and. method <= ubound(tangential_names, 1)) &
-            name = tangential_names(method)
+        name = name_of(tangential_table, method)
     end function tangential_method_name
 
     !> Does a tangential method know tractions, or forces only?
     elemental logical function gives_elements(method)
         integer, intent(in) :: method !! one of the `tangential_` numbers
 
-        gives_elements = method /= tangential_linear .and. method /= tangential_she &
-                         .and. method /= tangential_polach
+        gives_elements = any(tangential_table%number == method .and. &
+                             tangential_table%gives_elements)
     end function gives_elements
 
     !> Does a tangential method know how much of the contact sticks?
     elemental logical function gives_stick(method)
         integer, intent(in) :: method !! one of the `tangential_` numbers
 
-        gives_stick = gives_elements(method) .or. method == tangential_linear
+        gives_stick = any(tangential_table%number == method .and. tangential_table%gives_stick)
     end function gives_stick
 
-    pure integer function position(name, names)
-        character(len=*), intent(in) :: name, names(:)
+    !> The row of a number; number -1 if there is none.
+    pure type(method_t) function row_of(table, number) result(row)
+        type(method_t), intent(in) :: table(:)
+        integer, intent(in) :: number
 
-        do position = size(names), 1, -1
-            if (names(position) == name) return
+        integer :: i
+
+        do i = 1, size(table)
+            if (table(i)%number == number) row = table(i)
         end do
-    end function position
+    end function row_of
+
+    pure function name_of(table, number) result(name)
+        type(method_t), intent(in) :: table(:)
+        integer, intent(in) :: number
+        character(len=method_name_length) :: name
+
+        integer :: i
+
+        name = ''
+        do i = 1, size(table)
+            if (table(i)%number == number) name = table(i)%name
+        end do
+    end function name_of
+
+    pure integer function number_of(table, name) result(number)
+        type(method_t), intent(in) :: table(:)
+        character(len=*), intent(in) :: name
+
+        integer :: i
+
+        number = -1
+        do i = 1, size(table)
+            if (table(i)%name == name) number = table(i)%number
+        end do
+    end function number_of
 end module faststrip_contact_methods

@@ -1,0 +1,94 @@
+"""The one list of methods: what repeats it is as the list says, and a new row reaches all of it."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+import methods  # noqa: E402
+
+
+class Methods(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.copy = pathlib.Path(folder.name)
+        for path in methods.TARGETS:
+            (self.copy / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / path, self.copy / path)
+
+    def run_tool(self, *words):
+        return subprocess.run(
+            [sys.executable, ROOT / "tools" / "methods.py", "--root", self.copy, *words],
+            capture_output=True, encoding="utf-8", check=False)
+
+    def change(self, path, old, new):
+        text = (self.copy / path).read_text(encoding="utf-8")
+        self.assertEqual(text.count(old), 1, old)
+        (self.copy / path).write_text(text.replace(old, new), encoding="utf-8")
+
+    def read(self, path):
+        return (self.copy / path).read_text(encoding="utf-8")
+
+    def test_all_that_repeats_the_list_is_as_it_says(self):
+        done = self.run_tool("--check")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_what_was_changed_by_hand_is_told(self):
+        self.change("include/faststrip.h", "FASTSTRIP_TANGENTIAL_SHE = 8,",
+                    "FASTSTRIP_TANGENTIAL_SHE = 9,")
+        done = self.run_tool("--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("include/faststrip.h", done.stderr)
+        self.assertNotIn("docs/usage.md", done.stderr)
+
+    def test_a_new_row_reaches_all_that_repeats_it(self):
+        self.change(methods.LIST, "        method_t(9, 'polach'",
+                    "        method_t(11, 'new-one', needs='strips', gives_elements=.false., &\n"
+                    "                 help='what''s new (11)'), &\n"
+                    "        method_t(9, 'polach'")
+        self.assertEqual(self.run_tool("--check").returncode, 1)
+        self.assertEqual(self.run_tool().returncode, 0)
+        self.assertEqual(self.run_tool("--check").returncode, 0)
+        for path, words in (
+            (methods.LIST, "public :: tangential_new_one = 11"),
+            ("src/faststrip/faststrip.f90", " tangential_new_one"),
+            ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 11"),
+            ("src/faststrip/interop/f77.f90", "11 new-one"),
+            ("python/faststrip/_contact.py", '"new-one": 11,'),
+            ("docs/usage.md", "| `new-one` | what's new (11); no elements | strips |"),
+        ):
+            self.assertIn(words, self.read(path), path)
+
+    def test_methods_outside_the_core_are_not_told_to_its_hosts(self):
+        listed = methods.read_methods(self.read(methods.LIST))
+        outside = [m.name for part in listed.values() for m in part if not m.in_core]
+        self.assertEqual(outside, ["norm", "auto", "tang"])
+        for name in outside:
+            self.assertNotIn(f'"{name}":', self.read("python/faststrip/_contact.py"))
+            self.assertNotRegex(self.read("include/faststrip.h"), f"FASTSTRIP_[A-Z]+_{name.upper()}")
+
+    def test_a_list_that_makes_no_sense_is_refused(self):
+        for old, new, says in (
+            ("method_t(9, 'polach'", "method_t(8, 'polach'", "number"),
+            ("method_t(9, 'polach'", "method_t(9, 'she'", "name"),
+            ("help='Polach'", "help='" + 90 * "x" + "'", "too long"),
+        ):
+            with self.subTest(new):
+                self.setUp()
+                self.change(methods.LIST, old, new)
+                done = self.run_tool("--check")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(says, done.stderr)
+
+    def test_every_file_has_one_place(self):
+        self.change("docs/usage.md", "<!-- END methods -->\n", "")
+        self.assertIn("docs/usage.md must have one place", self.run_tool().stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
