@@ -3,20 +3,17 @@ module faststrip_command_auto_stage
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_target_missed
     use faststrip_base_text, only: integer_text
-    use faststrip_base_material, only: material_t
-    use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_gap, only: gap_t
-    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
-                                         tangential_method_name, tangential_fastsim, &
-                                         gives_elements
+                                         tangential_method_name, normal_strip, normal_hertz, &
+                                         normal_norm, tangential_fastsim, tangential_none, &
+                                         tangential_tang, gives_elements
     use faststrip_contact_indicators, only: indicators_t, find_indicators
     use faststrip_contact_choice, only: choose_methods, target_forces, target_pmax, &
                                         target_penetration
     use faststrip_kalker_tangential, only: are_alike
-    use faststrip_command_methods, only: methods_t, targets
-    use faststrip_command_normal_stage, only: demand_t
+    use faststrip_command_methods, only: numerics_t, targets
     implicit none
     private
 
@@ -28,58 +25,39 @@ module faststrip_command_auto_stage
 contains
 
     !> Choose; `words` say what and why.
-    subroutine choose(methods, gap, material, mu, demand, creepage, with_field, chosen, words, &
-                      status)
-        type(methods_t), intent(in) :: methods    !! normal method auto, target and tolerance
-        type(gap_t), intent(in) :: gap            !! undeformed gap, mm
-        type(material_t), intent(in) :: material  !! moduli, MPa, checked
-        real(wp), intent(in) :: mu                !! coefficient of friction
-        type(demand_t), intent(in) :: demand      !! load or penetration
-        type(creepage_t), intent(in) :: creepage  !! about y = 0
+    subroutine choose(numerics, contact, curve, with_field, chosen, words, status)
+        type(numerics_t), intent(in) :: numerics  !! normal method auto, target and tolerance
+        type(contact_case_t), intent(in) :: contact !! checked
+        type(gap_curve_t), intent(in) :: curve    !! its gap
         logical, intent(in) :: with_field         !! are elements wanted?
-        type(methods_t), intent(out) :: chosen    !! by name
+        type(numerics_t), intent(out) :: chosen    !! by name
         character(len=:), allocatable, intent(out) :: words !! for the CSV
         type(status_t), intent(out) :: status
             !! of the library; `st_target_missed` where even Kalker's methods cannot help
 
         integer, parameter :: numbers(3) = [target_forces, target_pmax, target_penetration]
-        type(gap_curve_t) :: curve
-        type(contact_case_t) :: case
         type(indicators_t) :: indicators
         type(contact_methods_t) :: core
         real(wp) :: expected
         integer :: target
 
         words = ''
-        call reserve_gap_curve(curve, size(gap%y), status)
+        call find_indicators(curve, contact, indicators, status)
         if (is_error(status)) return
-        call set_gap_curve(curve, gap, status)
-        if (is_error(status)) return
-        case%demand_t = demand
-        case%material = material
-        case%mu = mu
-        case%creepage = creepage
-        call find_indicators(curve, case, indicators, status)
-        if (is_error(status)) return
-        target = findloc(targets == methods%target, .true., dim=1)
-        call choose_methods(indicators, numbers(target), methods%tolerance, core, expected, status)
+        target = findloc(targets == numerics%target, .true., dim=1)
+        call choose_methods(indicators, numbers(target), numerics%tolerance, core, expected, status)
         if (is_error(status)) return
         if (with_field .and. .not. gives_elements(core%tangential)) &
             core%tangential = tangential_fastsim
-        chosen = methods
-        chosen%normal = normal_method_name(core%normal)
-        chosen%tangential = tangential_method_name(core%tangential)
-        chosen%strips_per_patch = core%strips_per_patch
-        chosen%points_per_strip = core%points_per_strip
-        chosen%fastsim_nx = core%fastsim_nx
-        chosen%fastsim_ny = core%fastsim_ny
-        if (status%code == st_target_missed .and. methods%target == targets(1) .and. &
-            .not. are_alike(material)) then
+        chosen = numerics
+        chosen%contact_methods_t = core
+        if (status%code == st_target_missed .and. numerics%target == targets(1) .and. &
+            .not. are_alike(contact%material)) then
             words = 'the best there is for unlike materials, expected within ' // percent(expected)
         else if (status%code == st_target_missed) then
             status = status_t()
-            call take_kalker(methods, indicators, chosen)
-            words = 'nothing cheaper is expected to be within ' // percent(methods%tolerance)
+            call take_kalker(numerics, indicators, chosen)
+            words = 'nothing cheaper is expected to be within ' // percent(numerics%tolerance)
         else
             words = 'expected within ' // percent(expected)
         end if
@@ -89,35 +67,37 @@ contains
     end subroutine choose
 
     !> Kalker's variational methods, as fine as the target asks.
-    subroutine take_kalker(methods, indicators, chosen)
-        type(methods_t), intent(in) :: methods
+    subroutine take_kalker(numerics, indicators, chosen)
+        type(numerics_t), intent(in) :: numerics
         type(indicators_t), intent(in) :: indicators
-        type(methods_t), intent(inout) :: chosen
+        type(numerics_t), intent(inout) :: chosen
 
-        chosen%normal = 'norm'
-        if (methods%target /= targets(1)) then
-            chosen%error_target = methods%tolerance
+        chosen%normal = normal_norm
+        if (numerics%target /= targets(1)) then
+            chosen%error_target = numerics%tolerance
             return
         end if
-        chosen%tangential = 'tang'
+        chosen%tangential = tangential_tang
         chosen%element_dx = 2.0_wp*indicators%a/elements_across
         chosen%element_dy = 2.0_wp*indicators%b/elements_across
     end subroutine take_kalker
 
     !> Methods and resolutions in words.
     function what(methods) result(text)
-        type(methods_t), intent(in) :: methods
-        character(len=:), allocatable :: text
+        class(contact_methods_t), intent(in) :: methods
+        character(len=:), allocatable :: text, tangential
 
-        text = trim(methods%normal)
-        if (text == 'strip') text = text // ' ' // integer_text(methods%strips_per_patch)
-        if (methods%tangential == 'none') return
-        text = text // ' + ' // trim(methods%tangential)
-        if (index(methods%tangential, 'faststrip') == 1) then
-            if (methods%normal == 'hertz') &
+        text = trim(normal_method_name(methods%normal))
+        if (methods%normal == normal_strip) &
+            text = text // ' ' // integer_text(methods%strips_per_patch)
+        if (methods%tangential == tangential_none) return
+        tangential = trim(tangential_method_name(methods%tangential))
+        text = text // ' + ' // tangential
+        if (index(tangential, 'faststrip') == 1) then
+            if (methods%normal == normal_hertz) &
                 text = text // ' ' // integer_text(methods%strips_per_patch)
             text = text // ' x ' // integer_text(methods%points_per_strip)
-        else if (index(methods%tangential, 'fastsim') == 1) then
+        else if (index(tangential, 'fastsim') == 1) then
             text = text // ' ' // integer_text(methods%fastsim_nx) // ' x ' &
                    // integer_text(methods%fastsim_ny)
         end if

@@ -8,17 +8,16 @@ module faststrip_command_batch
                                    end_row, close_csv, csv_text_t
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
     use faststrip_command_console, only: fail, fail_on_error, note, progress, put_origin, &
                                          concerns_gap, exit_bad_input
     use faststrip_command_files, only: take_input
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text
-    use faststrip_command_methods, only: methods_t
-    use faststrip_command_method_options, only: method_options, take_method_options
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: beside
-    use faststrip_command_solver, only: solver_t, demand_t, outcome_t, make_solver, &
-                                        release_solver, solve
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_command_result_csv, only: result_columns, put_result, put_smoothing
     implicit none
     private
@@ -38,9 +37,9 @@ contains
         type(csv_table_t) :: table
         type(csv_writer_t) :: writer
         type(status_t) :: status
-        type(methods_t) :: methods
+        type(numerics_t) :: numerics
         type(solver_t) :: solver
-        type(demand_t) :: demand
+        type(contact_case_t) :: options, contact
         type(outcome_t) :: outcome
         integer :: row, i, n_failed, column(size(case_columns))
 
@@ -57,8 +56,9 @@ contains
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.), &
                            method_options]
+        command%notes = method_notes()
         call parse_command(command, 1)
-        call take_method_options(command, methods)
+        call take_method_options(command, numerics, options)
         call read_csv(command%arguments(1)%text, table, status)
         call fail_on_error(status)
         do i = 1, size(case_columns)
@@ -69,18 +69,20 @@ contains
         do row = 1, table%n_rows
             call take_input(beside(table%file, cell_text(table, row, column(2))))
         end do
-        call make_solver(methods, .false., solver, status)
+        call make_solver(numerics, .false., solver, status)
         call fail_on_error(status)
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_smoothing(writer, methods%smoothing_um)
+        call put_smoothing(writer, numerics%smoothing_um)
         call put_names(writer, table%names)
         n_failed = 0
         do row = 1, table%n_rows
-            call solve_row(table, row, column, solver, demand, outcome, status)
+            contact = options
+            call read_row(table, row, column, contact, status)
+            if (.not. is_error(status)) call solve(solver, contact, outcome, status)
             do i = 1, table%n_columns
-                if (i == column(load_column) .and. .not. (demand%by_load .or. is_error(status))) &
+                if (i == column(load_column) .and. .not. (contact%by_load .or. is_error(status))) &
                     then
                     call put_cell(writer, outcome%normal%load)
                 else
@@ -143,22 +145,20 @@ contains
         end do
     end subroutine refuse_result_columns
 
-    subroutine solve_row(table, row, column, solver, demand, outcome, status)
+    !> The contact of a row.
+    subroutine read_row(table, row, column, contact, status)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: row, column(:)
-        type(solver_t), intent(inout) :: solver
-        type(demand_t), intent(out) :: demand
-        type(outcome_t), intent(out) :: outcome
+        type(contact_case_t), intent(inout) :: contact
         type(status_t), intent(out) :: status
 
-        type(gap_t) :: gap
         real(wp) :: number(3:9)
         integer :: i, penetration
 
         penetration = column_index(table, penetration_column)
         if (len(cell_text(table, row, penetration)) > 0) then
-            demand%by_load = .false.
-            call cell_number(table, row, penetration, demand%penetration, status)
+            contact%by_load = .false.
+            call cell_number(table, row, penetration, contact%penetration, status)
             if (is_error(status)) return
             if (len(cell_text(table, row, column(load_column))) > 0) then
                 call set_status(status, st_bad_argument, 'N_N is given, and ' &
@@ -167,14 +167,15 @@ contains
             end if
         end if
         do i = lbound(number, 1), ubound(number, 1)
-            if (i == load_column .and. .not. demand%by_load) cycle
+            if (i == load_column .and. .not. contact%by_load) cycle
             call cell_number(table, row, column(i), number(i), status)
             if (is_error(status)) return
         end do
-        if (demand%by_load) demand%load = number(load_column)
-        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), gap, status)
-        if (is_error(status)) return
-        call solve(solver, gap, material_t(number(3), number(3), number(4), number(4)), &
-                   number(5), demand, creepage_t(number(7), number(8), number(9)), outcome, status)
-    end subroutine solve_row
+        if (contact%by_load) contact%load = number(load_column)
+        contact%material = material_t(number(3), number(3), number(4), number(4))
+        contact%mu = number(5)
+        contact%creepage = creepage_t(number(7), number(8), number(9))
+        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), contact%gap, &
+                           status)
+    end subroutine read_row
 end module faststrip_command_batch

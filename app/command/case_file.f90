@@ -14,7 +14,11 @@ module faststrip_command_case_file
     use faststrip_geometry_contact_gap, only: standard_gap_step, standard_gap_height
     use faststrip_command_console, only: fail_on_error
     use faststrip_command_files, only: take_input
-    use faststrip_command_methods, only: methods_t, check_methods, word_length
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
+                                         tangential_method, normal_method_name, &
+                                         tangential_method_name
+    use faststrip_command_methods, only: numerics_t, check_numerics, one_of, word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                           find_group, group_text, line_length, sets, refuse
     use faststrip_command_namelist_values, only: refuse_values, name_length
@@ -28,31 +32,26 @@ module faststrip_command_case_file
     ! What stands in a list where the file gives no number.
     real(wp), parameter :: not_given = -huge(1.0_wp)
 
-    !> A case as its file tells it.
-    type :: case_t
+    !> A case as its file tells it: a contact but for its gap, which the profiles make or another
+    !> file holds. The load may be a vertical one, creepages may follow from the shift.
+    type, extends(contact_case_t) :: case_t
         character(len=:), allocatable :: name       !! for the CSV
         character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
         character(len=:), allocatable :: wheel_name !! `s1002` or the file's name
         character(len=:), allocatable :: rail_name  !! `uic60`, `60e1` or the file's name
-        logical :: load_is_given = .true.           !! or the penetration?
-        real(wp) :: load = 0.0_wp                   !! N
-        real(wp) :: penetration = 0.0_wp            !! approach of the bodies, mm
         logical :: load_is_vertical = .false.       !! else along the contact normal
-        real(wp) :: mu = 0.0_wp                     !! coefficient of friction
         real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
         real(wp), allocatable :: shifts(:)          !! of the sweep, mm
         real(wp), allocatable :: shift_loads(:)     !! normal force of each shift, N; or empty
         real(wp), allocatable :: shift_cksi(:)      !! creepages of each shift; or empty
         real(wp), allocatable :: shift_ceta(:)      !! the same
         real(wp), allocatable :: shift_cphi(:)      !! the same, rad/mm
-        type(material_t) :: material                !! moduli, MPa
         type(profile_t) :: wheel, rail              !! unless there is a gap file
         type(wheelset_t) :: wheelset                !! mm
         type(track_t) :: track                      !! mm
         logical :: creepage_by_formula = .false.    !! from the shift, else as given
         integer :: creepage_signs = creepage_set_b  !! for the formula
-        type(creepage_t) :: creepage                !! as given
-        type(methods_t) :: methods                  !! how to solve it
+        type(numerics_t) :: numerics                !! how to solve it
         real(wp) :: gap_step = 0.0_wp               !! sampling of the gap, mm
         real(wp) :: gap_height = 0.0_wp             !! largest gap sampled, mm
     end type case_t
@@ -113,8 +112,8 @@ contains
             case%gap_file = beside(content%file, trim(gap_file))
             call take_input(case%gap_file)
         end if
-        case%load_is_given = .not. sets(content, group, 'penetration_mm')
-        if (case%load_is_given) then
+        case%by_load = .not. sets(content, group, 'penetration_mm')
+        if (case%by_load) then
             call need_positive(content, group, 'load_N', load_n)
         else
             call need_finite(content, group, 'penetration_mm', penetration_mm)
@@ -130,7 +129,7 @@ contains
         if (load_direction /= 'vertical' .and. load_direction /= 'normal') &
             call refuse(content, group, 'load_direction', 'must be normal or vertical', &
                         load_direction)
-        if (case%load_is_vertical .and. .not. case%load_is_given) &
+        if (case%load_is_vertical .and. .not. case%by_load) &
             call refuse(content, group, 'load_direction', &
                         'has no meaning for a given penetration', load_direction)
         if (case%load_is_vertical .and. len(case%gap_file) > 0) &
@@ -319,7 +318,7 @@ contains
         type(namelist_file_t), intent(in) :: content
         type(case_t), intent(inout) :: case
 
-        type(methods_t) :: methods
+        type(numerics_t) :: numbers
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
@@ -339,47 +338,54 @@ contains
         integer :: n, code
         character(len=:), allocatable :: what, range, value
 
-        normal = case%methods%normal
-        tangential = case%methods%tangential
-        strips_per_patch = case%methods%strips_per_patch
-        points_per_strip = case%methods%points_per_strip
-        fastsim_nx = case%methods%fastsim_nx
-        fastsim_ny = case%methods%fastsim_ny
-        element_dx_mm = case%methods%element_dx
-        element_dy_mm = case%methods%element_dy
-        error_target = case%methods%error_target
-        norm_start = case%methods%norm_start
-        tolerance = case%methods%tolerance
-        max_elements = case%methods%max_elements
-        target = case%methods%target
-        resolution_limit = case%methods%resolution_limit
+        normal = normal_method_name(case%numerics%normal)
+        tangential = tangential_method_name(case%numerics%tangential)
+        strips_per_patch = case%numerics%strips_per_patch
+        points_per_strip = case%numerics%points_per_strip
+        fastsim_nx = case%numerics%fastsim_nx
+        fastsim_ny = case%numerics%fastsim_ny
+        element_dx_mm = case%numerics%element_dx
+        element_dy_mm = case%numerics%element_dy
+        error_target = case%numerics%error_target
+        norm_start = case%numerics%norm_start
+        tolerance = case%numerics%tolerance
+        max_elements = case%numerics%max_elements
+        target = case%numerics%target
+        resolution_limit = case%resolution_limit
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
-        smoothing_um = case%methods%smoothing_um
+        smoothing_um = case%numerics%smoothing_um
         call find_group(content, 'numerics', .false., group)
         do n = 1, lines_of(group)
             text = group_text(content, group, n)
             read (text, nml=numerics, iostat=code, iomsg=words)
             if (code /= 0) call refuse_values(content, group, n, names, words)
         end do
-        methods%normal = normal
-        methods%tangential = tangential
-        methods%strips_per_patch = strips_per_patch
-        methods%points_per_strip = points_per_strip
-        methods%fastsim_nx = fastsim_nx
-        methods%fastsim_ny = fastsim_ny
-        methods%smoothing_um = smoothing_um
-        methods%element_dx = element_dx_mm
-        methods%element_dy = element_dy_mm
-        methods%error_target = error_target
-        methods%norm_start = norm_start
-        methods%tolerance = tolerance
-        methods%max_elements = max_elements
-        methods%target = target
-        methods%resolution_limit = resolution_limit
-        call check_methods(methods, what, range, value)
-        case%methods = methods
+        numbers%normal = normal_method(normal)
+        if (numbers%normal < 0) call refuse(content, group, 'normal', 'must be ' &
+                                            // one_of(normal_table%name), trim(normal))
+        numbers%tangential = tangential_method(tangential)
+        if (numbers%tangential < 0) call refuse(content, group, 'tangential', 'must be ' &
+                                                // one_of(tangential_table%name), trim(tangential))
+        numbers%strips_per_patch = strips_per_patch
+        numbers%points_per_strip = points_per_strip
+        numbers%fastsim_nx = fastsim_nx
+        numbers%fastsim_ny = fastsim_ny
+        numbers%smoothing_um = smoothing_um
+        numbers%element_dx = element_dx_mm
+        numbers%element_dy = element_dy_mm
+        numbers%error_target = error_target
+        numbers%norm_start = norm_start
+        numbers%tolerance = tolerance
+        numbers%max_elements = max_elements
+        numbers%target = target
+        call check_numerics(numbers, what, range, value)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
+        case%numerics = numbers
+        if (.not. (ieee_is_finite(resolution_limit) .and. resolution_limit > 0.0_wp)) &
+            call refuse(content, group, 'resolution_limit', 'must be a number above 0', &
+                        trim(number_text(resolution_limit)))
+        case%resolution_limit = resolution_limit
         call need_positive(content, group, 'gap_step_mm', gap_step_mm)
         call need_positive(content, group, 'gap_height_mm', gap_height_mm)
         case%gap_step = gap_step_mm
@@ -422,7 +428,7 @@ contains
             call need_as_many(content, group, 'load_N', size(case%shift_loads), n)
             if (case%load_is_vertical) call refuse(content, group, 'load_N', &
                 'is a list of normal forces, and load_direction is vertical', '')
-            if (.not. case%load_is_given) call refuse(content, group, 'load_N', &
+            if (.not. case%by_load) call refuse(content, group, 'load_N', &
                 'is given, and &contact penetration_mm as well', '')
             if (any(case%shift_loads <= 0.0_wp)) call refuse(content, group, 'load_N', &
                 'must be above 0', number_text(minval(case%shift_loads)))

@@ -5,7 +5,7 @@ module faststrip_command_contact
     use faststrip_command_console, only: fail_on_error, concerns_gap, note, usage_error
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number
-    use faststrip_command_method_options, only: method_options, take_method_options
+    use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_scene, only: scene_t, make_scene, put_gap, put_profiles
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
@@ -51,9 +51,10 @@ contains
                      writes=.true.), &
             option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
             method_options]
+        command%notes = method_notes()
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)
-        call take_method_options(command, case%methods)
+        call take_method_options(command, case%numerics, case)
         if (len(case%gap_file) > 0) then
             if (given(command, '--profiles')) &
                 call usage_error('--profiles: the case has a gap file', command%name)
@@ -63,24 +64,23 @@ contains
         call make_scene(case, option_number(command, '--shift', case%shift), scene, status)
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
-        call make_solver(case%methods, given(command, '--fields'), solver, status, &
+        call make_solver(case%numerics, given(command, '--fields'), solver, status, &
                          with_strip_forces=given(command, '--strips'))
         call fail_on_error(status)
-        call solve(solver, scene%gap, case%material, case%mu, scene%demand, scene%creepage, &
-                   outcome, status)
+        call solve(solver, scene, outcome, status)
         if (concerns_gap(status) .and. len(case%gap_file) > 0) &
             call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
         if (status%code /= st_ok) call note(trim(status%message))
         call open_outputs(command, writer)
         call put_sweep_header(writer(1), case)
-        call put_sweep_row(writer(1), case, case%methods, scene, outcome, status)
+        call put_sweep_row(writer(1), case, case%numerics, scene, outcome, status)
         if (given(command, '--strips')) &
-            call put_strips(writer(2), case%name, solver%normal%workspace%strips, &
+            call put_strips(writer(2), case%name, solver%workspace%strips, &
                             solver%strip_forces)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
-        if (given(command, '--gap')) call put_gap(writer(4), solver%gap, &
-                                                  case%methods%smoothing_um)
+        if (given(command, '--gap')) call put_gap(writer(4), solver%contact%gap, &
+                                                  case%numerics%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
         call close_outputs(command, writer)
         call release_solver(solver)

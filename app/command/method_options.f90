@@ -3,21 +3,23 @@ module faststrip_command_method_options
     use faststrip_normal_strip, only: strips_auto
     use faststrip_command_options, only: command_t, option_t, option_text, option_integer, &
                                          option_number, option_word
-    use faststrip_command_methods, only: methods_t, normal_methods, tangential_methods, &
-                                         norm_starts, targets, most_strips, most_points, &
-                                         most_points_per_strip, most_elements
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: method_t, normal_table, tangential_table, normal_method, &
+                                         tangential_method, normal_method_name, &
+                                         tangential_method_name
+    use faststrip_command_methods, only: numerics_t, norm_starts, targets, most_strips, &
+                                         most_points, most_points_per_strip, most_elements
     implicit none
     private
 
-    public :: method_options, take_method_options
+    public :: method_options, method_notes, take_method_options
 
-    !> For the table of a subcommand.
+    character(len=*), parameter :: newline = new_line('a')
+
+    !> For the table of a subcommand; what the names mean is told by `method_notes`.
     type(option_t), parameter :: method_options(15) = [ &
-        option_t('--normal', 'NAME', 'strip (default), hertz, equal_area, equal_moments, norm;' &
-                 // new_line('a') // 'auto: both methods, the cheapest expected to do'), &
-        option_t('--tangential', 'NAME', 'faststrip (default), faststrip-paper,' &
-                 // ' faststrip-corrected,' // new_line('a') // 'fastsim, fastsim-elliptic,' &
-                 // ' fastsim-weighted,' // new_line('a') // 'linear, she, polach, tang, none'), &
+        option_t('--normal', 'NAME', 'normal method, see below (default strip)'), &
+        option_t('--tangential', 'NAME', 'tangential method, see below (default faststrip)'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
@@ -36,42 +38,67 @@ module faststrip_command_method_options
 
 contains
 
+    !> The names of the methods and what they are, one a line.
+    function method_notes() result(text)
+        character(len=:), allocatable :: text !! lines
+
+        text = newline // 'normal methods:' // newline // lines(normal_table) // newline &
+               // 'tangential methods:' // newline // lines(tangential_table)
+    end function method_notes
+
+    function lines(table) result(text)
+        type(method_t), intent(in) :: table(:)
+        character(len=:), allocatable :: text
+
+        integer :: i
+
+        text = ''
+        do i = 1, size(table)
+            text = text // '  ' // table(i)%name // trim(table(i)%help)
+            if (.not. table(i)%gives_elements) text = text // '; no elements'
+            text = text // newline
+        end do
+    end function lines
+
     !> Let the options that were given replace what was chosen before; a usage error if one is
     !> out of range.
-    subroutine take_method_options(command, methods)
-        type(command_t), intent(in) :: command   !! parsed, with `method_options` in its table
-        type(methods_t), intent(inout) :: methods !! defaults or those of a case file
+    subroutine take_method_options(command, numerics, contact)
+        type(command_t), intent(in) :: command     !! parsed, with `method_options` in its table
+        type(numerics_t), intent(inout) :: numerics !! defaults or those of a case file
+        class(contact_case_t), intent(inout) :: contact !! the same: the limit of its errors
 
-        methods%normal = option_word(command, '--normal', trim(methods%normal), normal_methods)
-        methods%tangential = option_word(command, '--tangential', trim(methods%tangential), &
-                                         tangential_methods)
+        numerics%normal = normal_method(option_word( &
+            command, '--normal', trim(normal_method_name(numerics%normal)), normal_table%name))
+        numerics%tangential = tangential_method(option_word( &
+            command, '--tangential', trim(tangential_method_name(numerics%tangential)), &
+            tangential_table%name))
         if (option_text(command, '--strips-per-patch', '') == 'auto') then
-            methods%strips_per_patch = strips_auto
+            numerics%strips_per_patch = strips_auto
         else
-            methods%strips_per_patch = option_integer(command, '--strips-per-patch', &
-                methods%strips_per_patch, least=1, most=most_strips, or='auto')
+            numerics%strips_per_patch = option_integer(command, '--strips-per-patch', &
+                numerics%strips_per_patch, least=1, most=most_strips, or='auto')
         end if
-        methods%points_per_strip = option_integer(command, '--points-per-strip', &
-            methods%points_per_strip, least=1, most=most_points_per_strip)
-        methods%fastsim_nx = option_integer(command, '--fastsim-nx', methods%fastsim_nx, &
+        numerics%points_per_strip = option_integer(command, '--points-per-strip', &
+            numerics%points_per_strip, least=1, most=most_points_per_strip)
+        numerics%fastsim_nx = option_integer(command, '--fastsim-nx', numerics%fastsim_nx, &
                                             least=1, most=most_points)
-        methods%fastsim_ny = option_integer(command, '--fastsim-ny', methods%fastsim_ny, &
+        numerics%fastsim_ny = option_integer(command, '--fastsim-ny', numerics%fastsim_ny, &
                                             least=1, most=most_points)
-        methods%max_elements = option_integer(command, '--max-elements', methods%max_elements, &
+        numerics%max_elements = option_integer(command, '--max-elements', numerics%max_elements, &
                                               least=1, most=most_elements)
-        methods%smoothing_um = option_number(command, '--smooth', methods%smoothing_um, &
+        numerics%smoothing_um = option_number(command, '--smooth', numerics%smoothing_um, &
                                              least=0)
-        methods%tolerance = option_number(command, '--tolerance', methods%tolerance, above=0)
-        methods%target = option_word(command, '--target', trim(methods%target), targets)
-        methods%element_dx = option_number(command, '--element-dx', methods%element_dx, &
+        numerics%tolerance = option_number(command, '--tolerance', numerics%tolerance, above=0)
+        numerics%target = option_word(command, '--target', trim(numerics%target), targets)
+        numerics%element_dx = option_number(command, '--element-dx', numerics%element_dx, &
                                            above=0)
-        methods%element_dy = option_number(command, '--element-dy', methods%element_dy, &
+        numerics%element_dy = option_number(command, '--element-dy', numerics%element_dy, &
                                            above=0)
-        methods%error_target = option_number(command, '--error-target', methods%error_target, &
+        numerics%error_target = option_number(command, '--error-target', numerics%error_target, &
                                              least=0)
-        methods%resolution_limit = option_number(command, '--resolution-limit', &
-                                                 methods%resolution_limit, above=0)
-        methods%norm_start = option_word(command, '--norm-start', trim(methods%norm_start), &
+        contact%resolution_limit = option_number(command, '--resolution-limit', &
+                                                 contact%resolution_limit, above=0)
+        numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
                                          norm_starts)
     end subroutine take_method_options
 end module faststrip_command_method_options

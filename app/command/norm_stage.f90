@@ -2,21 +2,22 @@
 module faststrip_command_norm_stage
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       release_norm, set_norm_gap, norm_solve_demand
+                                       release_norm, set_norm_curve, norm_solve_demand
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_kalker_normal_rows, only: rows_as_strips, count_rows
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_strip
+    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
     use faststrip_command_system, only: set_detail
-    use faststrip_command_methods, only: methods_t
-    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
-                                              make_room, solve_normal
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_normal_stage, only: make_room
     implicit none
     private
 
@@ -28,18 +29,18 @@ module faststrip_command_norm_stage
     !> The method with the room it needs.
     type :: norm_stage_t
         type(norm_workspace_t) :: workspace          !! with the grid of the last contact
-        type(normal_stage_t), private :: start       ! strips to start from
+        type(workspace_t), private :: start          ! strips to start from
     end type norm_stage_t
 
 contains
 
     !> Grow the workspace to what a gap needs, outside the time that is measured.
-    subroutine make_norm_room(stage, gap, status)
+    subroutine make_norm_room(stage, points, status)
         type(norm_stage_t), intent(inout) :: stage !! sized
-        type(gap_t), intent(in) :: gap             !! undeformed gap, mm, checked
+        integer, intent(in) :: points              !! of the gap
         type(status_t), intent(out) :: status      !! of `reserve_norm`
 
-        call reserve_norm(stage%workspace, size(gap%y), status)
+        call reserve_norm(stage%workspace, points, status)
     end subroutine make_norm_room
 
     !> Give back what the compiler does not: plans of stages in an array.
@@ -51,56 +52,55 @@ contains
 
     !> Solve the normal problem, from a coarser grid or from strips; if these fail, from the
     !> coarser grid.
-    subroutine solve_by_norm(stage, methods, gap, material, demand, normal, certificate, status)
-        type(norm_stage_t), intent(inout) :: stage  !! with room for the gap
-        type(methods_t), intent(in) :: methods      !! sides of the elements, what to start from
-        type(gap_t), intent(in) :: gap              !! undeformed gap, mm
-        type(material_t), intent(in) :: material    !! moduli, MPa
-        type(demand_t), intent(in) :: demand        !! load or penetration
+    subroutine solve_by_norm(stage, numerics, contact, curve, normal, certificate, status)
+        type(norm_stage_t), intent(inout) :: stage   !! with room for the gap
+        type(numerics_t), intent(in) :: numerics     !! sides of the elements, what to start from
+        type(contact_case_t), intent(in) :: contact  !! material, load or penetration
+        type(gap_curve_t), intent(in) :: curve       !! its gap
         type(normal_result_t), intent(out) :: normal !! figures
         type(certificate_t), intent(out) :: certificate !! residuals, and errors if estimated
-        type(status_t), intent(out) :: status       !! of `norm_solve`
+        type(status_t), intent(out) :: status        !! of `norm_solve`
 
         type(norm_options_t) :: options
 
-        call set_norm_gap(stage%workspace, gap, status)
+        call set_norm_curve(stage%workspace, curve, status)
         if (is_error(status)) return
-        options%dx = methods%element_dx
-        options%dy = methods%element_dy
-        options%error_target = methods%error_target
-        options%most_elements = methods%max_elements
-        if (methods%norm_start == 'strips') then
-            call solve_start(stage, methods, gap, material, demand)
+        options%dx = numerics%element_dx
+        options%dy = numerics%element_dy
+        options%error_target = numerics%error_target
+        options%most_elements = numerics%max_elements
+        if (numerics%norm_start == 'strips') then
+            call solve_start(stage, contact, curve)
         else
-            stage%start%workspace%strips%n = 0
+            stage%start%strips%n = 0
         end if
-        if (methods%norm_start == 'strips') &
-            options%two_levels = stage%start%workspace%strips%n == 0
-        call norm_solve_demand(stage%workspace, normal_compliance(material), demand, options, &
-                               normal, status, stage%start%workspace%strips, tell_of_grid)
+        if (numerics%norm_start == 'strips') &
+            options%two_levels = stage%start%strips%n == 0
+        call norm_solve_demand(stage%workspace, normal_compliance(contact%material), &
+                               contact%demand_t, options, normal, status, stage%start%strips, &
+                               tell_of_grid)
         if (.not. is_error(status)) certificate = stage%workspace%certificate
     end subroutine solve_by_norm
 
     !> The strips to start from; none if they have no solution.
-    subroutine solve_start(stage, methods, gap, material, demand)
+    subroutine solve_start(stage, contact, curve)
         type(norm_stage_t), intent(inout) :: stage
-        type(methods_t), intent(in) :: methods
-        type(gap_t), intent(in) :: gap
-        type(material_t), intent(in) :: material
-        type(demand_t), intent(in) :: demand
+        type(contact_case_t), intent(in) :: contact
+        type(gap_curve_t), intent(in) :: curve
 
-        type(methods_t) :: strips
+        type(contact_case_t) :: strips
         type(normal_result_t) :: ignored
         type(status_t) :: status
 
-        strips = methods
-        strips%normal = 'strip'
-        if (strips%strips_per_patch == strips_auto) strips%strips_per_patch = start_strips
-        call make_normal_stage(strips, stage%start)
-        call make_room(stage%start, gap, status)
+        strips = contact
+        strips%estimate = .false.
+        strips%methods%normal = normal_strip
+        if (strips%methods%strips_per_patch == strips_auto) &
+            strips%methods%strips_per_patch = start_strips
+        call make_room(stage%start, strips, status)
         if (.not. is_error(status)) &
-            call solve_normal(stage%start, gap, material, demand, ignored, status)
-        if (is_error(status)) stage%start%workspace%strips%n = 0
+            call solve_contact_normal(stage%start, strips, ignored, status, curve=curve)
+        if (is_error(status)) stage%start%strips%n = 0
     end subroutine solve_start
 
     !> For who waits: which grid is being solved.
@@ -114,9 +114,9 @@ contains
 
     !> The rows of the grid as the strips of a contact, for the tangential methods and for who asks
     !> for strips.
-    subroutine take_rows(stage, normal, status)
+    subroutine take_rows(stage, workspace, status)
         type(norm_stage_t), intent(in) :: stage       !! with a solution
-        type(normal_stage_t), intent(inout) :: normal !! its strips are filled
+        type(workspace_t), intent(inout) :: workspace !! its strips are filled
         type(status_t), intent(inout) :: status       !! changed by an error only
 
         type(status_t) :: rows
@@ -124,11 +124,11 @@ contains
 
         n = count_rows(stage%workspace%grid)
         rows = status_t()
-        if (n > size(normal%workspace%strips%p0)) &
-            call reserve_strips(normal%workspace%strips, n, rows)
+        if (n > size(workspace%strips%p0)) &
+            call reserve_strips(workspace%strips, n, rows)
         if (.not. is_error(rows)) &
-            call rows_as_strips(stage%workspace%grid, normal%workspace%strips, rows)
+            call rows_as_strips(stage%workspace%grid, workspace%strips, rows)
         if (is_error(rows)) status = rows
-        normal%workspace%solved_by = normal_strip
+        workspace%solved_by = normal_strip
     end subroutine take_rows
 end module faststrip_command_norm_stage

@@ -11,9 +11,9 @@ module faststrip_command_scene
     use faststrip_geometry_contact, only: rigid_contact_t, find_wheelset_contacts, contact_force, &
                                           shift_creepage
     use faststrip_geometry_contact_gap, only: make_gap
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_command_console, only: put_origin
     use faststrip_command_case_file, only: case_t
-    use faststrip_command_solver, only: demand_t
     implicit none
     private
 
@@ -22,13 +22,10 @@ module faststrip_command_scene
     !> Shifts nearer to each other than this are the same, mm.
     real(wp), parameter :: same_shift = 1.0e-9_wp
 
-    !> One contact, ready to be solved.
-    type :: scene_t
-        type(gap_t) :: gap              !! undeformed gap, mm
+    !> One contact, ready to be solved: gap, normal force, creepages about the rigid contact point.
+    type, extends(contact_case_t) :: scene_t
         type(rigid_contact_t) :: contact !! rigid contact point, if there are profiles
         real(wp) :: shift = 0.0_wp      !! lateral shift of the wheelset, mm
-        type(demand_t) :: demand        !! normal force, or penetration
-        type(creepage_t) :: creepage    !! about the rigid contact point
     end type scene_t
 
 contains
@@ -45,8 +42,7 @@ contains
 
         call clear_status(status)
         scene%shift = shift
-        scene%demand = demand_t(case%load_is_given, case%load, case%penetration)
-        scene%creepage = case%creepage
+        scene%contact_case_t = case%contact_case_t
         if (len(case%gap_file) > 0) then
             call read_gap_file(case%gap_file, scene%gap, status)
             return
@@ -57,7 +53,7 @@ contains
             call clear_place(case, scene)
             return
         end if
-        if (case%load_is_vertical) scene%demand%load = contact_force(case%load, scene%contact%gamma)
+        if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
         if (case%creepage_by_formula) scene%creepage = &
             shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
         call take_lists(case, scene)
@@ -74,7 +70,7 @@ contains
 
         i = findloc(abs(case%shifts - scene%shift) < same_shift, .true., dim=1)
         if (i == 0) return
-        if (size(case%shift_loads) > 0) scene%demand%load = case%shift_loads(i)
+        if (size(case%shift_loads) > 0) scene%load = case%shift_loads(i)
         if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
             case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
     end subroutine take_lists
@@ -88,7 +84,7 @@ contains
 
         unknown = ieee_value(unknown, ieee_quiet_nan)
         scene%contact%gamma = unknown
-        if (case%load_is_vertical) scene%demand%load = unknown
+        if (case%load_is_vertical) scene%load = unknown
         if (case%creepage_by_formula) scene%creepage = creepage_t(unknown, unknown, unknown)
     end subroutine clear_place
 

@@ -3,43 +3,46 @@ module faststrip_command_solver
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, st_ok
-    use faststrip_base_material, only: material_t, check_material
-    use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: check_material
+    use faststrip_geometry_gap, only: gap_t, check_gap
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_resolution
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t, reserve_strip_forces
-    use faststrip_contact_methods, only: gives_stick
-    use faststrip_contact_solve, only: reserve_contact_field
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_strip, normal_norm, normal_auto, tangential_none, &
+                                         tangential_faststrip, tangential_tang, gives_stick
+    use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
+                                       solve_contact_tangential
     use faststrip_command_clock, only: microseconds, cpu_microseconds
-    use faststrip_command_methods, only: methods_t
-    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
-                                              make_room, solve_normal, certify
+    use faststrip_command_methods, only: numerics_t, core_methods
+    use faststrip_command_normal_stage, only: make_room, certify
     use faststrip_command_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
                                             solve_by_norm, take_rows
     use faststrip_command_auto_stage, only: choose
     use faststrip_command_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang
-    use faststrip_command_tangential_stage, only: solve_tangential
     implicit none
     private
 
-    public :: solver_t, release_solver, demand_t, outcome_t, make_solver, solve
+    public :: solver_t, release_solver, outcome_t, make_solver, solve
 
     !> Methods with the room they need, used for one contact after the other.
     type :: solver_t
-        type(methods_t) :: methods          !! what was asked for
-        type(methods_t) :: chosen           !! what the last contact was solved by
+        type(numerics_t) :: numerics        !! what was asked for
+        type(numerics_t) :: chosen          !! what the last contact was solved by
         logical :: with_field = .false.     !! are the elements wanted?
-        type(normal_stage_t) :: normal      !! with the strips of the last contact
+        type(contact_case_t) :: contact     !! the last one: its gap smoothed if that was asked
+                                            !! for, its methods the core's part of `chosen`
+        type(gap_curve_t) :: curve          !! its gap, for all methods
+        type(workspace_t) :: workspace      !! with the strips of the last contact
         type(norm_stage_t) :: norm          !! if that is the normal method
         type(tang_stage_t) :: tang          !! if that is the tangential method
         type(tangential_field_t) :: field   !! of the last contact, if wanted
         logical :: with_strip_forces = .false. !! are the sums of each strip wanted?
         type(strip_forces_t) :: strip_forces   !! of the last contact, if wanted
-        type(gap_t) :: gap                  !! of the last contact, smoothed if that was asked for
     end type solver_t
 
     !> Figures of one contact.
@@ -62,19 +65,18 @@ module faststrip_command_solver
 contains
 
     !> Make room for a choice of methods.
-    subroutine make_solver(methods, with_field, solver, status, with_strip_forces)
-        type(methods_t), intent(in) :: methods  !! checked
+    subroutine make_solver(numerics, with_field, solver, status, with_strip_forces)
+        type(numerics_t), intent(in) :: numerics !! checked
         logical, intent(in) :: with_field       !! are the elements wanted?
         type(solver_t), intent(out) :: solver   !! ready
         type(status_t), intent(out) :: status   !! from the library
         logical, intent(in), optional :: with_strip_forces !! are the sums of each strip wanted?
 
-        solver%methods = methods
+        solver%numerics = numerics
         solver%with_field = with_field
         call clear_status(status)
-        if (methods%normal /= 'auto') call make_normal_stage(methods, solver%normal)
-        if (with_field .and. methods%normal /= 'auto') &
-            call reserve_contact_field(solver%field, solver%normal%methods, status)
+        if (with_field .and. numerics%normal /= normal_auto) &
+            call reserve_contact_field(solver%field, core_methods(numerics), status)
         if (present(with_strip_forces)) solver%with_strip_forces = with_strip_forces
     end subroutine make_solver
 
@@ -87,42 +89,31 @@ contains
     end subroutine release_solver
 
     !> Solve one contact.
-    subroutine solve(solver, gap, material, mu, demand, creepage, outcome, status)
-        type(solver_t), intent(inout) :: solver    !! made beforehand
-        type(gap_t), intent(in) :: gap             !! undeformed gap, mm
-        type(material_t), intent(in) :: material   !! moduli, MPa
-        real(wp), intent(in) :: mu                 !! coefficient of friction
-        type(demand_t), intent(in) :: demand       !! load or penetration
-        type(creepage_t), intent(in) :: creepage   !! about y = 0
-        type(outcome_t), intent(out) :: outcome    !! figures
-        type(status_t), intent(out) :: status      !! an error, or a named limitation
+    subroutine solve(solver, contact, outcome, status)
+        type(solver_t), intent(inout) :: solver     !! made beforehand
+        class(contact_case_t), intent(in) :: contact !! what to solve; its methods do not count
+        type(outcome_t), intent(out) :: outcome     !! figures
+        type(status_t), intent(out) :: status       !! an error, or a named limitation
 
         type(status_t) :: tangential_status, choice_status
-        real(wp) :: change
         integer(int64) :: before, between, after
         real(wp) :: cpu ! us
 
         outcome%choice = ''
-        call check_material(material, status)
+        call take_contact(solver, contact, outcome, status)
         if (is_error(status)) return
-        if (solver%methods%smoothing_um > 0.0_wp) then
-            call smooth_gap(gap, 1.0e-3_wp*solver%methods%smoothing_um, solver%gap, change, status)
-            if (is_error(status)) return
-            outcome%gap_change_um = 1.0e3_wp*change
-        else
-            solver%gap = gap
-        end if
-        call take_methods(solver, material, mu, demand, creepage, outcome, choice_status)
+        call take_methods(solver, outcome, choice_status)
         status = choice_status
         if (is_error(status)) return
-        call make_room(solver%normal, solver%gap, status)
+        call make_room(solver%workspace, solver%contact, status)
         if (is_error(status)) return
-        if (solver%chosen%normal == 'norm') call make_norm_room(solver%norm, solver%gap, status)
+        if (solver%chosen%normal == normal_norm) &
+            call make_norm_room(solver%norm, size(solver%contact%gap%y), status)
         if (is_error(status)) return
         cpu = cpu_microseconds()
         call system_clock(before)
-        if (solver%chosen%normal == 'norm') then
-            call solve_by_norm(solver%norm, solver%chosen, solver%gap, material, demand, &
+        if (solver%chosen%normal == normal_norm) then
+            call solve_by_norm(solver%norm, solver%chosen, solver%contact, solver%curve, &
                                outcome%normal, outcome%certificate, status)
             outcome%is_certified = .true.
             outcome%is_estimated = solver%norm%workspace%is_estimated
@@ -130,65 +121,96 @@ contains
                 call name_resolution(outcome%certificate%est_err_penetration, &
                                      outcome%certificate%est_err_pmax, &
                                      outcome%certificate%est_err_area, &
-                                     solver%methods%resolution_limit, status)
+                                     solver%contact%resolution_limit, status)
         else
-            call solve_normal(solver%normal, solver%gap, material, demand, outcome%normal, status)
+            call solve_contact_normal(solver%workspace, solver%contact, outcome%normal, status, &
+                                      curve=solver%curve)
         end if
         if (is_error(status)) return
         call system_clock(between)
         outcome%normal_us = outcome%normal_us + microseconds(before, between)
         outcome%normal_cpu_us = outcome%normal_cpu_us + cpu_microseconds() - cpu
         cpu = cpu_microseconds()
-        if (solver%chosen%normal == 'norm') then
-            call take_rows(solver%norm, solver%normal, status)
+        if (solver%chosen%normal == normal_norm) then
+            call take_rows(solver%norm, solver%workspace, status)
             if (is_error(status)) return
             if (solver%with_field) call grow_field(solver, status)
             if (is_error(status)) return
             call system_clock(between)
             cpu = cpu_microseconds()
         end if
-        if (solver%chosen%tangential == 'tang') then
-            call solve_by_tang(solver%tang, solver%chosen, solver%normal, solver%norm, &
-                               material, mu, creepage, solver%with_field, outcome%tangential, &
-                               solver%field, tangential_status)
+        if (solver%chosen%tangential == tangential_tang) then
+            call solve_by_tang(solver%tang, solver%chosen, solver%contact, solver%workspace, &
+                               solver%norm, solver%with_field, outcome%tangential, solver%field, &
+                               tangential_status)
         else if (solver%with_field) then
-            call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
-                                  tangential_status, solver%field)
+            call solve_contact_tangential(solver%workspace, solver%contact, outcome%tangential, &
+                                          tangential_status, solver%field)
         else
-            call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
-                                  tangential_status)
+            call solve_contact_tangential(solver%workspace, solver%contact, outcome%tangential, &
+                                          tangential_status)
         end if
         call system_clock(after)
         outcome%tangential_cpu_us = cpu_microseconds() - cpu
         solver%strip_forces%n = 0
-        if (solver%with_strip_forces .and. solver%chosen%tangential == 'faststrip' &
+        if (solver%with_strip_forces .and. solver%chosen%tangential == tangential_faststrip &
             .and. .not. is_error(tangential_status)) then
             ! Once more, so that the time is that of the forces.
-            call reserve_strip_forces(solver%strip_forces, &
-                                      size(solver%normal%workspace%strips%p0), &
+            call reserve_strip_forces(solver%strip_forces, size(solver%workspace%strips%p0), &
                                       tangential_status)
             if (.not. is_error(tangential_status)) &
-                call solve_tangential(solver%normal, material, mu, creepage, outcome%tangential, &
-                                      tangential_status, per_strip=solver%strip_forces)
+                call solve_contact_tangential(solver%workspace, solver%contact, &
+                                              outcome%tangential, tangential_status, &
+                                              per_strip=solver%strip_forces)
         end if
-        outcome%has_forces = solver%chosen%tangential /= 'none'
-        outcome%knows_stick = gives_stick(solver%normal%methods%tangential) .and. outcome%has_forces
+        outcome%has_forces = solver%chosen%tangential /= tangential_none
+        outcome%knows_stick = gives_stick(solver%chosen%tangential) .and. outcome%has_forces
         outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
         if (status%code == st_ok) status = choice_status
-        if (is_error(status) .or. solver%chosen%normal == 'norm') return
-        call certify(solver%normal, material, outcome%normal, outcome%certificate, &
+        if (is_error(status) .or. solver%chosen%normal == normal_norm) return
+        call certify(solver%workspace, solver%contact, outcome%normal, outcome%certificate, &
                      outcome%is_certified, status)
         outcome%is_estimated = outcome%is_certified
     end subroutine solve
 
-    !> The methods asked for, or those chosen for this contact; choosing counts as normal time.
-    subroutine take_methods(solver, material, mu, demand, creepage, outcome, status)
+    !> Check the contact, smooth its gap if that is asked for, and make it a curve once for all
+    !> methods, which counts as normal time.
+    subroutine take_contact(solver, contact, outcome, status)
         type(solver_t), intent(inout) :: solver
-        type(material_t), intent(in) :: material
-        real(wp), intent(in) :: mu
-        type(demand_t), intent(in) :: demand
-        type(creepage_t), intent(in) :: creepage
+        class(contact_case_t), intent(in) :: contact
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(out) :: status
+
+        type(gap_t) :: smooth
+        integer(int64) :: before, after
+        real(wp) :: change, cpu ! mm, us
+
+        call check_material(contact%material, status)
+        if (is_error(status)) return
+        solver%contact = contact
+        if (solver%numerics%smoothing_um > 0.0_wp) then
+            call smooth_gap(contact%gap, 1.0e-3_wp*solver%numerics%smoothing_um, smooth, change, &
+                            status)
+            if (is_error(status)) return
+            solver%contact%gap = smooth
+            outcome%gap_change_um = 1.0e3_wp*change
+        end if
+        call check_gap(solver%contact%gap, status)
+        if (is_error(status)) return
+        call reserve_gap_curve(solver%curve, size(solver%contact%gap%y), status)
+        if (is_error(status)) return
+        cpu = cpu_microseconds()
+        call system_clock(before)
+        call set_gap_curve(solver%curve, solver%contact%gap, status)
+        call system_clock(after)
+        outcome%normal_us = microseconds(before, after)
+        outcome%normal_cpu_us = cpu_microseconds() - cpu
+    end subroutine take_contact
+
+    !> The methods asked for, or those chosen for this contact; choosing counts as normal time.
+    subroutine take_methods(solver, outcome, status)
+        type(solver_t), intent(inout) :: solver
         type(outcome_t), intent(inout) :: outcome
         type(status_t), intent(out) :: status
 
@@ -196,19 +218,22 @@ contains
         real(wp) :: cpu ! us
 
         call clear_status(status)
-        solver%chosen = solver%methods
-        if (solver%methods%normal /= 'auto') return
-        cpu = cpu_microseconds()
-        call system_clock(before)
-        call choose(solver%methods, solver%gap, material, mu, demand, creepage, &
-                    solver%with_field, solver%chosen, outcome%choice, status)
-        call system_clock(after)
-        if (is_error(status)) return
-        outcome%normal_us = microseconds(before, after)
-        outcome%normal_cpu_us = cpu_microseconds() - cpu
-        call make_normal_stage(solver%chosen, solver%normal)
-        if (solver%with_field) &
-            call reserve_contact_field(solver%field, solver%normal%methods, status)
+        solver%chosen = solver%numerics
+        if (solver%numerics%normal == normal_auto) then
+            cpu = cpu_microseconds()
+            call system_clock(before)
+            call choose(solver%numerics, solver%contact, solver%curve, solver%with_field, &
+                        solver%chosen, outcome%choice, status)
+            call system_clock(after)
+            if (is_error(status)) return
+            outcome%normal_us = outcome%normal_us + microseconds(before, after)
+            outcome%normal_cpu_us = outcome%normal_cpu_us + cpu_microseconds() - cpu
+            if (solver%with_field) then
+                call reserve_contact_field(solver%field, core_methods(solver%chosen), status)
+            end if
+        end if
+        solver%contact%methods = core_methods(solver%chosen)
+        solver%contact%estimate = solver%contact%methods%normal /= normal_strip ! `certify` does
     end subroutine take_methods
 
     !> Room for the elements of as many strips as there are rows.
@@ -218,7 +243,7 @@ contains
 
         type(status_t) :: room
 
-        call reserve_field(solver%field, max(solver%normal%workspace%strips%n &
+        call reserve_field(solver%field, max(solver%workspace%strips%n &
                                              *solver%chosen%points_per_strip, &
                                              size(solver%field%x)), room)
         if (is_error(room)) status = room

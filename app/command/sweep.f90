@@ -5,8 +5,11 @@ module faststrip_command_sweep
     use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv
     use faststrip_command_console, only: fail, fail_on_error, note, progress, exit_bad_input
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text
-    use faststrip_command_methods, only: methods_t, word_length
-    use faststrip_command_method_options, only: method_options, take_method_options
+    use faststrip_contact_methods, only: normal_strip, normal_hertz, tangential_faststrip, &
+                                         tangential_fastsim, normal_method_name, &
+                                         tangential_method_name
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_scene, only: scene_t, make_scene
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
@@ -17,9 +20,9 @@ module faststrip_command_sweep
     public :: run_sweep
 
     !> Normal and tangential method of each row of a shift.
-    character(len=word_length), parameter :: pairs(2, 3) = reshape( &
-        [character(len=word_length) :: 'strip', 'faststrip', 'strip', 'fastsim', &
-         'hertz', 'fastsim'], [2, 3])
+    integer, parameter :: pairs(2, 3) = reshape( &
+        [normal_strip, tangential_faststrip, normal_strip, tangential_fastsim, &
+         normal_hertz, tangential_fastsim], [2, 3])
 
 contains
 
@@ -29,7 +32,7 @@ contains
         type(case_t) :: case
         type(scene_t) :: scene
         type(solver_t) :: solver(size(pairs, 2) + 1)
-        type(methods_t) :: methods
+        type(numerics_t) :: numerics
         type(outcome_t) :: outcome
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
@@ -46,9 +49,10 @@ contains
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.), &
                            method_options]
+        command%notes = method_notes()
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)
-        call take_method_options(command, case%methods)
+        call take_method_options(command, case%numerics, case)
         if (size(case%shifts) == 0) &
             call fail(exit_bad_input, 'missing group: &sweep with shifts_mm (' &
                       // command%arguments(1)%text // ')')
@@ -58,16 +62,16 @@ contains
         n_solvers = size(pairs, 2)
         if (given(command, '--normal') .or. given(command, '--tangential')) then
             ! Unless it is one of the three.
-            if (.not. any(pairs(1, :) == case%methods%normal &
-                          .and. pairs(2, :) == case%methods%tangential)) n_solvers = n_solvers + 1
+            if (.not. any(pairs(1, :) == case%numerics%normal &
+                          .and. pairs(2, :) == case%numerics%tangential)) n_solvers = n_solvers + 1
         end if
         do m = 1, n_solvers
-            methods = case%methods
+            numerics = case%numerics
             if (m <= size(pairs, 2)) then
-                methods%normal = pairs(1, m)
-                methods%tangential = pairs(2, m)
+                numerics%normal = pairs(1, m)
+                numerics%tangential = pairs(2, m)
             end if
-            call make_solver(methods, .false., solver(m), status)
+            call make_solver(numerics, .false., solver(m), status)
             call fail_on_error(status)
         end do
         call open_csv(writer, option_text(command, '-o', '-'), written)
@@ -80,14 +84,14 @@ contains
             do m = 1, n_solvers
                 status = placed
                 if (.not. is_error(placed)) &
-                    call solve(solver(m), scene%gap, case%material, case%mu, scene%demand, &
-                               scene%creepage, outcome, status)
-                call put_sweep_row(writer, case, solver(m)%methods, scene, outcome, status)
+                    call solve(solver(m), scene, outcome, status)
+                call put_sweep_row(writer, case, solver(m)%numerics, scene, outcome, status)
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &
-                          // trim(solver(m)%methods%normal) // ' and ' &
-                          // trim(solver(m)%methods%tangential) // ': ' // trim(status%message))
+                          // trim(normal_method_name(solver(m)%numerics%normal)) // ' and ' &
+                          // trim(tangential_method_name(solver(m)%numerics%tangential)) // ': ' &
+                          // trim(status%message))
             end do
         end do
         do m = 1, n_solvers

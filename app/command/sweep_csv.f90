@@ -4,7 +4,8 @@ module faststrip_command_sweep_csv
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_command_console, only: put_origin
     use faststrip_command_case_file, only: case_t
-    use faststrip_command_methods, only: methods_t
+    use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
+                                         tangential_method_name
     use faststrip_command_scene, only: scene_t
     use faststrip_command_solver, only: outcome_t
     use faststrip_command_result_csv, only: result_columns, put_result, put_smoothing
@@ -31,7 +32,7 @@ contains
         else
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
         end if
-        call put_smoothing(writer, case%methods%smoothing_um)
+        call put_smoothing(writer, case%numerics%smoothing_um)
         call put_header(writer, [scene_columns, result_columns])
     end subroutine put_sweep_header
 
@@ -39,17 +40,17 @@ contains
     subroutine put_sweep_row(writer, case, methods, scene, outcome, status)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         type(case_t), intent(in) :: case            !! its name is used
-        type(methods_t), intent(in) :: methods      !! by which it was solved
+        class(contact_methods_t), intent(in) :: methods !! by which it was solved
         type(scene_t), intent(in) :: scene          !! shift, load, creepages
         type(outcome_t), intent(in) :: outcome      !! figures
         type(status_t), intent(in) :: status        !! how it ended
 
         call put_cell(writer, case%name)
         call put_cell(writer, scene%shift)
-        call put_cell(writer, trim(methods%normal))
-        call put_cell(writer, trim(methods%tangential))
-        if (scene%demand%by_load) then
-            call put_cell(writer, scene%demand%load)
+        call put_cell(writer, trim(normal_method_name(methods%normal)))
+        call put_cell(writer, trim(tangential_method_name(methods%tangential)))
+        if (scene%by_load) then
+            call put_cell(writer, scene%load)
         else if (is_error(status)) then
             call put_cell(writer, '')
         else

@@ -3,17 +3,17 @@ module faststrip_command_tang_stage
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_base_material, only: material_t
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_of_norm, edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_strips, sample_ellipse
     use faststrip_command_system, only: set_detail
-    use faststrip_command_methods, only: methods_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_norm, normal_hertz
+    use faststrip_contact_solve, only: workspace_t
+    use faststrip_command_methods, only: numerics_t
     use faststrip_command_norm_stage, only: norm_stage_t
-    use faststrip_command_normal_stage, only: normal_stage_t
     implicit none
     private
 
@@ -36,46 +36,41 @@ contains
     end subroutine release_tang_stage
 
     !> Solve the tangential problem on NORM's grid, or on one laid under the ellipse or the strips.
-    subroutine solve_by_tang(stage, methods, normal, norm, material, mu, creepage, with_field, &
-                             tangential, field, status)
+    subroutine solve_by_tang(stage, numerics, contact, workspace, norm, with_field, tangential, &
+                             field, status)
         type(tang_stage_t), intent(inout) :: stage   !! grows
-        type(methods_t), intent(in) :: methods       !! normal method, sides of the elements
-        type(normal_stage_t), intent(in) :: normal   !! with a solution, unless it is NORM's
+        type(numerics_t), intent(in) :: numerics     !! normal method, sides of the elements
+        type(contact_case_t), intent(in) :: contact  !! material, friction, creepages
+        type(workspace_t), intent(in) :: workspace   !! with a solution, unless it is NORM's
         type(norm_stage_t), intent(in) :: norm       !! with a solution, if it is NORM's
-        type(material_t), intent(in) :: material     !! moduli, MPa
-        real(wp), intent(in) :: mu                   !! coefficient of friction
-        type(creepage_t), intent(in) :: creepage     !! about y = 0
         logical, intent(in) :: with_field            !! are the elements wanted?
         type(tangential_result_t), intent(out) :: tangential !! figures
         type(tangential_field_t), intent(inout) :: field !! grows and is filled, if wanted
         type(status_t), intent(out) :: status        !! of `tang_solve`, of the grid
 
-        if (methods%normal == 'norm') then
-            call solve_on_grid(stage, norm%workspace%grid, edges_of_norm, material, mu, creepage, &
-                               with_field, tangential, field, status)
+        if (numerics%normal == normal_norm) then
+            call solve_on_grid(stage, norm%workspace%grid, edges_of_norm, contact, with_field, &
+                               tangential, field, status)
             return
-        else if (methods%normal == 'hertz') then
-            associate (hertz => normal%workspace%hertz)
-                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, methods%element_dx, &
-                                    methods%element_dy, methods%max_elements, stage%grid, status)
+        else if (numerics%normal == normal_hertz) then
+            associate (hertz => workspace%hertz)
+                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, numerics%element_dx, &
+                                    numerics%element_dy, numerics%max_elements, stage%grid, status)
             end associate
         else
-            call sample_strips(normal%workspace%strips, methods%element_dx, methods%element_dy, &
-                               methods%max_elements, stage%grid, status)
+            call sample_strips(workspace%strips, numerics%element_dx, numerics%element_dy, &
+                               numerics%max_elements, stage%grid, status)
         end if
         if (is_error(status)) return
-        call solve_on_grid(stage, stage%grid, edges_sampled, material, mu, creepage, with_field, &
-                           tangential, field, status)
+        call solve_on_grid(stage, stage%grid, edges_sampled, contact, with_field, tangential, &
+                           field, status)
     end subroutine solve_by_tang
 
-    subroutine solve_on_grid(stage, grid, edges, material, mu, creepage, with_field, tangential, &
-                             field, status)
+    subroutine solve_on_grid(stage, grid, edges, contact, with_field, tangential, field, status)
         type(tang_stage_t), intent(inout) :: stage
         type(contact_grid_t), intent(in) :: grid
         integer, intent(in) :: edges
-        type(material_t), intent(in) :: material
-        real(wp), intent(in) :: mu
-        type(creepage_t), intent(in) :: creepage
+        type(contact_case_t), intent(in) :: contact
         logical, intent(in) :: with_field
         type(tangential_result_t), intent(out) :: tangential
         type(tangential_field_t), intent(inout) :: field
@@ -89,11 +84,11 @@ contains
         call set_detail('tang: ' // integer_text(elements) // ' elements in contact')
         if (with_field) then
             if (elements > size(field%x)) call reserve_field(field, elements, status)
-            call tang_solve(stage%workspace, grid, material, mu, creepage, options, tangential, &
-                            status, field)
+            call tang_solve(stage%workspace, grid, contact%material, contact%mu, &
+                            contact%creepage, options, tangential, status, field)
         else
-            call tang_solve(stage%workspace, grid, material, mu, creepage, options, tangential, &
-                            status)
+            call tang_solve(stage%workspace, grid, contact%material, contact%mu, &
+                            contact%creepage, options, tangential, status)
         end if
     end subroutine solve_on_grid
 end module faststrip_command_tang_stage

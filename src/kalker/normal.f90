@@ -23,7 +23,8 @@ module faststrip_kalker_normal
                                             release_convolution, set_kernel, set_inverse_kernel, &
                                             even
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
+                                            copy_gap_curve
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
     use faststrip_normal_limitations, only: check_penetration, name_step, add_limitation
     use faststrip_normal_strips, only: contact_strips_t
@@ -42,7 +43,7 @@ module faststrip_kalker_normal
     private
 
     public :: norm_options_t, norm_workspace_t, demand_t
-    public :: reserve_norm, release_norm, set_norm_gap
+    public :: reserve_norm, release_norm, set_norm_gap, set_norm_curve
     public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
@@ -137,6 +138,15 @@ contains
 
         call set_gap_curve(workspace%curve, gap, status)
     end subroutine set_norm_gap
+
+    !> The same for a gap that is a curve already.
+    subroutine set_norm_curve(workspace, curve, status)
+        type(norm_workspace_t), intent(inout) :: workspace !! reserved beforehand
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        type(status_t), intent(out) :: status  !! `st_workspace_too_small`
+
+        call copy_gap_curve(curve, workspace%curve, status)
+    end subroutine set_norm_curve
 
     !> Solve the normal problem of the gap in the workspace under a load. It starts from the strips
     !> given, from the last solution, or from the ellipse that fits the gap's width; with two levels

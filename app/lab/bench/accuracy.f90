@@ -72,10 +72,10 @@ contains
                     end do
                 else
                     n = n + 1
-                    errors(:, n) = [result%penetration/cases(i)%penetration - 1.0_wp, &
-                                    result%pmax/cases(i)%pmax - 1.0_wp, &
-                                    result%area/cases(i)%area - 1.0_wp, &
-                                    result%y_min - cases(i)%y_min, result%y_max - cases(i)%y_max]
+                    errors(:, n) = [result%penetration/cases(i)%truth%penetration - 1.0_wp, &
+                                    result%pmax/cases(i)%truth%pmax - 1.0_wp, &
+                                    result%area/cases(i)%truth%area - 1.0_wp, &
+                                    result%y_min - cases(i)%truth%y_min, result%y_max - cases(i)%truth%y_max]
                     do j = 1, 5
                         call put_cell(writer, errors(j, n))
                     end do

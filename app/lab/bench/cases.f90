@@ -4,26 +4,20 @@ module faststrip_lab_bench_cases
     use faststrip_base_status, only: status_t, is_error, st_file_format
     use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, cell_text
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
     use faststrip_base_text, only: set_place_status
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     implicit none
     private
 
     public :: bench_case_t, read_bench_cases
 
     !> One contact and what CONTACT finds for it.
-    type :: bench_case_t
+    type, extends(contact_case_t) :: bench_case_t
         character(len=:), allocatable :: name !! `shift_` and the lateral shift
         real(wp) :: shift = 0.0_wp            !! lateral shift of the wheelset, mm
-        real(wp) :: load = 0.0_wp             !! normal force, N
-        type(creepage_t) :: creepage          !! of the sign set that was read
-        type(gap_t) :: gap                    !! undeformed gap, mm
-        real(wp) :: penetration = 0.0_wp      !! by CONTACT, mm
-        real(wp) :: pmax = 0.0_wp             !! by CONTACT, MPa
-        real(wp) :: area = 0.0_wp             !! by CONTACT, extrapolated in the grid, mm2
-        real(wp) :: y_min = 0.0_wp            !! left end by CONTACT, mm
-        real(wp) :: y_max = 0.0_wp            !! right end by CONTACT, mm
+        type(normal_result_t) :: truth        !! by CONTACT; the area extrapolated in the grid
         real(wp) :: forces(3) = 0.0_wp        !! Fx, Fy, N, and Mz, N mm, by CONTACT, extrapolated
     end type bench_case_t
 
@@ -70,11 +64,11 @@ contains
             cases(i)%shift = values(i, 1)
             cases(i)%load = values(i, 2)
             cases(i)%creepage = creepage_t(values(i, 3), values(i, 4), values(i, 5))
-            cases(i)%penetration = values(i, 6)
-            cases(i)%pmax = values(i, 7)
-            cases(i)%area = values(i, 8)
-            cases(i)%y_min = values(i, 9)
-            cases(i)%y_max = values(i, 10)
+            cases(i)%truth%penetration = values(i, 6)
+            cases(i)%truth%pmax = values(i, 7)
+            cases(i)%truth%area = values(i, 8)
+            cases(i)%truth%y_min = values(i, 9)
+            cases(i)%truth%y_max = values(i, 10)
             cases(i)%forces = values(i, 11:13)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
             if (is_error(status)) return

@@ -29,6 +29,7 @@ module faststrip_lab_bench_certificate
     use faststrip_normal_certificate, only: certificate_t, certify_strips, richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_certificate_tally, only: tally_t, start_tally, count_in, count_out, &
                                                      print_tally, figures, n_figures
     use faststrip_lab_bench_certificate_truth, only: truth_t, find_truth, is_certain, &
@@ -67,10 +68,8 @@ module faststrip_lab_bench_certificate
                                                     'richardson', 'norm']
 
     !> A contact and what its strips give.
-    type :: contact_t
-        type(gap_t) :: gap
+    type, extends(contact_case_t) :: contact_t
         character(len=:), allocatable :: name
-        real(wp) :: load = 0.0_wp
         real(wp) :: h_lowest = 0.0_wp
         type(normal_result_t) :: result(n_tried)
         type(certificate_t) :: certificate(n_tried), halves(n_tried)

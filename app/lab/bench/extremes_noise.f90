@@ -17,11 +17,9 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: normal_compliance
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, &
                                       strip_solve_demand
@@ -29,20 +27,20 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_faststrip, only: faststrip_solve, default_points
     use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_case_file, only: case_t
     use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
     use faststrip_command_console, only: fail_on_error, progress
-    use faststrip_command_methods, only: methods_t
+    use faststrip_command_methods, only: numerics_t
     use faststrip_command_scene, only: scene_t
-    use faststrip_command_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     implicit none
     private
 
     public :: contact_t, find_contacts, noise_extremes, rounding_extremes
 
-    real(wp), parameter :: bench_mu = 0.3_wp
     ! The noise: the first stands for one unit in the last place.
     real(wp), parameter :: levels(5) = [epsilon(1.0_wp), 1.0e-13_wp, 1.0e-11_wp, 1.0e-9_wp, &
                                         1.0e-7_wp]
@@ -58,13 +56,8 @@ module faststrip_lab_bench_extremes_noise
                                                       'area', 'Fx', 'Fy', 'Mz']
 
     !> A contact to be solved again and again.
-    type :: contact_t
+    type, extends(contact_case_t) :: contact_t
         character(len=24) :: name = ''
-        type(gap_t) :: gap
-        type(material_t) :: material
-        type(demand_t) :: demand
-        type(creepage_t) :: creepage
-        real(wp) :: mu = bench_mu
     end type contact_t
 
 contains
@@ -79,7 +72,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call make_solver(methods_t(), .false., solver, status)
+        call make_solver(numerics_t(), .false., solver, status)
         call fail_on_error(status)
         do i = 1, size(contacts), merge(quick_step, 1, quick)
             call progress('contacts with noise', i, size(contacts))
@@ -98,7 +91,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call make_solver(methods_t(), .false., solver, status)
+        call make_solver(numerics_t(), .false., solver, status)
         call fail_on_error(status)
         call round_influence(writer)
         do i = 1, size(contacts), merge(quick_step, 1, quick)
@@ -124,36 +117,28 @@ contains
         allocate (contacts(size(cases) + size(scene_names)))
         do i = 1, size(cases)
             contacts(i)%name = cases(i)%name
-            contacts(i)%gap = cases(i)%gap
-            contacts(i)%demand = demand_t(load=cases(i)%load)
-            contacts(i)%creepage = cases(i)%creepage
+            contacts(i)%contact_case_t = cases(i)%contact_case_t
         end do
         do i = 1, size(scene_names)
             call read_example_scene(scenes, i, case, scene)
             associate (contact => contacts(size(cases) + i))
                 contact%name = scene_names(i)
-                contact%gap = scene%gap
-                contact%material = case%material
-                contact%demand = scene%demand
-                contact%creepage = scene%creepage
-                contact%mu = case%mu
+                contact%contact_case_t = scene%contact_case_t
             end associate
         end do
     end subroutine find_contacts
 
     !> The figures of a contact, and the units their changes are measured in; zero and one if there
     !> is an error.
-    subroutine figures_of(solver, contact, gap, figures, units, status)
+    subroutine figures_of(solver, contact, figures, units, status)
         type(solver_t), intent(inout) :: solver
         type(contact_t), intent(in) :: contact
-        type(gap_t), intent(in) :: gap
         real(wp), dimension(size(figure_names)), intent(out) :: figures, units
         type(status_t), intent(out) :: status
 
         type(outcome_t) :: outcome
 
-        call solve(solver, gap, contact%material, contact%mu, contact%demand, contact%creepage, &
-                   outcome, status)
+        call solve(solver, contact, outcome, status)
         figures = 0.0_wp
         units = 1.0_wp
         if (is_error(status)) return
@@ -172,14 +157,14 @@ contains
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(gap_t) :: gap
+        type(contact_t) :: noisy
         type(status_t) :: base_status, status
         type(row_t) :: row
         real(wp), dimension(size(figure_names)) :: base, unit, figures, units, change
         integer(int64) :: state
         integer :: level, draw, n_draws, k, other_status
 
-        call figures_of(solver, contact, contact%gap, base, unit, base_status)
+        call figures_of(solver, contact, base, unit, base_status)
         state = 20141
         do level = 1, size(levels)
             n_draws = draws(level)
@@ -187,10 +172,10 @@ contains
             change = 0.0_wp
             other_status = 0
             do draw = 1, n_draws
-                gap = contact%gap
-                call add_noise(levels(level), level == 1, state, gap%h)
-                call add_noise(levels(level), level == 1, state, gap%inv2r)
-                call figures_of(solver, contact, gap, figures, units, status)
+                noisy = contact
+                call add_noise(levels(level), level == 1, state, noisy%gap%h)
+                call add_noise(levels(level), level == 1, state, noisy%gap%inv2r)
+                call figures_of(solver, noisy, figures, units, status)
                 if (status%code /= base_status%code) other_status = other_status + 1
                 if (is_error(status) .or. is_error(base_status)) cycle
                 change = max(change, abs(figures - base)/unit)
@@ -233,9 +218,9 @@ contains
         loaded = contact
         do i = 1, n
             factor = exp(load_step*(i - 1 - n/2))
-            loaded%demand%load = factor*contact%demand%load
-            loaded%demand%penetration = factor*contact%demand%penetration
-            call figures_of(solver, loaded, contact%gap, figures(:, i), units(:, i), status)
+            loaded%load = factor*contact%load
+            loaded%penetration = factor*contact%penetration
+            call figures_of(solver, loaded, figures(:, i), units(:, i), status)
             if (i == 1 .or. status%code > worst%code) worst = status
         end do
         jump = 0.0_wp
@@ -335,7 +320,7 @@ contains
         do mode = 1, size(modes)
             call ieee_set_rounding_mode(modes(mode))
             if (whole) then
-                call figures_of(solver, contact, contact%gap, figures(:, mode), units(:, mode), &
+                call figures_of(solver, contact, figures(:, mode), units(:, mode), &
                                 status)
             else
                 call solve_directly(contact, figures(:, mode), status)
@@ -343,7 +328,7 @@ contains
             call ieee_set_rounding_mode(before)
             if (mode == 1 .or. status%code > worst%code) worst = status
         end do
-        if (.not. whole) call figures_of(solver, contact, contact%gap, units(:, 2), units(:, 1), &
+        if (.not. whole) call figures_of(solver, contact, units(:, 2), units(:, 1), &
                                          status)
         row = row_t(chapter='rounding', case=contact%name, method='strip+faststrip', &
                     judge='4 modes')
@@ -375,7 +360,7 @@ contains
         if (is_error(status)) return
         call set_strip_gap(workspace, contact%gap, status)
         if (is_error(status)) return
-        call strip_solve_demand(workspace, normal_compliance(contact%material), contact%demand, &
+        call strip_solve_demand(workspace, normal_compliance(contact%material), contact%demand_t, &
                                 strip_options_t(), strips, normal, status)
         if (is_error(status)) return
         call faststrip_solve(strips, contact%material, contact%mu, contact%creepage, &

@@ -10,15 +10,17 @@ module faststrip_lab_bench_extremes_tangential
     use faststrip_files_csv, only: csv_writer_t
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_bench_ellipse, only: make_ellipse
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_console, only: fail_on_error, progress
-    use faststrip_command_methods, only: methods_t, tangential_methods, n_force_laws
-    use faststrip_command_solver, only: solver_t, demand_t, outcome_t, make_solver, solve
-    use faststrip_command_tangential_stage, only: solve_tangential
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: method_t, normal_strip
+    use faststrip_contact_solve, only: solve_contact_tangential
+    use faststrip_command_force_laws, only: force_laws
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     implicit none
     private
 
@@ -42,39 +44,40 @@ contains
 
         integer :: method, i
 
-        do method = 1, n_force_laws
+        do method = 1, size(force_laws)
             do i = 1, size(poisson), merge(2, 1, quick)
-                call progress('tangential methods', method, n_force_laws)
-                call one_method(trim(tangential_methods(method)), poisson(i), quick, writer)
+                call progress('tangential methods', method, size(force_laws))
+                call one_method(force_laws(method), poisson(i), quick, writer)
             end do
         end do
     end subroutine tangential_extremes
 
     subroutine one_method(method, nu, quick, writer)
-        character(len=*), intent(in) :: method
+        type(method_t), intent(in) :: method
         real(wp), intent(in) :: nu
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
         type(solver_t) :: solver
         type(outcome_t) :: outcome
-        type(material_t) :: material
+        type(contact_case_t) :: contact
         type(normal_result_t) :: truth
-        type(gap_t) :: gap
         type(status_t) :: status
         type(row_t) :: row
         integer :: m, c, k
 
-        material = material_t(nu_wheel=nu, nu_rail=nu)
-        call make_ellipse(normal_compliance(material), ratio, load, points, gap, truth)
-        call make_solver(methods_t(normal='strip', tangential=method), .false., solver, status)
+        contact%material = material_t(nu_wheel=nu, nu_rail=nu)
+        contact%load = load
+        call make_ellipse(normal_compliance(contact%material), ratio, load, points, contact%gap, &
+                          truth)
+        call make_solver(numerics_t(normal=normal_strip, tangential=method%number), .false., &
+                         solver, status)
         call fail_on_error(status)
-        call solve(solver, gap, material, 0.3_wp, demand_t(load=load), creepage_t(), outcome, &
-                   status)
+        call solve(solver, contact, outcome, status)
         do m = 1, size(motions)
             do c = 1, size(sizes), merge(2, 1, quick)
                 do k = 1, size(frictions), merge(3, 1, quick)
-                    row = row_t(chapter='tangential', method=method, x_name='creepage', &
+                    row = row_t(chapter='tangential', method=method%name, x_name='creepage', &
                                 x=sizes(c), y_name='mu', y=frictions(k))
                     write (row%case, '(2a, f0.2)') trim(motions(m)), ' nu = 0', nu
                     if (is_error(status)) then
@@ -83,39 +86,40 @@ contains
                         call put_row(writer, row)
                         cycle
                     end if
-                    call one_motion(solver, material, trim(motions(m)), row, writer)
+                    call one_motion(solver, trim(motions(m)), row, writer)
                 end do
             end do
         end do
     end subroutine one_method
 
     !> The rows of one creepage and friction, which are the row's x and y.
-    subroutine one_motion(solver, material, motion, row, writer)
+    subroutine one_motion(solver, motion, row, writer)
         type(solver_t), intent(in) :: solver
-        type(material_t), intent(in) :: material
         character(len=*), intent(in) :: motion
         type(row_t), intent(inout) :: row
         type(csv_writer_t), intent(inout) :: writer
 
+        type(contact_case_t) :: contact
         type(tangential_result_t) :: here, next, opposite
         type(status_t) :: status
         real(wp) :: unit
 
         unit = load
         if (row%y > 0.0_wp) unit = row%y*load
-        call solve_tangential(solver%normal, material, row%y, creepage_of(motion, row%x), here, &
-                              status)
+        contact = solver%contact
+        contact%mu = row%y
+        contact%creepage = creepage_of(motion, row%x)
+        call solve_contact_tangential(solver%workspace, contact, here, status)
         call status_of(status, row)
         call put('force', hypot(here%fx, here%fy)/unit)
         call put('negative_power', max(0.0_wp, -here%friction_power)/unit)
         if (.not. row%has_value) return
-        call solve_tangential(solver%normal, material, row%y, creepage_of(motion, -row%x), &
-                              opposite, status)
+        contact%creepage = creepage_of(motion, -row%x)
+        call solve_contact_tangential(solver%workspace, contact, opposite, status)
         call status_of(status, row)
         call put('oddness', hypot(here%fx + opposite%fx, here%fy + opposite%fy)/unit)
-        call solve_tangential(solver%normal, material, row%y, &
-                              creepage_of(motion, (1.0_wp + small)*max(row%x, small**2)), next, &
-                              status)
+        contact%creepage = creepage_of(motion, (1.0_wp + small)*max(row%x, small**2))
+        call solve_contact_tangential(solver%workspace, contact, next, status)
         call status_of(status, row)
         call put('step', hypot(here%fx - next%fx, here%fy - next%fy)/unit)
 

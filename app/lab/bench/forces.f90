@@ -17,27 +17,20 @@ module faststrip_lab_bench_forces
     use faststrip_base_material, only: material_t
     use faststrip_normal_hertz, only: hertz_strips
     use faststrip_normal_strips, only: reserve_strips
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_command_console, only: fail_on_error, note, put_origin
-    use faststrip_contact_methods, only: gives_stick, tangential_method, normal_hertz
-    use faststrip_command_methods, only: methods_t, all_methods => tangential_methods, &
-                                         n_force_laws, word_length
-    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
-                                              make_room, solve_normal
-    use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
-                                                   scene_material
-    use faststrip_command_tangential_stage, only: solve_tangential
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_hertz, method_name_length
+    use faststrip_contact_solve, only: workspace_t, solve_contact_normal, solve_contact_tangential
+    use faststrip_command_force_laws, only: tangential_methods => force_laws
+    use faststrip_command_normal_stage, only: make_room
+    use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
 
     public :: bench_forces
-
-    ! Those the library knows: TANG, the last of the program's, is what others are judged by.
-    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
-        all_methods(:n_force_laws)
 
     !> Errors of one contact: Fx, Fy, force vector, Mz, power, stick fraction; in %.
     integer, parameter :: n_errors = 6
@@ -46,8 +39,7 @@ module faststrip_lab_bench_forces
 
     !> What CONTACT finds.
     type :: reference_t
-        real(wp) :: load = 0.0_wp, mu = 0.0_wp, size = 0.0_wp ! N, -, mm
-        type(creepage_t) :: creepage
+        real(wp) :: size = 0.0_wp                             ! mm
         real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp     ! N, N mm
         real(wp) :: stick = 0.0_wp
     end type reference_t
@@ -55,7 +47,7 @@ module faststrip_lab_bench_forces
     !> Errors of one set, summed up by group and method.
     type :: tally_t
         integer :: n_groups = 0
-        character(len=word_length) :: group(10) = ''
+        character(len=method_name_length) :: group(10) = ''
         real(wp) :: total(n_errors, 10, size(tangential_methods)) = 0.0_wp
         real(wp) :: largest(n_errors, 10, size(tangential_methods)) = 0.0_wp
         integer :: number(n_errors, 10, size(tangential_methods)) = 0
@@ -105,13 +97,12 @@ contains
             'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap', 'n_adh', 'n_con', &
             'G', 'nu']
         type(csv_table_t) :: table
-        type(methods_t) :: methods
-        type(normal_stage_t) :: normal
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
         type(reference_t) :: reference
-        type(material_t) :: material
         type(status_t) :: status
         real(wp), allocatable :: v(:, :), column(:)
-        character(len=word_length) :: group
+        character(len=method_name_length) :: group
         integer :: i, case_column
 
         tally = tally_t()
@@ -125,31 +116,32 @@ contains
             call fail_on_error(status)
             v(:, i) = column
         end do
-        methods%normal = 'hertz'
-        call make_normal_stage(methods, normal)
-        call reserve_strips(normal%workspace%strips, methods%strips_per_patch, status)
+        contact%methods%normal = normal_hertz
+        call reserve_strips(workspace%strips, contact%methods%strips_per_patch, status)
         call fail_on_error(status)
-        normal%workspace%solved_by = normal_hertz
+        workspace%solved_by = normal_hertz
         do i = 1, table%n_rows
-            associate (hertz => normal%workspace%hertz)
+            associate (hertz => workspace%hertz)
                 hertz%a = v(i, 1)
                 hertz%b = v(i, 2)
                 hertz%load = v(i, 4)
                 hertz%area = pi*hertz%a*hertz%b
                 hertz%pmax = 1.5_wp*hertz%load/hertz%area
-                reference = reference_t(v(i, 4), v(i, 3), sqrt(hertz%a*hertz%b), &
-                                        creepage_t(v(i, 5), v(i, 6), v(i, 7)), v(i, 8), v(i, 9), &
-                                        v(i, 10), v(i, 11)/v(i, 12))
+                reference = reference_t(sqrt(hertz%a*hertz%b), v(i, 8), v(i, 9), v(i, 10), &
+                                        v(i, 11)/v(i, 12))
             end associate
-            material%e_wheel = 2.0_wp*v(i, 13)*(1.0_wp + v(i, 14))
-            material%e_rail = material%e_wheel
-            material%nu_wheel = v(i, 14)
-            material%nu_rail = v(i, 14)
-            call hertz_strips(normal%workspace%hertz, methods%strips_per_patch, &
-                              normal%workspace%strips, status)
+            contact%mu = v(i, 3)
+            contact%load = v(i, 4)
+            contact%creepage = creepage_t(v(i, 5), v(i, 6), v(i, 7))
+            contact%material%e_wheel = 2.0_wp*v(i, 13)*(1.0_wp + v(i, 14))
+            contact%material%e_rail = contact%material%e_wheel
+            contact%material%nu_wheel = v(i, 14)
+            contact%material%nu_rail = v(i, 14)
+            call hertz_strips(workspace%hertz, contact%methods%strips_per_patch, &
+                              workspace%strips, status)
             call fail_on_error(status)
             group = cell_text(table, i, case_column)
-            call compare(normal, material, reference, 'hertz', trim(group), i, writer, tally)
+            call compare(workspace, contact, reference, 'hertz', trim(group), i, writer, tally)
         end do
         call total_group(tally)
     end subroutine compare_hertz
@@ -164,12 +156,10 @@ contains
             'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_extrap_mm2', &
             'n_adhesion', 'n_contact']
         type(csv_table_t) :: table
-        type(methods_t) :: methods
-        type(normal_stage_t) :: normal
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
         type(normal_result_t) :: figures
         type(reference_t) :: reference
-        type(material_t) :: material
-        type(gap_t) :: gap
         type(status_t) :: status
         real(wp), allocatable :: v(:, :), column(:)
         integer :: i, shift_column
@@ -185,20 +175,22 @@ contains
             call fail_on_error(status)
             v(:, i) = column
         end do
-        material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
-        call make_normal_stage(methods, normal)
+        contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
+        contact%mu = 0.3_wp
+        contact%estimate = .false.
         do i = 1, table%n_rows
             call read_gap_file(folder // '/gaps/shift_' // cell_text(table, i, shift_column) &
-                               // '.csv', gap, status)
+                               // '.csv', contact%gap, status)
             call fail_on_error(status)
-            call make_room(normal, gap, status)
+            contact%load = v(i, 1)
+            contact%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
+            call make_room(workspace, contact, status)
             call fail_on_error(status)
-            call solve_normal(normal, gap, material, demand_t(load=v(i, 1)), figures, status)
+            call solve_contact_normal(workspace, contact, figures, status)
             if (is_error(status)) call fail_on_error(status)
-            reference = reference_t(v(i, 1), 0.3_wp, sqrt(v(i, 8)/pi), &
-                                    creepage_t(v(i, 2), v(i, 3), v(i, 4)), v(i, 5), v(i, 6), &
-                                    v(i, 7), v(i, 9)/v(i, 10))
-            call compare(normal, material, reference, name, 'all', i, writer, tally)
+            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), &
+                                    v(i, 9)/v(i, 10))
+            call compare(workspace, contact, reference, name, 'all', i, writer, tally)
         end do
         call tell(name, tally)
     end subroutine compare_shifts
@@ -212,7 +204,7 @@ contains
         character(len=*), parameter :: names(9) = [character(len=16) :: 'number', 'cksi', 'ceta', &
             'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
             'stick_fraction']
-        type(normal_stage_t) :: normal
+        type(workspace_t) :: workspace
         type(normal_result_t) :: figures
         type(reference_t) :: reference
         type(reference_scene_t) :: scene
@@ -227,18 +219,16 @@ contains
             call fail_on_error(status)
             v(:, i) = column
         end do
-        call make_normal_stage(methods_t(), normal)
         do i = 1, table%n_rows
             call make_reference_scene(nint(v(i, 1)), scene)
-            call make_room(normal, scene%gap, status)
+            scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
+            scene%estimate = .false.
+            call make_room(workspace, scene, status)
             call fail_on_error(status)
-            call solve_normal(normal, scene%gap, scene_material(scene), &
-                              demand_t(load=scene%load), figures, status)
+            call solve_contact_normal(workspace, scene%contact_case_t, figures, status)
             if (is_error(status)) call fail_on_error(status)
-            reference = reference_t(scene%load, scene%mu, sqrt(v(i, 8)/pi), &
-                                    creepage_t(v(i, 2), v(i, 3), v(i, 4)), v(i, 5), v(i, 6), &
-                                    v(i, 7), v(i, 9))
-            call compare(normal, scene_material(scene), reference, 'scenes', &
+            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), v(i, 9))
+            call compare(workspace, scene%contact_case_t, reference, 'scenes', &
                          trim(merge('even', 'odd ', modulo(scene%number, 2) == 0)), scene%number, &
                          writer, tally)
         end do
@@ -246,28 +236,29 @@ contains
     end subroutine compare_scenes
 
     !> All methods on one contact.
-    subroutine compare(normal, material, reference, set, group, number, writer, tally)
-        type(normal_stage_t), intent(inout) :: normal
-        type(material_t), intent(in) :: material
+    subroutine compare(workspace, contact, reference, set, group, number, writer, tally)
+        type(workspace_t), intent(in) :: workspace  ! with a normal solution
+        type(contact_case_t), intent(in) :: contact ! what was solved
         type(reference_t), intent(in) :: reference
         character(len=*), intent(in) :: set, group
         integer, intent(in) :: number
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(inout) :: tally
 
+        type(contact_case_t) :: case
         type(tangential_result_t) :: result
         type(status_t) :: status
         real(wp) :: error(n_errors), force, power
         logical :: counts(n_errors)
         integer :: m, j
 
-        force = reference%mu*reference%load
-        power = -(reference%fx*reference%creepage%cksi + reference%fy*reference%creepage%ceta &
-                  + reference%mz*reference%creepage%cphi)
+        case = contact
+        force = contact%mu*contact%load
+        power = -(reference%fx*contact%creepage%cksi + reference%fy*contact%creepage%ceta &
+                  + reference%mz*contact%creepage%cphi)
         do m = 1, size(tangential_methods)
-            normal%methods%tangential = tangential_method(tangential_methods(m))
-            call solve_tangential(normal, material, reference%mu, reference%creepage, result, &
-                                  status)
+            case%methods%tangential = tangential_methods(m)%number
+            call solve_contact_tangential(workspace, case, result, status)
             if (is_error(status)) call fail_on_error(status)
             error(1) = (result%fx - reference%fx)/force
             error(2) = (result%fy - reference%fy)/force
@@ -278,11 +269,11 @@ contains
             error = 100.0_wp*error
             counts = .true.
             counts(5) = hypot(reference%fx, reference%fy) > smallest_share*force
-            counts(6) = gives_stick(normal%methods%tangential)
+            counts(6) = tangential_methods(m)%gives_stick
             call put_cell(writer, set)
             call put_cell(writer, group)
             call put_cell(writer, number)
-            call put_cell(writer, trim(tangential_methods(m)))
+            call put_cell(writer, trim(tangential_methods(m)%name))
             do j = 1, n_errors
                 if (counts(j)) then
                     call put_cell(writer, error(j))
@@ -347,7 +338,7 @@ contains
             write (line, '(t26, 6a15)') 'Fx', 'Fy', 'force', 'Mz', 'power', 'stick'
             call note(trim(line))
             do m = 1, size(tangential_methods)
-                line = '  ' // tangential_methods(m)
+                line = '  ' // tangential_methods(m)%name
                 do j = 1, n_errors
                     associate (n => tally%number(j, g, m), cell => line(12 + 15*j:26 + 15*j))
                         if (n > 0) write (cell, '(f8.2, f7.1)') tally%total(j, g, m)/n, &

@@ -122,7 +122,7 @@ contains
             ! Scattered, so that what the time leaves out is no end of the sweep.
             i = 1 + modulo(7*(k - 1), size(bench%cases))
             if (modulo(size(bench%cases), 7) == 0) i = k
-            dx = sqrt(bench%cases(i)%area/elements)
+            dx = sqrt(bench%cases(i)%truth%area/elements)
             do t = 1, size(tolerances)
                 do start = 1, size(starts)
                     call measure_start(bench, i, start, tolerances(t), dx, share, times, solved)

@@ -55,7 +55,7 @@ contains
             i = 1 + modulo(7*(k - 1), size(cases))
             if (modulo(size(cases), 7) == 0) i = k
             solved = solved + 1
-            call measure_case(cases(i), sqrt(cases(i)%area/elements), &
+            call measure_case(cases(i), sqrt(cases(i)%truth%area/elements), &
                               budget_us/(size(starts)*size(cases)), writer, us(solved, :))
             call system_clock(now)
             if (microseconds(begin, now) > budget_us) exit

@@ -96,7 +96,7 @@ contains
                 call fail_on_error(status)
                 do k = 1, size(schemes)
                     call compare('paper_' // signs, cases(i)%name, k, norm%grid, edges_of_norm, &
-                                 cases(i)%load, cases(i)%area, cases(i)%creepage, &
+                                 cases(i)%load, cases(i)%truth%area, cases(i)%creepage, &
                                  cases(i)%forces, tang, groups(k), writer)
                 end do
             end do

@@ -7,7 +7,9 @@ module faststrip_lab_bench_scenes
     use faststrip_command_case_file, only: case_t
     use faststrip_command_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
-    use faststrip_command_methods, only: methods_t
+    use faststrip_contact_methods, only: normal_hertz, normal_auto, tangential_linear, &
+                                         tangential_fastsim
+    use faststrip_command_methods, only: numerics_t
     use faststrip_command_result_csv, only: result_columns, put_result
     use faststrip_command_scene, only: scene_t
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
@@ -47,13 +49,12 @@ contains
                 call fail_on_error(status)
                 ! The second time nothing has to be allocated or planned.
                 do run = 1, 2
-                    call solve(solver, scene%gap, case%material, case%mu, scene%demand, &
-                               scene%creepage, outcome, status)
+                    call solve(solver, scene, outcome, status)
                 end do
                 call put_cell(writer, trim(scene_names(i)))
                 call put_cell(writer, trim(labels(m)))
-                if (scene%demand%by_load) then
-                    call put_cell(writer, scene%demand%load)
+                if (scene%by_load) then
+                    call put_cell(writer, scene%load)
                 else if (is_error(status)) then
                     call put_cell(writer, '')
                 else
@@ -71,23 +72,23 @@ contains
     end subroutine bench_scenes
 
     !> The methods behind a label.
-    type(methods_t) function methods_of(m) result(methods)
+    type(numerics_t) function methods_of(m) result(numerics)
         integer, intent(in) :: m
 
         real(wp), parameter :: never_met = 1.0e-9_wp
 
         select case (m)
         case (1)
-            methods%normal = 'auto'
-            methods%tolerance = never_met
+            numerics%normal = normal_auto
+            numerics%tolerance = never_met
         case (2)
-            methods%normal = 'hertz'
-            methods%tangential = 'linear'
+            numerics%normal = normal_hertz
+            numerics%tangential = tangential_linear
         case (3)
-            methods%normal = 'hertz'
-            methods%tangential = 'fastsim'
+            numerics%normal = normal_hertz
+            numerics%tangential = tangential_fastsim
         case (5)
-            methods%normal = 'auto'
+            numerics%normal = normal_auto
         end select
     end function methods_of
 end module faststrip_lab_bench_scenes

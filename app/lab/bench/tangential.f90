@@ -7,7 +7,6 @@ module faststrip_lab_bench_tangential
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
-    use faststrip_base_material, only: material_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
@@ -15,21 +14,16 @@ module faststrip_lab_bench_tangential
                                        spread_names, cpu_columns
     use faststrip_command_console, only: fail_on_error, note, put_origin
     use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
-    use faststrip_contact_methods, only: gives_elements, tangential_method
-    use faststrip_contact_solve, only: reserve_contact_field
-    use faststrip_command_methods, only: methods_t, all_methods => tangential_methods, &
-                                         n_force_laws, word_length
-    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
-                                              make_room, solve_normal
-    use faststrip_command_tangential_stage, only: solve_tangential
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: method_t, method_name_length
+    use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
+                                       solve_contact_tangential
+    use faststrip_command_force_laws, only: tangential_methods => force_laws
+    use faststrip_command_normal_stage, only: make_room
     implicit none
     private
 
     public :: bench_tangential
-
-    ! Those the library knows: TANG, the last of the program's, is what others are judged by.
-    character(len=word_length), parameter :: tangential_methods(n_force_laws) = &
-        all_methods(:n_force_laws)
 
     ! Strips across the largest patch and points along each.
     integer, parameter :: sizes(4) = [5, 15, 31, 61]
@@ -87,8 +81,8 @@ contains
         type(times_t), intent(out) :: times
 
         real(wp), parameter :: shortest_us = 50.0_wp
-        type(methods_t) :: methods
-        type(normal_stage_t) :: normal
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
         type(normal_result_t) :: figures
         type(tangential_field_t) :: field
         type(tangential_result_t) :: result
@@ -97,18 +91,20 @@ contains
         integer, dimension(size(tangential_methods)) :: repetitions
         integer :: m, round
 
-        methods%strips_per_patch = n
-        methods%points_per_strip = n
-        call make_normal_stage(methods, normal)
-        call make_room(normal, case%gap, status)
+        contact = case%contact_case_t
+        contact%mu = mu
+        contact%estimate = .false.
+        contact%methods%strips_per_patch = n
+        contact%methods%points_per_strip = n
+        call make_room(workspace, contact, status)
         call fail_on_error(status)
-        call solve_normal(normal, case%gap, material_t(), demand_t(load=case%load), figures, status)
+        call solve_contact_normal(workspace, contact, figures, status)
         call fail_on_error(status)
         ! The same number of elements for FASTSIM on one patch.
-        normal%methods%fastsim_nx = n
-        normal%methods%fastsim_ny = normal%workspace%strips%n
-        times%elements = n*normal%workspace%strips%n
-        call reserve_contact_field(field, normal%methods, status)
+        contact%methods%fastsim_nx = n
+        contact%methods%fastsim_ny = workspace%strips%n
+        times%elements = n*workspace%strips%n
+        call reserve_contact_field(field, contact%methods, status)
         call fail_on_error(status)
         repetitions = 1
         do m = 1, size(tangential_methods)
@@ -121,7 +117,7 @@ contains
         do round = 1, rounds
             do m = 1, size(tangential_methods)
                 forces(round, m) = time_of(m, .false.)
-                if (has_elements(tangential_methods(m))) with_field(round, m) = time_of(m, .true.)
+                if (tangential_methods(m)%gives_elements) with_field(round, m) = time_of(m, .true.)
             end do
         end do
         do m = 1, size(tangential_methods)
@@ -138,14 +134,13 @@ contains
             real(wp) :: from
             integer :: i
 
-            normal%methods%tangential = tangential_method(tangential_methods(method))
+            contact%methods%tangential = tangential_methods(method)%number
             from = cpu_microseconds()
             do i = 1, repetitions(method)
                 if (wants_field) then
-                    call solve_tangential(normal, material_t(), mu, case%creepage, result, &
-                                          status, field)
+                    call solve_contact_tangential(workspace, contact, result, status, field)
                 else
-                    call solve_tangential(normal, material_t(), mu, case%creepage, result, status)
+                    call solve_contact_tangential(workspace, contact, result, status)
                 end if
             end do
             us = (cpu_microseconds() - from)/repetitions(method)
@@ -162,8 +157,8 @@ contains
         integer :: m, figure, elements
 
         do m = 1, size(tangential_methods)
-            elements = merge(times%elements, 1, has_elements(tangential_methods(m)))
-            call put_cell(writer, trim(tangential_methods(m)))
+            elements = merge(times%elements, 1, tangential_methods(m)%gives_elements)
+            call put_cell(writer, trim(tangential_methods(m)%name))
             call put_cell(writer, n)
             call put_cell(writer, n)
             call put_cell(writer, name)
@@ -171,7 +166,7 @@ contains
             call put_cell(writer, times%forces(1, m))
             call put_cell(writer, 1.0e3_wp*times%forces(1, m)/elements)
             call put_cell(writer, times%forces(1, m)/times%forces(1, measured()))
-            if (has_elements(tangential_methods(m))) then
+            if (tangential_methods(m)%gives_elements) then
                 call put_cell(writer, times%field(m))
             else
                 call put_cell(writer, '')
@@ -192,7 +187,7 @@ contains
         type(times_t), intent(in) :: times(:)
 
         real(wp), dimension(size(times)) :: us, ns, ratio, field
-        character(len=word_length) :: name
+        character(len=method_name_length) :: name
         integer :: m, i
 
         call note(integer_text(n) // ' strips of ' // integer_text(n) // ' points; processor us, ' &
@@ -205,8 +200,8 @@ contains
                 ratio(i) = us(i)/times(i)%forces(1, measured())
                 field(i) = times(i)%field(m)
             end do
-            name = tangential_methods(m)
-            if (.not. has_elements(name)) then
+            name = tangential_methods(m)%name
+            if (.not. tangential_methods(m)%gives_elements) then
                 call note('  ' // name // spread_text(us))
             else
                 call note('  ' // name // spread_text(us) // '  ' &
@@ -217,14 +212,8 @@ contains
         end do
     end subroutine tell
 
-    logical function has_elements(name)
-        character(len=*), intent(in) :: name
-
-        has_elements = gives_elements(tangential_method(name))
-    end function has_elements
-
     !> Number of the method the others are measured by.
     pure integer function measured()
-        measured = findloc(tangential_methods == measure, .true., 1)
+        measured = findloc(tangential_methods%name == measure, .true., 1)
     end function measured
 end module faststrip_lab_bench_tangential

@@ -16,8 +16,10 @@ module faststrip_lab_bench_trade
     use faststrip_lab_bench_trade_influence, only: trade_influence
     use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
     use faststrip_command_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
-    use faststrip_command_methods, only: methods_t, check_methods
-    use faststrip_command_solver, only: solver_t, outcome_t, demand_t, make_solver, solve
+    use faststrip_contact_methods, only: normal_method, tangential_method, normal_method_name, &
+                                         tangential_method_name, normal_norm, tangential_tang
+    use faststrip_command_methods, only: numerics_t, check_numerics
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_wheelset_cases, &
                                                read_hertz_cases, read_scene_cases, n_figures, &
                                                figure_names
@@ -31,7 +33,7 @@ module faststrip_lab_bench_trade
         character(len=:), allocatable :: stage !! normal, tangential or both
         character(len=:), allocatable :: name  !! what the CSV calls it
         character(len=:), allocatable :: when  !! always, or full: not in the quick bench
-        type(methods_t) :: methods
+        type(numerics_t) :: numerics
     end type entry_t
 
     character(len=*), parameter :: stages(3) = [character(len=10) :: 'normal', 'tangential', 'both']
@@ -94,8 +96,8 @@ contains
             integer, intent(in) :: in_quick
 
             thinning = 1
-            if (entry%methods%normal == 'norm' .or. entry%methods%tangential == 'tang' .or. &
-                entry%methods%strips_per_patch > many_strips) thinning = 7
+            if (entry%numerics%normal == normal_norm .or. entry%numerics%tangential == tangential_tang .or. &
+                entry%numerics%strips_per_patch > many_strips) thinning = 7
             if (in_quick == 20 .and. entry%stage == 'normal') thinning = 20
             if (quick) thinning = in_quick
         end function thinning
@@ -114,15 +116,14 @@ contains
         integer :: i, run, runs, figure
         logical :: counts
 
-        call make_solver(entry%methods, .false., solver, status)
+        call make_solver(entry%numerics, .false., solver, status)
         call fail_on_error(status)
         do i = 1, size(cases)
             associate (case => cases(i))
                 runs = 0
                 spent = 0.0_wp
                 do run = 1, most_repeats
-                    call solve(solver, case%gap, case%material, case%mu, &
-                               demand_t(load=case%load), case%creepage, outcome, status)
+                    call solve(solver, case, outcome, status)
                     if (is_error(status)) exit
                     runs = run
                     us(run) = stage_time(entry%stage, outcome)
@@ -133,8 +134,8 @@ contains
                 call put_cell(writer, case%name)
                 call put_cell(writer, entry%stage)
                 call put_cell(writer, entry%name)
-                call put_cell(writer, trim(entry%methods%normal))
-                call put_cell(writer, trim(entry%methods%tangential))
+                call put_cell(writer, trim(normal_method_name(entry%numerics%normal)))
+                call put_cell(writer, trim(tangential_method_name(entry%numerics%tangential)))
                 call put_cell(writer, trim(status_word(status%code)))
                 if (runs == 0) then
                     call put_cell(writer, '')
@@ -211,14 +212,17 @@ contains
             entries(row)%when = text('when')
             if (all(stages /= entries(row)%stage)) &
                 call refuse('stage', entries(row)%stage)
-            entries(row)%methods%normal = text('normal')
-            entries(row)%methods%tangential = text('tangential')
-            call take_number('strips_per_patch', entries(row)%methods%strips_per_patch)
-            call take_number('points_per_strip', entries(row)%methods%points_per_strip)
-            call take_number('fastsim_nx', entries(row)%methods%fastsim_nx)
-            call take_number('fastsim_ny', entries(row)%methods%fastsim_ny)
-            call take_side(entries(row)%methods)
-            call check_methods(entries(row)%methods, what, range, value)
+            entries(row)%numerics%normal = normal_method(text('normal'))
+            if (entries(row)%numerics%normal < 0) call refuse('normal', text('normal'))
+            entries(row)%numerics%tangential = tangential_method(text('tangential'))
+            if (entries(row)%numerics%tangential < 0) &
+                call refuse('tangential', text('tangential'))
+            call take_number('strips_per_patch', entries(row)%numerics%strips_per_patch)
+            call take_number('points_per_strip', entries(row)%numerics%points_per_strip)
+            call take_number('fastsim_nx', entries(row)%numerics%fastsim_nx)
+            call take_number('fastsim_ny', entries(row)%numerics%fastsim_ny)
+            call take_side(entries(row)%numerics)
+            call check_numerics(entries(row)%numerics, what, range, value)
             if (len(what) > 0) call refuse(what, value)
         end do
 
@@ -249,16 +253,16 @@ contains
         end subroutine take_number
 
         !> Elements are squares.
-        subroutine take_side(methods)
-            type(methods_t), intent(inout) :: methods
+        subroutine take_side(numerics)
+            type(numerics_t), intent(inout) :: numerics
 
             integer :: column
 
             if (text('element_mm') == '') return
             call require_column(table, 'element_mm', column, status)
-            call cell_number(table, row, column, methods%element_dx, status)
+            call cell_number(table, row, column, numerics%element_dx, status)
             call fail_on_error(status)
-            methods%element_dy = methods%element_dx
+            numerics%element_dy = numerics%element_dx
         end subroutine take_side
 
         subroutine refuse(name, wrong)

@@ -11,8 +11,7 @@ module faststrip_lab_bench_trade_cases
     use faststrip_files_gap, only: read_gap_file
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_indicators, only: indicators_t, find_indicators
-    use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
-                                                   scene_material
+    use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
 
@@ -136,7 +135,7 @@ contains
             call make_reference_scene(nint(values(i, 1)), scene)
             cases(i)%set = 'scenes'
             cases(i)%name = integer_text(scene%number)
-            cases(i)%material = scene_material(scene)
+            cases(i)%material = scene%material
             cases(i)%mu = scene%mu
             cases(i)%load = scene%load
             cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))

@@ -11,6 +11,7 @@ module faststrip_lab_fuzz_gaps
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_contact_case, only: contact_case_t
     implicit none
     private
 
@@ -31,13 +32,11 @@ module faststrip_lab_fuzz_gaps
     integer, parameter :: most_terms = 8
     real(wp), parameter :: noise_height = 0.5e-3_wp ! of a measured profile, mm
 
-    !> One case.
-    type :: fuzz_case_t
+    !> One case: the gap and the load of a contact. Material and creepages are the judges'.
+    type, extends(contact_case_t) :: fuzz_case_t
         integer :: number = 0      !! from 1
         integer :: family = 0      !! index of `family_names`
         integer :: strips = 0      !! strips across the largest patch
-        real(wp) :: load = 0.0_wp  !! N
-        type(gap_t) :: gap         !! mm, mm, 1/mm
     end type fuzz_case_t
 
     !> State of the random numbers: L'Ecuyer's MRG32k3a (Operations Research 47, 1999, 159-164),

@@ -3,17 +3,17 @@
 module faststrip_lab_scenes_reference_gaps
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_fuzz_gaps, only: random_t, start_random, uniform, log_uniform, chance
     implicit none
     private
 
-    public :: reference_scene_t, make_reference_scene, draw_creepage, scene_families, scene_material
+    public :: reference_scene_t, make_reference_scene, draw_creepage, scene_families
 
     !> What the families are called; two contacts in a row are of the same one, so that contacts
     !> with odd and even numbers are alike.
@@ -25,15 +25,10 @@ module faststrip_lab_scenes_reference_gaps
     integer, parameter :: points = 801
     real(wp), parameter :: half_width = 24.0_wp, highest = 2.0_wp ! mm
 
-    !> One contact but for its creepages.
-    type :: reference_scene_t
+    !> One contact; its creepages are drawn when its strips are known. Both bodies are alike.
+    type, extends(contact_case_t) :: reference_scene_t
         integer :: number = 0          !! from 1
         integer :: family = 0          !! index of `scene_families`
-        real(wp) :: load = 0.0_wp      !! N
-        real(wp) :: mu = 0.0_wp        !! coefficient of friction
-        real(wp) :: youngs = 0.0_wp    !! of both bodies, MPa
-        real(wp) :: poisson = 0.0_wp   !! of both bodies
-        type(gap_t) :: gap             !! mm, mm, 1/mm
         type(random_t) :: random       !! for the creepages
     end type reference_scene_t
 
@@ -44,35 +39,30 @@ contains
         integer, intent(in) :: number                !! from 1
         type(reference_scene_t), intent(out) :: scene !! drawn
 
+        real(wp) :: youngs, poisson ! MPa, -
+
         scene%number = number
         scene%family = 1 + modulo((number - 1)/2, size(scene_families))
         call start_random(seed, number, scene%random)
         scene%load = log_uniform(scene%random, 1.5e4_wp, 1.5e5_wp)
         scene%mu = log_uniform(scene%random, 0.05_wp, 0.6_wp)
         ! Steel on steel, now and then something softer.
-        scene%youngs = 2.1e5_wp
-        scene%poisson = 0.28_wp
+        youngs = 2.1e5_wp
+        poisson = 0.28_wp
         if (chance(scene%random, 0.3_wp)) then
-            scene%youngs = log_uniform(scene%random, 5.0e4_wp, 2.1e5_wp)
-            scene%poisson = uniform(scene%random, 0.0_wp, 0.45_wp)
+            youngs = log_uniform(scene%random, 5.0e4_wp, 2.1e5_wp)
+            poisson = uniform(scene%random, 0.0_wp, 0.45_wp)
         end if
+        scene%material = material_t(youngs, youngs, poisson, poisson)
         call draw_gap(scene)
     end subroutine make_reference_scene
-
-    !> The material of both bodies.
-    pure type(material_t) function scene_material(scene)
-        type(reference_scene_t), intent(in) :: scene !! drawn
-
-        scene_material = material_t(scene%youngs, scene%youngs, scene%poisson, scene%poisson)
-    end function scene_material
 
     !> Draw creepages: slip that would take 0.1 to 2 times mu N by the linear theory of the
     !> largest patch, in any direction, and spin up to 0.01 over the patch's size, half of them
     !> less than a third of that. The reference point stays that of the gap, y = 0.
-    subroutine draw_creepage(scene, strips, creepage, status)
+    subroutine draw_creepage(scene, strips, status)
         type(reference_scene_t), intent(inout) :: scene !! drawn
         type(contact_strips_t), intent(in) :: strips    !! its normal solution
-        type(creepage_t), intent(out) :: creepage       !! about y = 0
         type(status_t), intent(out) :: status           !! from the library
 
         type(patch_ellipse_t) :: ellipse, other
@@ -92,17 +82,17 @@ contains
             if (other%load > ellipse%load) ellipse = other
         end do
         call kalker_coefficients(ellipse%a/ellipse%b, &
-                                 combined_poisson_ratio(scene_material(scene)), c, status)
+                                 combined_poisson_ratio(scene%material), c, status)
         if (is_error(status)) return
-        g_ab = combined_shear_modulus(scene_material(scene))*ellipse%a*ellipse%b
+        g_ab = combined_shear_modulus(scene%material)*ellipse%a*ellipse%b
         share = log_uniform(scene%random, 0.1_wp, 2.0_wp)*scene%mu*ellipse%load
         direction = uniform(scene%random, -pi, pi)
         spin = uniform(scene%random, -1.0_wp, 1.0_wp)*0.01_wp
         if (chance(scene%random, 0.5_wp)) spin = spin*uniform(scene%random, 0.0_wp, 1.0_wp)/3.0_wp
-        creepage%cphi = spin/sqrt(ellipse%a*ellipse%b)
+        scene%creepage%cphi = spin/sqrt(ellipse%a*ellipse%b)
         ! What the spin makes of longitudinal creepage at the patch is no part of the draw.
-        creepage%cksi = share*cos(direction)/(c%c11*g_ab) + ellipse%y*creepage%cphi
-        creepage%ceta = share*sin(direction)/(c%c22*g_ab)
+        scene%creepage%cksi = share*cos(direction)/(c%c11*g_ab) + ellipse%y*scene%creepage%cphi
+        scene%creepage%ceta = share*sin(direction)/(c%c22*g_ab)
     end subroutine draw_creepage
 
     !> The gap: curvature of the family integrated twice, lowest point at zero.

@@ -6,21 +6,20 @@ module faststrip_lab_scenes_reference_scenes
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: normal_compliance
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        set_norm_gap, norm_solve
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
     use faststrip_command_console, only: fail_on_error, note, put_origin
-    use faststrip_command_methods, only: methods_t
-    use faststrip_command_normal_stage, only: normal_stage_t, demand_t, make_normal_stage, &
-                                              make_room, solve_normal
+    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
+    use faststrip_command_normal_stage, only: make_room
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
-                                                   draw_creepage, scene_families, scene_material
+                                                   draw_creepage, scene_families
     implicit none
     private
 
@@ -78,27 +77,24 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(reference_scene_t) :: scene
-        type(normal_stage_t) :: normal
+        type(workspace_t) :: workspace
         type(normal_result_t) :: strips
-        type(creepage_t) :: creepage
         type(status_t) :: status
         type(figures_t) :: coarse, fine
         real(wp) :: dx, dy
 
         call make_reference_scene(number, scene)
-        call make_normal_stage(methods_t(), normal)
-        call make_room(normal, scene%gap, status)
+        scene%estimate = .false.
+        call make_room(workspace, scene, status)
         if (.not. is_error(status)) &
-            call solve_normal(normal, scene%gap, scene_material(scene), &
-                              demand_t(load=scene%load), strips, status)
-        if (.not. is_error(status)) &
-            call draw_creepage(scene, normal%workspace%strips, creepage, status)
+            call solve_contact_normal(workspace, scene%contact_case_t, strips, status)
+        if (.not. is_error(status)) call draw_creepage(scene, workspace%strips, status)
         if (.not. is_error(status)) then
             dx = 2.0_wp*strips%x_max/elements
             dy = (strips%y_max - strips%y_min)/elements
-            call solve_grid(scene, normal, creepage, 2.0_wp*dx, 2.0_wp*dy, coarse, status)
+            call solve_grid(scene, workspace%strips, 2.0_wp*dx, 2.0_wp*dy, coarse, status)
             if (.not. is_error(status)) &
-                call solve_grid(scene, normal, creepage, dx, dy, fine, status)
+                call solve_grid(scene, workspace%strips, dx, dy, fine, status)
         end if
         if (is_error(status)) then
             call note(integer_text(number) // ' left out: ' // trim(status%message))
@@ -108,11 +104,11 @@ contains
         call put_cell(writer, trim(scene_families(scene%family)))
         call put_cell(writer, scene%load)
         call put_cell(writer, scene%mu)
-        call put_cell(writer, scene%youngs)
-        call put_cell(writer, scene%poisson)
-        call put_cell(writer, creepage%cksi)
-        call put_cell(writer, creepage%ceta)
-        call put_cell(writer, creepage%cphi)
+        call put_cell(writer, scene%material%e_wheel)
+        call put_cell(writer, scene%material%nu_wheel)
+        call put_cell(writer, scene%creepage%cksi)
+        call put_cell(writer, scene%creepage%ceta)
+        call put_cell(writer, scene%creepage%cphi)
         call put_cell(writer, extrapolated(coarse%forces%fx, fine%forces%fx))
         call put_cell(writer, extrapolated(coarse%forces%fy, fine%forces%fy))
         call put_cell(writer, extrapolated(coarse%forces%mz, fine%forces%mz))
@@ -130,10 +126,9 @@ contains
         call end_row(writer)
     end subroutine solve_scene
 
-    subroutine solve_grid(scene, normal, creepage, dx, dy, figures, status)
+    subroutine solve_grid(scene, strips, dx, dy, figures, status)
         type(reference_scene_t), intent(in) :: scene
-        type(normal_stage_t), intent(in) :: normal !! by strips, to start from
-        type(creepage_t), intent(in) :: creepage
+        type(contact_strips_t), intent(in) :: strips !! to start from
         real(wp), intent(in) :: dx, dy             !! sides of the elements, mm
         type(figures_t), intent(out) :: figures
         type(status_t), intent(out) :: status
@@ -145,11 +140,10 @@ contains
         if (is_error(status)) return
         call set_norm_gap(norm, scene%gap, status)
         if (is_error(status)) return
-        call norm_solve(norm, normal_compliance(scene_material(scene)), scene%load, &
-                        norm_options_t(dx=dx, dy=dy), figures%normal, status, &
-                        normal%workspace%strips)
+        call norm_solve(norm, normal_compliance(scene%material), scene%load, &
+                        norm_options_t(dx=dx, dy=dy), figures%normal, status, strips)
         if (is_error(status)) return
-        call tang_solve(tang, norm%grid, scene_material(scene), scene%mu, creepage, &
+        call tang_solve(tang, norm%grid, scene%material, scene%mu, scene%creepage, &
                         tang_options_t(), figures%forces, status)
     end subroutine solve_grid
 

@@ -13,7 +13,8 @@ module faststrip_contact_solve
     use faststrip_base_material, only: check_material, normal_compliance
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: min_gap_points
-    use faststrip_geometry_gap_curve, only: reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
+                                            set_gap_curve_points, copy_gap_curve
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand, hertz_strips
@@ -199,20 +200,22 @@ contains
     end subroutine solve_contact
 
     !> The normal problem alone; the strips are in the workspace.
-    subroutine solve_contact_normal(workspace, case, normal, status, certificate, is_estimated)
+    subroutine solve_contact_normal(workspace, case, normal, status, certificate, is_estimated, &
+                                    curve)
         type(workspace_t), intent(inout) :: workspace !! with room for the method
         type(contact_case_t), intent(in) :: case      !! gap, material, demand, method
         type(normal_result_t), intent(out) :: normal  !! figures
         type(status_t), intent(out) :: status         !! as `solve_contact`
         type(certificate_t), intent(out), optional :: certificate !! how wrong they are
         logical, intent(out), optional :: is_estimated !! is that known?
+        type(gap_curve_t), intent(in), optional :: curve !! its gap, set already; not set again
 
         type(environment_t) :: environment
         type(certificate_t) :: found
         logical :: is_found
 
         call hold_environment(environment)
-        call solve_normal(workspace, case, normal, found, is_found, status)
+        call solve_normal(workspace, case, normal, found, is_found, status, curve)
         if (present(certificate)) certificate = found
         if (present(is_estimated)) is_estimated = is_found
         call restore_environment(environment)
@@ -236,13 +239,14 @@ contains
         call restore_environment(environment)
     end subroutine solve_contact_tangential
 
-    subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status)
+    subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status, curve)
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
         type(normal_result_t), intent(out) :: normal
         type(certificate_t), intent(out) :: certificate
         logical, intent(out) :: is_estimated
         type(status_t), intent(out) :: status
+        type(gap_curve_t), intent(in), optional :: curve
 
         workspace%solved_by = 0
         is_estimated = .false.
@@ -252,10 +256,12 @@ contains
         if (is_error(status)) return
         call check_material(case%material, status)
         if (is_error(status)) return
-        if (allocated(case%gap%y)) then
+        if (present(curve)) then
+            call copy_gap_curve(curve, workspace%solver%curve, status)
+        else if (allocated(case%gap%y)) then
             call set_gap_curve(workspace%solver%curve, case%gap, status)
-            if (is_error(status)) return
         end if
+        if (is_error(status)) return
         if (case%methods%normal == normal_hertz) then
             call solve_hertz(workspace, case, normal, status)
         else

@@ -20,7 +20,7 @@ module faststrip_geometry_gap_curve
     implicit none
     private
 
-    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
     public :: gap_at, gap_curvature, level_intervals
     public :: is_mirror_image, mirror_gap_curve
     public :: gap_inv2r, largest_turn, largest_step, first_point_from
@@ -110,6 +110,38 @@ contains
         curve%turn_is_known = .true.
         curve%turn(:curve%n) = turn
     end subroutine set_gap_curve_points
+
+    !> The same from a curve that was set: nothing is checked or fitted again. Allocates nothing.
+    subroutine copy_gap_curve(from, to, status)
+        type(gap_curve_t), intent(in) :: from  !! a gap that was set
+        type(gap_curve_t), intent(inout) :: to !! reserved beforehand
+        type(status_t), intent(out) :: status  !! `st_workspace_too_small`
+
+        integer :: n, nodes
+
+        call check_room(to, from%n, status)
+        if (is_error(status)) return
+        n = from%n
+        nodes = from%n_pieces + 1
+        to%n = n
+        to%n_pieces = from%n_pieces
+        to%y_lowest = from%y_lowest
+        to%h_lowest = from%h_lowest
+        to%least_inv2r = from%least_inv2r
+        to%turn_is_known = from%turn_is_known
+        if (n == 0) return
+        to%y(:n) = from%y(:n)
+        to%h(:n) = from%h(:n)
+        to%slope_from(:n) = from%slope_from(:n)
+        to%slope_to(:n) = from%slope_to(:n)
+        to%is_step(:n) = from%is_step(:n)
+        to%inv2r(:n) = from%inv2r(:n)
+        to%turn(:n) = from%turn(:n)
+        to%y_node(:nodes) = from%y_node(:nodes)
+        to%h_node(:nodes) = from%h_node(:nodes)
+        to%bend(:n) = from%bend(:n)
+        to%is_torn(:n) = from%is_torn(:n)
+    end subroutine copy_gap_curve
 
     subroutine take_points(curve, y, h, inv2r, status)
         type(gap_curve_t), intent(inout) :: curve
