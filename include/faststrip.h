@@ -35,14 +35,14 @@ extern "C" {
 /* Room for any text of this library, characters. */
 #define FASTSTRIP_TEXT 257
 
-enum faststrip_base_status {
+enum faststrip_status {
     FASTSTRIP_OK = 0,
     FASTSTRIP_FALLBACK_USED = 1, /* a fixed lattice gave the answer: patch ends did not settle */
     FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */
     FASTSTRIP_FEWER_STRIPS = 3,  /* more strips did not settle */
     FASTSTRIP_OVERLAP_LEFT = 4,  /* a rough gap's valleys overlap beside the patches */
     FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
-    FASTSTRIP_CONFORMAL = 6,     /* the surfaces turn much within it: half-space doubtful */
+    FASTSTRIP_CONFORMAL = 6,     /* inclination changes much within it: half-space doubtful */
     FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
     FASTSTRIP_UNDER_RESOLVED = 8, /* the estimated error of pmax is above resolution_limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
@@ -168,12 +168,12 @@ int faststrip_free(faststrip_workspace **workspace);
 int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 
 /* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
- * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. turn says how far the surfaces have
- * turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not
+ * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. inclination says how far the surfaces
+ * have turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not
  * known. All numbers must be finite; they are copied. With more points than there is room for (110)
  * nothing is read. With an error the workspace keeps the gap that it had. */
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
-                      const double *inv2r, const double *turn);
+                      const double *inv2r, const double *inclination);
 
 /* Solve one contact on the gap of the workspace. */
 int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,

@@ -36,7 +36,7 @@ module faststrip_command_options
         type(option_t), allocatable :: options(:)       !! what it knows
         type(argument_t), allocatable :: arguments(:)   !! what it was given besides
         logical :: reads = .true.                       !! are these files to read?
-        character(len=:), allocatable :: notes          !! lines of the help after the options, if any
+        character(len=:), allocatable :: notes !! lines of the help after the options, if any
     end type command_t
 
 contains

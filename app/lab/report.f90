@@ -57,7 +57,8 @@ contains
         python = option_text(command, '--python', 'python3')
         manifest = option_text(command, '--manifest', in_checkout('reference/comparisons.csv'))
         quick = given(command, '--quick')
-        call read_csv(option_text(command, '--runs', in_checkout('reference/report_runs.csv')), runs, status)
+        call read_csv(option_text(command, '--runs', in_checkout('reference/report_runs.csv')), &
+                      runs, status)
         call fail_on_error(status)
         do i = 1, size(run_columns)
             call require_column(runs, trim(run_columns(i)), column(i), status)
@@ -177,7 +178,8 @@ contains
         case ('faststrip'); line = quoted(sibling()) // ' ' // line
         case ('python'); line = 'FASTSTRIP_SVG=1 ' // quoted(python) // ' ' // line
         case default
-            call fail(exit_bad_input, 'neither faststrip, faststrip-lab nor python: ' // program // ' (' &
+            call fail(exit_bad_input, 'neither faststrip, faststrip-lab nor python: ' // program &
+                      // ' (' &
                       // runs%file // ':' // integer_text(runs%line(row)) // ')')
         end select
     end subroutine command_line

@@ -30,12 +30,12 @@ program bench
             integer(c_int), value :: max_points
             type(c_ptr), intent(out) :: workspace
         end function faststrip_new
-        integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, turn) bind(c)
+        integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, inclination) bind(c)
             import :: c_int, c_ptr, c_double
             type(c_ptr), value :: workspace
             integer(c_int), value :: n
             real(c_double), intent(in) :: y(*), h(*), inv2r(*)
-            type(c_ptr), value :: turn
+            type(c_ptr), value :: inclination
         end function faststrip_set_gap
         integer(c_int) function c_solve(workspace, case, result) &
             bind(c, name='faststrip_solve')

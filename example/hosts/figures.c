@@ -195,12 +195,12 @@ static void defaults(void)
 
 int main(void)
 {
-    static double y[POINTS], h[POINTS], inv2r[POINTS], turn[POINTS];
+    static double y[POINTS], h[POINTS], inv2r[POINTS], inclination[POINTS];
     faststrip_workspace *workspace, *copy;
     faststrip_case c;
     double demand[2][10];
     char normal[40], tangential[40], text[FASTSTRIP_TEXT];
-    int contacts, has_turn, n, i, code;
+    int contacts, has_inclination, n, i, code;
 
     defaults();
     for (code = -1; code <= 130; code++) {
@@ -221,7 +221,7 @@ int main(void)
         c.fastsim_ny = whole();
         c.by_load = whole();
         c.with_elements = whole();
-        has_turn = whole();
+        has_inclination = whole();
         c.estimate = whole();
         c.resolution_limit = number();
         n = whole();
@@ -230,10 +230,10 @@ int main(void)
             y[i] = number();
             h[i] = number();
             inv2r[i] = number();
-            turn[i] = number();
+            inclination[i] = number();
         }
         if (faststrip_new(&c, n, &workspace) != 0 || faststrip_new(&c, n, &copy) != 0) exit(10);
-        if (faststrip_set_gap(workspace, n, y, h, inv2r, has_turn ? turn : NULL) != 0) exit(11);
+        if (faststrip_set_gap(workspace, n, y, h, inv2r, has_inclination ? inclination : NULL) != 0) exit(11);
         solve(workspace, &c, demand[0], 1);
         if (faststrip_copy(workspace, copy) != 0) exit(12);
         show_arrays(copy, 2);

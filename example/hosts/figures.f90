@@ -14,7 +14,7 @@ program figures
     type(status_t) :: status
     character(len=method_name_length) :: normal, tangential
     real(wp) :: demand(10, 2), row(4)
-    integer :: n_contacts, contact, numbers(2), by_load, elements, has_turn, estimate, n, k
+    integer :: n_contacts, contact, numbers(2), by_load, elements, has_inclination, estimate, n, k
 
     call defaults()
     call words()
@@ -23,29 +23,29 @@ program figures
         case = contact_case_t()
         read (*, *) normal, tangential, numbers, case%methods%strips_per_patch, &
             case%methods%points_per_strip, case%methods%fastsim_nx, case%methods%fastsim_ny, &
-            by_load, elements, has_turn, estimate, case%resolution_limit, n
+            by_load, elements, has_inclination, estimate, case%resolution_limit, n
         read (*, *) demand
         case%methods%normal = normal_method(normal)
         case%methods%tangential = tangential_method(tangential)
         case%by_load = by_load == 1
         case%estimate = estimate == 1
         allocate (case%gap%y(n), case%gap%h(n), case%gap%inv2r(n))
-        if (has_turn == 1) allocate (case%gap%turn(n))
+        if (has_inclination == 1) allocate (case%gap%inclination(n))
         do k = 1, n
             read (*, *) row
             case%gap%y(k) = row(1)
             case%gap%h(k) = row(2)
             case%gap%inv2r(k) = row(3)
-            if (has_turn == 1) case%gap%turn(k) = row(4)
+            if (has_inclination == 1) case%gap%inclination(k) = row(4)
         end do
         workspace = workspace_t()
         call reserve_workspace(workspace, case%methods, n, status)
         if (elements == 1) call reserve_contact_field(field, case%methods, status)
         if (is_error(status)) error stop 'no room'
         call set_contact_gap(workspace, case%gap%y, case%gap%h, case%gap%inv2r, status, &
-                             case%gap%turn)
+                             case%gap%inclination)
         deallocate (case%gap%y, case%gap%h, case%gap%inv2r)
-        if (allocated(case%gap%turn)) deallocate (case%gap%turn)
+        if (allocated(case%gap%inclination)) deallocate (case%gap%inclination)
         if (is_error(status)) error stop 'no gap'
         call solve(workspace, field, 1)
         copy = workspace

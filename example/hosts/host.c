@@ -348,7 +348,7 @@ static void errors(void)
         a[POINTS - 1 - 50 * i] = hostile[i];
         EXPECT(FASTSTRIP_NOT_FINITE, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, a));
         EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
-        EXPECT(1, strstr(text, "turn(") != NULL);
+        EXPECT(1, strstr(text, "inclination(") != NULL);
     }
     EXPECT(0, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, e.h));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(NULL, &e.contact, &result));

@@ -317,12 +317,18 @@ class Contact:
                         "or use copy_from")
 
     def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike,
+                inclination: Optional[npt.ArrayLike] = None,
                 turn: Optional[npt.ArrayLike] = None) -> None:
         """The gap of the undeformed bodies, ``h(x, y) = h(y) + x**2 inv2r(y)``: y strictly
-        increasing, mm; h in mm; inv2r in 1/mm, also one number for all y. turn says how far the
-        surfaces have turned from the tangent plane at y = 0, rad, by which conformal contacts are
-        told. The numbers are copied.
+        increasing, mm; h in mm; inv2r in 1/mm, also one number for all y. inclination says
+        how far the surfaces have turned from the tangent plane at y = 0, rad, by which conformal
+        contacts are told; turn is its old name. The numbers are copied.
         """
+        if turn is not None:
+            if inclination is not None:
+                raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                     "inclination must not be given twice, got turn too")
+            inclination = turn
         points = array("y", y)
         if points.ndim != 1:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
@@ -331,12 +337,12 @@ class Contact:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
                                  f"y must have at most {GAP_POINTS[1]} points, got {points.size}")
         others = [as_long_as(points, "h", h), as_long_as(points, "inv2r", inv2r)]
-        if turn is not None:
-            others.append(as_long_as(points, "turn", turn))
+        if inclination is not None:
+            others.append(as_long_as(points, "inclination", inclination))
         if not self._closed and (self._workspace is None or points.size > self._max_points):
             self._make_room(max(points.size, self._max_points))
         addresses = _addresses([points, *others])
-        if turn is None:
+        if inclination is None:
             addresses.append(None)
         self._call(library.faststrip_set_gap, points.size, *addresses,
                    long=points.size > LONG_GAP, keep=(points, others))

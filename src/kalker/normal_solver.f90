@@ -116,7 +116,7 @@ contains
             if (first) beta = 0.0_wp
             first = .false.
             slope_old = slope
-            call turn(task%by_load .and. changed, beta, minimiser)
+            call turn_direction(task%by_load .and. changed, beta, minimiser)
             ! Exact conjugate directions have this product; elements that came and went spoil it.
             if (work_along(minimiser) < least_work*slope) minimiser%v = minimiser%z
             call convolve(convolution, kernel_influence, minimiser%v, minimiser%av)
@@ -298,7 +298,7 @@ contains
     end subroutine dot_products
 
     !> The next direction; its mean is taken away again where the set of elements has changed.
-    pure subroutine turn(without_mean, beta, minimiser)
+    pure subroutine turn_direction(without_mean, beta, minimiser)
         logical, intent(in) :: without_mean
         real(wp), intent(in) :: beta
         type(minimiser_t), intent(inout) :: minimiser
@@ -313,7 +313,7 @@ contains
             end do
         end do
         if (without_mean) call keep_inside(.true., minimiser%inside, minimiser%v)
-    end subroutine turn
+    end subroutine turn_direction
 
     !> v.r
     pure real(wp) function work_along(minimiser) result(work)

@@ -38,7 +38,7 @@ module faststrip_kalker_tangential_newton
         logical, allocatable :: sticks(:)   !! states
         type(rows_t), private :: rows
         real(wp), allocatable, private :: bound(:), r(:), trial(:, :), node(:, :), along(:, :), &
-                                          turn(:, :), resistance(:), change(:, :), size_t(:), &
+                                          tangent(:, :), resistance(:), change(:, :), size_t(:), &
                                           best(:, :)
         logical, allocatable, private :: is_carried(:)
         integer, allocatable, private :: unknown(:)
@@ -58,14 +58,14 @@ contains
         if (allocated(newton%p)) then
             if (size(newton%p, 2) /= n) &
                 deallocate (newton%p, newton%slip, newton%sticks, newton%bound, newton%r, &
-                            newton%trial, newton%node, newton%along, newton%turn, &
+                            newton%trial, newton%node, newton%along, newton%tangent, &
                             newton%resistance, &
                             newton%change, newton%size_t, newton%best, newton%is_carried, &
                             newton%unknown, newton%basis, newton%work, newton%step, newton%right)
         end if
         if (.not. allocated(newton%p)) then
             allocate (newton%p(2, n), newton%slip(2, n), newton%trial(2, n), newton%node(2, n), &
-                      newton%along(2, n), newton%turn(2, n), newton%change(2, n), &
+                      newton%along(2, n), newton%tangent(2, n), newton%change(2, n), &
                       newton%best(2, n), source=0.0_wp)
             allocate (newton%bound(n), newton%r(n), newton%resistance(n), newton%size_t(n), &
                       source=0.0_wp)
@@ -229,7 +229,7 @@ contains
                 newton%change(:, i) = 0.0_wp
                 m = m + 2
             else
-                newton%turn(:, i) = [-newton%along(2, i), newton%along(1, i)]
+                newton%tangent(:, i) = [-newton%along(2, i), newton%along(1, i)]
                 newton%resistance(i) = (newton%size_t(i) - newton%bound(i)) &
                                        /(newton%bound(i)*newton%r(i))
                 short = newton%bound(i) - dot_product(newton%along(:, i), newton%p(:, i))
@@ -239,7 +239,7 @@ contains
         end do
         newton%unknown(problem%n + 1) = m
         m = m - 1
-        call factor_rows(newton%rows, problem, newton%unknown, newton%turn, newton%resistance, &
+        call factor_rows(newton%rows, problem, newton%unknown, newton%tangent, newton%resistance, &
                          newton%is_carried, info)
         if (info /= 0) return
         ! Slip as it will be by what is known already, and the bound's turning.
@@ -251,9 +251,9 @@ contains
                 if (newton%sticks(i)) then
                     newton%right(k:k + 1) = -newton%slip(:, i) - newton%trial(:, i)
                 else
-                    newton%right(k) = -dot_product(newton%turn(:, i), newton%p(:, i)) &
+                    newton%right(k) = -dot_product(newton%tangent(:, i), newton%p(:, i)) &
                                       *(newton%resistance(i) + 1.0_wp/newton%r(i)) &
-                                      - dot_product(newton%turn(:, i), newton%trial(:, i))
+                                      - dot_product(newton%tangent(:, i), newton%trial(:, i))
                 end if
             end associate
         end do
@@ -263,7 +263,7 @@ contains
                 if (newton%sticks(i)) then
                     newton%change(:, i) = newton%step(k:k + 1)
                 else
-                    newton%change(:, i) = newton%change(:, i) + newton%step(k)*newton%turn(:, i)
+                    newton%change(:, i) = newton%change(:, i) + newton%step(k)*newton%tangent(:, i)
                 end if
             end associate
         end do
@@ -283,7 +283,7 @@ contains
                 if (newton%sticks(i)) then
                     newton%trial(:, i) = v(k:k + 1)
                 else
-                    newton%trial(:, i) = v(k)*newton%turn(:, i)
+                    newton%trial(:, i) = v(k)*newton%tangent(:, i)
                 end if
             end associate
         end do
@@ -296,7 +296,7 @@ contains
                     product(k:k + 1) = newton%trial(:, i)
                 else
                     product(k) = newton%resistance(i)*v(k) &
-                                 + dot_product(newton%turn(:, i), newton%trial(:, i))
+                                 + dot_product(newton%tangent(:, i), newton%trial(:, i))
                 end if
             end associate
         end do
@@ -325,7 +325,7 @@ contains
             last = 0
             do j = 1, most_vectors
                 newton%work(:m) = newton%basis(:m, j)
-                call solve_rows(newton%rows, problem, newton%unknown, newton%turn, &
+                call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
                                 newton%is_carried, newton%work(:m))
                 call multiply(newton, problem, newton%work(:m), newton%basis(:m, j + 1))
                 do i = 1, j
@@ -361,7 +361,8 @@ contains
             do i = 2, last
                 newton%work(:m) = newton%work(:m) + rest(i)*newton%basis(:m, i)
             end do
-            call solve_rows(newton%rows, problem, newton%unknown, newton%turn, newton%is_carried, &
+            call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
+                            newton%is_carried, &
                             newton%work(:m))
             newton%step(:m) = newton%step(:m) + newton%work(:m)
             if (last < most_vectors) return

@@ -67,12 +67,13 @@ contains
     !> Factor all blocks for the present states.
     !>
     !> Unknowns stand in the order of the elements, `unknown(i)` the first of element i: two for one
-    !> in adhesion, the tractions' changes; one for one that slides, the change along `turn(:, i)`.
-    subroutine factor_rows(rows, problem, unknown, turn, resistance, is_carried, info)
+    !> in adhesion, the tractions' changes; one for one that slides, the change along `tangent(:,
+    !> i)`.
+    subroutine factor_rows(rows, problem, unknown, tangent, resistance, is_carried, info)
         type(rows_t), intent(inout) :: rows       !! factored
         type(problem_t), intent(in) :: problem    !! made
         integer, intent(in) :: unknown(:)         !! of element n + 1: one beyond the last
-        real(wp), intent(in) :: turn(:, :)        !! direction along the bound, shape (2, n)
+        real(wp), intent(in) :: tangent(:, :)        !! direction along the bound, shape (2, n)
         real(wp), intent(in) :: resistance(:)     !! slip by turning the traction alone, 1/MPa
         logical, intent(in) :: is_carried(:)      !! is slip carried from node to middle?
         integer, intent(out) :: info              !! not 0: a singular block
@@ -92,7 +93,7 @@ contains
                 cycle
             end if
             associate (a => rows%factors(rows%start(block):rows%start(block) + m*m - 1))
-                call fill(problem, unknown, turn, resistance, is_carried, from, to, m, a)
+                call fill(problem, unknown, tangent, resistance, is_carried, from, to, m, a)
                 call dgetrf(m, m, a, m, rows%pivots(unknown(from):unknown(from) + m - 1), info)
             end associate
             if (info /= 0) return
@@ -120,10 +121,10 @@ contains
     end subroutine factor_stuck
 
     !> The matrix of elements `from` to `to`, column by column.
-    pure subroutine fill(problem, unknown, turn, resistance, is_carried, from, to, m, a)
+    pure subroutine fill(problem, unknown, tangent, resistance, is_carried, from, to, m, a)
         type(problem_t), intent(in) :: problem
         integer, intent(in) :: unknown(:), from, to, m
-        real(wp), intent(in) :: turn(:, :), resistance(:)
+        real(wp), intent(in) :: tangent(:, :), resistance(:)
         logical, intent(in) :: is_carried(:)
         real(wp), intent(inout) :: a(m, m)
 
@@ -143,18 +144,18 @@ contains
                         a(row + 1, column + 1) = b(2)
                     else
                         do axis = 1, 2
-                            a(row, column + axis - 1) = turn(axis, k)*b(axis)
+                            a(row, column + axis - 1) = tangent(axis, k)*b(axis)
                         end do
                     end if
                 end do
             else
                 do k = from, to
                     row = unknown(k) - unknown(from) + 1
-                    b = between(problem, is_carried, i, k)*turn(:, i)
+                    b = between(problem, is_carried, i, k)*tangent(:, i)
                     if (unknown(k + 1) - unknown(k) == 2) then
                         a(row:row + 1, column) = b
                     else
-                        a(row, column) = turn(1, k)*b(1) + turn(2, k)*b(2)
+                        a(row, column) = tangent(1, k)*b(1) + tangent(2, k)*b(2)
                         if (k == i) a(row, column) = a(row, column) + resistance(k)
                     end if
                 end do
@@ -180,11 +181,11 @@ contains
     end function between
 
     !> Solve with the factored blocks, each with what the blocks ahead of it in its row cause.
-    subroutine solve_rows(rows, problem, unknown, turn, is_carried, v)
+    subroutine solve_rows(rows, problem, unknown, tangent, is_carried, v)
         type(rows_t), intent(in) :: rows          !! factored
         type(problem_t), intent(in) :: problem    !! made
         integer, intent(in) :: unknown(:)         !! as for `factor_rows`
-        real(wp), intent(in) :: turn(:, :)        !! as for `factor_rows`
+        real(wp), intent(in) :: tangent(:, :)        !! as for `factor_rows`
         logical, intent(in) :: is_carried(:)      !! as for `factor_rows`
         real(wp), intent(inout), contiguous :: v(:) !! right-hand side, then solution
 
@@ -200,14 +201,14 @@ contains
                 if (unknown(i + 1) - unknown(i) == 2) then
                     p = v(unknown(i):unknown(i) + 1)
                 else
-                    p = v(unknown(i))*turn(:, i)
+                    p = v(unknown(i))*tangent(:, i)
                 end if
                 do k = from, to
                     b = between(problem, is_carried, i, k)*p
                     if (unknown(k + 1) - unknown(k) == 2) then
                         v(unknown(k):unknown(k) + 1) = v(unknown(k):unknown(k) + 1) - b
                     else
-                        v(unknown(k)) = v(unknown(k)) - turn(1, k)*b(1) - turn(2, k)*b(2)
+                        v(unknown(k)) = v(unknown(k)) - tangent(1, k)*b(1) - tangent(2, k)*b(2)
                     end if
                 end do
             end do

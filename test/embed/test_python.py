@@ -227,10 +227,14 @@ class Contacts(HostTest):
 
     def test_surfaces_that_turn_are_conformal(self):
         contact = self.faststrip.Contact()
-        contact.set_gap(*self.gap, turn=0.1 * self.y)
+        contact.set_gap(*self.gap, inclination=0.1 * self.y)
         self.assertEqual(contact.solve(load=1e5).word, "conformal")
-        contact.set_gap(*self.gap, turn=0.0)
+        contact.set_gap(*self.gap, inclination=0.0)
         self.assertEqual(contact.solve(load=1e5).word, "ok")
+        contact.set_gap(*self.gap, turn=0.1 * self.y)  # the old name
+        self.assertEqual(contact.solve(load=1e5).word, "conformal")
+        with self.assertRaisesRegex(self.faststrip.FaststripError, "given twice"):
+            contact.set_gap(*self.gap, inclination=0.0, turn=0.0)
 
     def test_a_longer_gap_gets_room(self):
         contact = self.faststrip.Contact(max_points=10)
@@ -341,7 +345,7 @@ class Contacts(HostTest):
     def test_gaps_are_refused_by_name(self):
         np, y = self.numpy, self.y
         contact = self.faststrip.Contact()
-        good = {"y": y, "h": 2e-3 * y**2, "inv2r": np.full(601, 1e-3), "turn": np.zeros(601)}
+        good = {"y": y, "h": 2e-3 * y**2, "inv2r": np.full(601, 1e-3), "inclination": np.zeros(601)}
         nan, hole = y.copy(), [*y]
         nan[3], hole[7] = np.nan, None
         for name in good:
@@ -351,7 +355,7 @@ class Contacts(HostTest):
                 with self.subTest(name, value=str(value)[:20]):
                     self.refused("bad_argument", contact.set_gap, says=name,
                                  **{**good, name: value})
-            if name != "turn":
+            if name != "inclination":
                 self.refused("bad_argument", contact.set_gap, says=f"{name} must be",
                              **{**good, name: None})
             if name != "y":

@@ -75,7 +75,8 @@ contains
                     errors(:, n) = [result%penetration/cases(i)%truth%penetration - 1.0_wp, &
                                     result%pmax/cases(i)%truth%pmax - 1.0_wp, &
                                     result%area/cases(i)%truth%area - 1.0_wp, &
-                                    result%y_min - cases(i)%truth%y_min, result%y_max - cases(i)%truth%y_max]
+                                    result%y_min - cases(i)%truth%y_min, &
+                                    result%y_max - cases(i)%truth%y_max]
                     do j = 1, 5
                         call put_cell(writer, errors(j, n))
                     end do

@@ -85,7 +85,8 @@ contains
             call bench_tangential(file, folder, rounds)
         case ('forces')
             call allow([character(len=name_length) :: '--contacts', '--scenes'])
-            call take_input(option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')))
+            call take_input(option_text(command, '--scenes', &
+                                        in_checkout('reference/scenes/scenes.csv')))
             call bench_forces(file, folder, option_text(command, '--scenes', &
                                                         in_checkout('reference/scenes/scenes.csv')))
         case ('certificate')
@@ -109,11 +110,13 @@ contains
         case ('extremes')
             call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
                         '--references', '--scenes'])
-            call take_input(option_text(command, '--references', in_checkout('reference/influence')))
+            call take_input(option_text(command, '--references', &
+                                        in_checkout('reference/influence')))
             call take_input(option_text(command, '--scenes', in_checkout('example/scenes')))
             call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
                                 given(command, '--quick'), folder, &
-                                option_text(command, '--references', in_checkout('reference/influence')), &
+                                option_text(command, '--references', &
+                                            in_checkout('reference/influence')), &
                                 option_text(command, '--scenes', in_checkout('example/scenes')))
         case ('scenes')
             call allow([character(len=name_length) :: '--scenes'])
@@ -122,11 +125,15 @@ contains
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
-            call take_input(option_text(command, '--methods', in_checkout('reference/trade_methods.csv')))
-            call take_input(option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')))
+            call take_input(option_text(command, '--methods', &
+                                        in_checkout('reference/trade_methods.csv')))
+            call take_input(option_text(command, '--scenes', &
+                                        in_checkout('reference/scenes/scenes.csv')))
             call bench_trade(file, option_text(command, '--methods', &
-                                               in_checkout('reference/trade_methods.csv')), folder, &
-                             option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv')), &
+                                               in_checkout('reference/trade_methods.csv')), &
+                                               folder, &
+                             option_text(command, '--scenes', &
+                                         in_checkout('reference/scenes/scenes.csv')), &
                              given(command, '--quick'))
         case default
             call usage_error('WHAT must be a bench of the list, got ''' // what // '''', &

@@ -1,4 +1,5 @@
-!> `faststrip-lab bench integral`: what an influence number costs by each method, and how wrong it is.
+!> `faststrip-lab bench integral`: what an influence number costs by each method, and how wrong it
+!> is.
 !>
 !> All methods are timed in turn, again and again; a figure is the median over the rounds, and a
 !> ratio the median of the ratios within the rounds, so that what else the machine does falls out.

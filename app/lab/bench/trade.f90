@@ -96,7 +96,8 @@ contains
             integer, intent(in) :: in_quick
 
             thinning = 1
-            if (entry%numerics%normal == normal_norm .or. entry%numerics%tangential == tangential_tang .or. &
+            if (entry%numerics%normal == normal_norm &
+                .or. entry%numerics%tangential == tangential_tang .or. &
                 entry%numerics%strips_per_patch > many_strips) thinning = 7
             if (in_quick == 20 .and. entry%stage == 'normal') thinning = 20
             if (quick) thinning = in_quick

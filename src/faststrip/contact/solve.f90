@@ -149,20 +149,20 @@ contains
     end subroutine reserve_contact_field
 
     !> Hand over the gap that the next solutions are for.
-    subroutine set_contact_gap(workspace, y, h, inv2r, status, turn)
+    subroutine set_contact_gap(workspace, y, h, inv2r, status, inclination)
         type(workspace_t), intent(inout) :: workspace !! with room for as many points
         real(wp), intent(in) :: y(:)          !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), R the local radius along x, 1/mm
         type(status_t), intent(out) :: status !! those of `check_gap`, `st_workspace_too_small`
-        real(wp), intent(in), optional :: turn(:)
+        real(wp), intent(in), optional :: inclination(:)
             !! how far the surfaces have turned from the tangent plane at y = 0, finite, rad
 
         type(environment_t) :: environment
 
         call hold_environment(environment)
         workspace%solved_by = 0
-        call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status, turn)
+        call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status, inclination)
         call restore_environment(environment)
     end subroutine set_contact_gap
 

@@ -27,13 +27,13 @@ module faststrip_geometry_contact_gap
     integer, parameter :: max_samples = 200000, max_iterations = 100
 
     ! A point of a profile in its own frame and in the turned one.
-    type :: turned_point_t
+    type :: inclined_point_t
         real(wp) :: y = 0.0_wp     ! lateral coordinate of the profile, mm
         real(wp) :: z = 0.0_wp     ! depth, mm
         real(wp) :: dz = 0.0_wp    ! slope dz/dy
         real(wp) :: n = 0.0_wp     ! along the turned normal from the contact, mm
         real(wp) :: along = 0.0_wp ! dy'/dy
-    end type turned_point_t
+    end type inclined_point_t
 
 contains
 
@@ -43,9 +43,9 @@ contains
     !> `y' = (Y - Yc) cos(gamma) + (Z - Zc) sin(gamma)`; the gap is the distance of rail and
     !> wheel along the turned normal and `inv2r = 1/(2 R)`,
     !> `R = r cos(alpha - gamma)/cos(alpha)` with the local rolling radius r and slope angle
-    !> alpha of the wheel; `turn` is the mean slope angle of the two less gamma. Samples stand at
-    !> the multiples of `step`, from the contact outwards as
-    !> far as the gap stays within `height` and both profiles go on, as functions of y'.
+    !> alpha of the wheel; `inclination` is the mean slope angle of the two less gamma. Samples
+    !> stand at the multiples of `step`, from the contact outwards as far as the gap stays within
+    !> `height` and both profiles go on, as functions of y'.
     subroutine make_gap(wheel, rail, wheelset, contact, step, height, gap, status)
         type(profile_t), intent(in) :: wheel          !! wheel profile
         type(profile_t), intent(in) :: rail           !! rail profile, canted
@@ -56,7 +56,7 @@ contains
         type(gap_t), intent(out) :: gap               !! mm, mm, 1/mm
         type(status_t), intent(out) :: status         !! `st_bad_argument`; `st_too_few_points`:
                                                       !! fewer than 5 samples within the height
-        real(wp), allocatable :: h(:), inv2r(:), turn(:)
+        real(wp), allocatable :: h(:), inv2r(:), inclination(:)
         real(wp) :: z_line, dz, d2z
         integer :: n_left, n_right, i, room
 
@@ -69,7 +69,7 @@ contains
         room = min(max_samples, &
                    ceiling(2.0_wp*min(wheel%y_last - wheel%y_first, &
                                       rail%y_last - rail%y_first, 1.0e6_wp)/step) + 1)
-        allocate (h(-room:room), inv2r(-room:room), turn(-room:room), source=0.0_wp)
+        allocate (h(-room:room), inv2r(-room:room), inclination(-room:room), source=0.0_wp)
         call sample_side(-1, n_left)
         call sample_side(1, n_right)
         if (min(n_left, n_right) < 0) then
@@ -80,7 +80,7 @@ contains
         gap%y = [(real(i, wp)*step, i=-n_left, n_right)]
         gap%h = h(-n_left:n_right)
         gap%inv2r = inv2r(-n_left:n_right)
-        gap%turn = turn(-n_left:n_right)
+        gap%inclination = inclination(-n_left:n_right)
         call check_gap(gap, status)
 
     contains
@@ -89,13 +89,13 @@ contains
         subroutine sample_side(side, n)
             integer, intent(in) :: side
             integer, intent(out) :: n
-            type(turned_point_t) :: on_wheel, on_rail
+            type(inclined_point_t) :: on_wheel, on_rail
             real(wp) :: y_turned, radius
             logical :: found
             integer :: j
 
-            on_wheel = turned_point_t(y=contact%y_wheel)
-            on_rail = turned_point_t(y=contact%y_rail)
+            on_wheel = inclined_point_t(y=contact%y_wheel)
+            on_rail = inclined_point_t(y=contact%y_rail)
             n = -1
             do j = 0, room
                 y_turned = real(side*j, wp)*step
@@ -113,7 +113,7 @@ contains
                 n = j
                 h(side*j) = on_rail%n - on_wheel%n
                 inv2r(side*j) = 0.5_wp/radius
-                turn(side*j) = 0.5_wp*(atan(on_wheel%dz) + atan(on_rail%dz)) - contact%gamma
+                inclination(side*j) = 0.5_wp*(atan(on_wheel%dz) + atan(on_rail%dz)) - contact%gamma
             end do
         end subroutine sample_side
     end subroutine make_gap
@@ -161,52 +161,52 @@ contains
     pure subroutine go_to(profile, y_contact, z_contact, gamma, y_turned, point, found)
         type(profile_t), intent(in) :: profile
         real(wp), intent(in) :: y_contact, z_contact, gamma, y_turned
-        type(turned_point_t), intent(inout) :: point
+        type(inclined_point_t), intent(inout) :: point
         logical, intent(out) :: found
-        real(wp) :: start, far, near, next, missing, side
+        real(wp) :: start, far, near, next, residual, side
         integer :: i
 
         found = .false.
         start = point%y
         if (start < profile%y_first .or. start > profile%y_last) return
-        call turned_at(start, point, missing)
+        call turned_at(start, point, residual)
         if (point%along <= least_along) return
-        side = sign(1.0_wp, missing)
+        side = sign(1.0_wp, residual)
         near = start
         ! The far end of the bracket: twice the distance to go, and on.
         far = start
-        next = max(2.0_wp*abs(missing)/point%along, 1.0e-9_wp)
+        next = max(2.0_wp*abs(residual)/point%along, 1.0e-9_wp)
         do
             far = max(profile%y_first, min(far + side*next, profile%y_last))
-            call turned_at(far, point, missing)
+            call turned_at(far, point, residual)
             if (point%along <= least_along) return
-            if (side*missing <= 0.0_wp) exit
+            if (side*residual <= 0.0_wp) exit
             if (far <= profile%y_first .or. far >= profile%y_last) return
             near = far
             next = 2.0_wp*next
         end do
         next = 0.5_wp*(near + far)
         do i = 1, max_iterations
-            call turned_at(next, point, missing)
+            call turned_at(next, point, residual)
             if (point%along <= least_along) return
-            if (side*missing > 0.0_wp) then
+            if (side*residual > 0.0_wp) then
                 near = next
             else
                 far = next
             end if
-            if (abs(missing) <= 1.0e-13_wp*(1.0_wp + abs(y_turned)) &
+            if (abs(residual) <= 1.0e-13_wp*(1.0_wp + abs(y_turned)) &
                 .or. abs(far - near) <= spacing(next)) exit
-            next = next + missing/point%along
+            next = next + residual/point%along
             if ((next - near)*(next - far) > 0.0_wp) next = 0.5_wp*(near + far)
         end do
         found = .true.
 
     contains
 
-        pure subroutine turned_at(y, there, to_go)
+        pure subroutine turned_at(y, there, residual)
             real(wp), intent(in) :: y
-            type(turned_point_t), intent(out) :: there
-            real(wp), intent(out) :: to_go
+            type(inclined_point_t), intent(out) :: there
+            real(wp), intent(out) :: residual
             real(wp) :: d2z
             type(status_t) :: inside
 
@@ -214,7 +214,7 @@ contains
             call profile_at(profile, y, there%z, there%dz, d2z, inside)
             there%along = cos(gamma) + there%dz*sin(gamma)
             there%n = (there%z - z_contact)*cos(gamma) - (y - y_contact)*sin(gamma)
-            to_go = y_turned - (y - y_contact)*cos(gamma) - (there%z - z_contact)*sin(gamma)
+            residual = y_turned - (y - y_contact)*cos(gamma) - (there%z - z_contact)*sin(gamma)
         end subroutine turned_at
     end subroutine go_to
 end module faststrip_geometry_contact_gap

@@ -19,7 +19,7 @@ module faststrip_geometry_gap
         real(wp), allocatable :: y(:)     !! lateral coordinate, strictly increasing, mm
         real(wp), allocatable :: h(:)     !! gap on the line x = 0, mm
         real(wp), allocatable :: inv2r(:) !! 1/(2 R), R the local radius along x, 1/mm
-        real(wp), allocatable :: turn(:)  !! how far the surfaces have turned from the tangent
+        real(wp), allocatable :: inclination(:) !! how far the surfaces have turned from the tangent
                                           !! plane at y = 0, rad; not allocated: not known
     end type gap_t
 
@@ -40,27 +40,27 @@ contains
             return
         end if
         ! What is not allocated counts as an argument that is not present.
-        call check_gap_points(gap%y, gap%h, gap%inv2r, status, gap%turn)
+        call check_gap_points(gap%y, gap%h, gap%inv2r, status, gap%inclination)
     end subroutine check_gap
 
     !> The same for a gap in plain arrays.
-    pure subroutine check_gap_points(y, h, inv2r, status, turn)
+    pure subroutine check_gap_points(y, h, inv2r, status, inclination)
         real(wp), intent(in) :: y(:)          !! lateral coordinate, mm
         real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), 1/mm
         type(status_t), intent(out) :: status !! as `check_gap`
-        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, rad
+        real(wp), intent(in), optional :: inclination(:) !! of the surfaces from y = 0 on, rad
 
         real(wp) :: before
         integer :: i, n
 
         call clear_status(status)
         n = size(y)
-        if (present(turn)) then
-            if (size(turn) /= n) then
+        if (present(inclination)) then
+            if (size(inclination) /= n) then
                 call set_status(status, st_bad_argument, &
-                                'y and turn of the gap differ in length: ' // &
-                                trim(count_text(n)) // ', ' // trim(count_text(size(turn))))
+                                'y and inclination of the gap differ in length: ' // &
+                                trim(count_text(n)) // ', ' // trim(count_text(size(inclination))))
                 return
             end if
         end if
@@ -92,9 +92,9 @@ contains
             end if
             before = y(i)
         end do
-        if (.not. present(turn)) return
+        if (.not. present(inclination)) return
         do i = 1, n
-            call check_finite('turn', i, turn(i), status)
+            call check_finite('inclination', i, inclination(i), status)
             if (status%code /= 0) return
         end do
     end subroutine check_gap_points

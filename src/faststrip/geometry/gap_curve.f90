@@ -23,7 +23,7 @@ module faststrip_geometry_gap_curve
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
     public :: gap_at, gap_curvature, level_intervals
     public :: is_mirror_image, mirror_gap_curve
-    public :: gap_inv2r, largest_turn, largest_step, first_point_from
+    public :: gap_inv2r, inclination_change, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
     real(wp), parameter :: flattest_ratio = 0.03_wp
@@ -42,8 +42,8 @@ module faststrip_geometry_gap_curve
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
         real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
                                                !! positive nowhere
-        logical :: turn_is_known = .false.     !! does `turn` count?
-        real(wp), allocatable :: turn(:)       !! of the surfaces from the tangent plane, rad
+        logical :: inclination_is_known = .false.     !! does `inclination` count?
+        real(wp), allocatable :: inclination(:)       !! of the surfaces from the tangent plane, rad
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
         real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
         logical, allocatable :: is_torn(:)     !! does a step or a kink touch the point?
@@ -68,11 +68,12 @@ contains
         if (allocated(curve%y)) then
             if (size(curve%y) >= max_points) return
             deallocate (curve%y, curve%h, curve%slope_from, curve%slope_to, curve%inv2r, &
-                        curve%turn, curve%y_node, curve%h_node, curve%bend, curve%work, &
+                        curve%inclination, curve%y_node, curve%h_node, curve%bend, curve%work, &
                         curve%is_step, curve%is_torn)
         end if
         allocate (curve%y(max_points), curve%h(max_points), curve%slope_from(max_points), &
-                  curve%slope_to(max_points), curve%inv2r(max_points), curve%turn(max_points), &
+                  curve%slope_to(max_points), curve%inv2r(max_points), &
+                  curve%inclination(max_points), &
                   curve%y_node(3*max_points), curve%h_node(3*max_points), &
                   curve%bend(max_points), curve%work(torn_spline_work_size(max_points)), &
                   source=0.0_wp)
@@ -89,26 +90,27 @@ contains
         if (is_error(status)) return
         call take_points(curve, gap%y, gap%h, gap%inv2r, status)
         if (is_error(status)) return
-        curve%turn_is_known = allocated(gap%turn)
-        if (curve%turn_is_known) curve%turn(:curve%n) = gap%turn
+        curve%inclination_is_known = allocated(gap%inclination)
+        if (curve%inclination_is_known) curve%inclination(:curve%n) = gap%inclination
     end subroutine set_gap_curve
 
     !> The same from plain arrays.
-    subroutine set_gap_curve_points(curve, y, h, inv2r, status, turn)
+    subroutine set_gap_curve_points(curve, y, h, inv2r, status, inclination)
         type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
         real(wp), intent(in) :: y(:)              !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)              !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)          !! 1/(2 R), R the local radius along x, 1/mm
         type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
-        real(wp), intent(in), optional :: turn(:) !! of the surfaces from y = 0 on, finite, rad
+        real(wp), intent(in), optional :: inclination(:)
+            !! of the surfaces from y = 0 on, finite, rad
 
         call check_room(curve, size(y), status)
-        if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, turn)
+        if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, inclination)
         if (is_error(status)) return
         call take_points(curve, y, h, inv2r, status)
-        if (is_error(status) .or. .not. present(turn)) return
-        curve%turn_is_known = .true.
-        curve%turn(:curve%n) = turn
+        if (is_error(status) .or. .not. present(inclination)) return
+        curve%inclination_is_known = .true.
+        curve%inclination(:curve%n) = inclination
     end subroutine set_gap_curve_points
 
     !> The same from a curve that was set: nothing is checked or fitted again. Allocates nothing.
@@ -128,7 +130,7 @@ contains
         to%y_lowest = from%y_lowest
         to%h_lowest = from%h_lowest
         to%least_inv2r = from%least_inv2r
-        to%turn_is_known = from%turn_is_known
+        to%inclination_is_known = from%inclination_is_known
         if (n == 0) return
         to%y(:n) = from%y(:n)
         to%h(:n) = from%h(:n)
@@ -136,7 +138,7 @@ contains
         to%slope_to(:n) = from%slope_to(:n)
         to%is_step(:n) = from%is_step(:n)
         to%inv2r(:n) = from%inv2r(:n)
-        to%turn(:n) = from%turn(:n)
+        to%inclination(:n) = from%inclination(:n)
         to%y_node(:nodes) = from%y_node(:nodes)
         to%h_node(:nodes) = from%h_node(:nodes)
         to%bend(:n) = from%bend(:n)
@@ -158,7 +160,7 @@ contains
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
-        curve%turn_is_known = .false.
+        curve%inclination_is_known = .false.
         is_image = is_mirror_image(y, h, inv2r)
         if (is_image) then
             call reverse_negated(curve%y(:n))
@@ -219,7 +221,7 @@ contains
         call reverse(curve%is_torn(:n))
         call reverse_negated(curve%y_node(:nodes))
         call reverse(curve%h_node(:nodes))
-        if (curve%turn_is_known) call reverse_negated(curve%turn(:n))
+        if (curve%inclination_is_known) call reverse_negated(curve%inclination(:n))
         curve%y_lowest = -curve%y_lowest
         curve%is_image = .not. curve%is_image
     end subroutine mirror_gap_curve
@@ -392,20 +394,20 @@ contains
         inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
     end function gap_inv2r
 
-    !> By how much the surfaces turn between two places, rad; zero if that is not known.
-    pure real(wp) function largest_turn(curve, y_from, y_to) result(turn)
+    !> By how much the inclination changes between two places, rad; zero if it is not known.
+    pure real(wp) function inclination_change(curve, y_from, y_to) result(inclination)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y_from         !! left place, mm
         real(wp), intent(in) :: y_to           !! right place, mm
 
         integer :: first, last
 
-        turn = 0.0_wp
-        if (.not. curve%turn_is_known) return
+        inclination = 0.0_wp
+        if (.not. curve%inclination_is_known) return
         first = interval_of(curve, y_from)
         last = interval_of(curve, y_to) + 1
-        turn = maxval(curve%turn(first:last)) - minval(curve%turn(first:last))
-    end function largest_turn
+        inclination = maxval(curve%inclination(first:last)) - minval(curve%inclination(first:last))
+    end function inclination_change
 
     !> The steps of the gap that lie between two places or reach into that range. Their height is
     !> over what the slopes beside them lead to; zero if there is none.

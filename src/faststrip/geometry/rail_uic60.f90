@@ -64,7 +64,7 @@ contains
         real(wp), intent(in) :: cant            !! tangent, e.g. 1/40; within +-0.1
         type(rail_head_t), intent(out) :: head  !! the head
         type(status_t), intent(out) :: status   !! `st_bad_argument`
-        real(wp) :: angle_1, angle_2, angle_flank, turn, crown_y, crown_z, y_end, z_end
+        real(wp) :: angle_1, angle_2, angle_flank, cant_angle, crown_y, crown_z, y_end, z_end
         logical :: valid
 
         call clear_status(status)
@@ -101,12 +101,12 @@ contains
         head%z_flank = head%centre_z(3) - radius(3)*cos(angle_flank)
 
         ! The highest point of the canted head: on R300, or on R80 for a large cant.
-        turn = atan(cant)
-        if (abs(turn) <= angle_1) then
+        cant_angle = atan(cant)
+        if (abs(cant_angle) <= angle_1) then
             call rotate(0.0_wp, radius(1), 0.0_wp, 0.0_wp, crown_y, crown_z)
             crown_z = crown_z - radius(1)
         else
-            call rotate(sign(head%centre_y(2), turn), head%centre_z(2), 0.0_wp, 0.0_wp, &
+            call rotate(sign(head%centre_y(2), cant_angle), head%centre_z(2), 0.0_wp, 0.0_wp, &
                         crown_y, crown_z)
             crown_z = crown_z - radius(2)
         end if
@@ -138,8 +138,8 @@ contains
             real(wp), intent(in) :: y, z, origin_y, origin_z
             real(wp), intent(out) :: y_canted, z_canted
 
-            y_canted = y*cos(turn) + z*sin(turn) - origin_y
-            z_canted = -y*sin(turn) + z*cos(turn) - origin_z
+            y_canted = y*cos(cant_angle) + z*sin(cant_angle) - origin_y
+            z_canted = -y*sin(cant_angle) + z*cos(cant_angle) - origin_z
         end subroutine rotate
 
         ! One flank in the canted frame, and the y where the head ends.
@@ -149,9 +149,9 @@ contains
             real(wp) :: outward, depth, z_last
 
             call rotate(side*flank_half_width, head%z_flank, crown_y, crown_z, y, z)
-            outward = cos(turn)/flank_slope + side*sin(turn)
+            outward = cos(cant_angle)/flank_slope + side*sin(cant_angle)
             if (outward > vertical_margin) then
-                slope = side*(cos(turn) - side*sin(turn)/flank_slope)/outward
+                slope = side*(cos(cant_angle) - side*sin(cant_angle)/flank_slope)/outward
                 depth = head%z_flank + flank_slope*(end_half_width - flank_half_width)
                 call rotate(side*end_half_width, depth, crown_y, crown_z, y_last, z_last)
             else

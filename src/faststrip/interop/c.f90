@@ -142,15 +142,16 @@ contains
     end function faststrip_copy
 
     !> Hand over the gap that the next solutions are for.
-    integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, turn) bind(c) result(code)
+    integer(c_int) function faststrip_set_gap(workspace, n, y, h, inv2r, &
+                                              inclination) bind(c) result(code)
         integer(c_intptr_t), value :: workspace !! a handle
         integer(c_int), value :: n        !! number of points
         type(c_ptr), value :: y, h, inv2r !! `n` numbers each, mm, mm, 1/mm
-        type(c_ptr), value :: turn        !! `n` numbers, rad, or null: not known
+        type(c_ptr), value :: inclination        !! `n` numbers, rad, or null: not known
 
         type(handle_t), pointer :: handle
         type(status_t) :: status
-        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:), turn_of(:)
+        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:), inclination_of(:)
 
         call find_handle(workspace, handle, status)
         code = status%code
@@ -163,10 +164,10 @@ contains
             call c_f_pointer(y, y_of, [n])
             call c_f_pointer(h, h_of, [n])
             call c_f_pointer(inv2r, inv2r_of, [n])
-            turn_of => null()
-            if (c_associated(turn)) call c_f_pointer(turn, turn_of, [n])
+            inclination_of => null()
+            if (c_associated(inclination)) call c_f_pointer(inclination, inclination_of, [n])
             ! A null pointer counts as an argument that is not present.
-            call handle_gap(handle, y_of, h_of, inv2r_of, turn_of)
+            call handle_gap(handle, y_of, h_of, inv2r_of, inclination_of)
         end if
         code = handle%status%code
     end function faststrip_set_gap

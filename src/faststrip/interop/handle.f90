@@ -82,13 +82,13 @@ contains
     end subroutine find_handle
 
     !> Hand a gap over.
-    subroutine handle_gap(handle, y, h, inv2r, turn)
+    subroutine handle_gap(handle, y, h, inv2r, inclination)
         type(handle_t), intent(inout) :: handle         !! its status tells how it ended
         real(wp), intent(in) :: y(:), h(:), inv2r(:)    !! mm, mm, 1/mm
-        real(wp), intent(in), optional :: turn(:)       !! rad
+        real(wp), intent(in), optional :: inclination(:)       !! rad
 
         handle%result = contact_result_t()
-        call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, turn)
+        call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, inclination)
     end subroutine handle_gap
 
     !> Solve the handle's case on the gap that was handed over; its result has the figures.

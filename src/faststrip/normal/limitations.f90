@@ -8,13 +8,13 @@
 !> - flat along x: somewhere in the contact A was not positive, or below 3 % of the geometric mean
 !>   of the gap, and was raised to that. The patch there is as long as this makes it;
 !> - half-space doubtful: a slope of the gap above 0.2 across a strip or at its tip, or
-!>   surfaces that turn by more than 20 degrees over it. A half-space takes surfaces for planes and
-!>   moves them along one
-!>   normal; the slope's square, 4 %, is what is left out. The gap does not tell by how much the
-!>   surfaces turn together, as wheel flange and rail corner do: that takes `gap_t%turn`, which
-!>   gaps made from profiles have. Likewise a step of the gap in a patch or at its end, a wall or
-!>   a body's edge, if it is higher than 1 % of the penetration or steep beside the patch: the
-!>   pressures at its foot are not bounded, and no strip is short enough for them.
+!>   surfaces whose inclination changes by more than 20 degrees over it. A half-space takes surfaces
+!>   for planes and moves them along one normal; the slope's square, 4 %, is what is left out. The
+!>   gap does not tell by how much the surfaces turn together, as wheel flange and rail corner do:
+!>   that takes `gap_t%inclination`, which gaps made from profiles have. Likewise a step of the gap
+!>   in a patch or at its end, a wall or a body's edge, if it is higher than 1 % of the penetration
+!>   or steep beside the patch: the pressures at its foot are not bounded, and no strip is short
+!>   enough for them.
 !>
 !> Nor can bodies be pressed together and apart: a penetration that is not positive is named as an
 !> overlap, or is an error where a step leads there, as to a fill value below the gap.
@@ -35,7 +35,7 @@ module faststrip_normal_limitations
                                      st_flat_along_x, st_conformal, st_under_resolved, &
                                      st_no_finite_patch, st_ok, st_out_of_range, st_overlap_left, &
                                      first_error
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, largest_turn, &
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, inclination_change, &
                                             largest_step
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
@@ -51,7 +51,7 @@ module faststrip_normal_limitations
     real(wp), parameter :: default_resolution = 0.1_wp
 
     real(wp), parameter :: doubtful_slope = 0.2_wp
-    real(wp), parameter :: doubtful_turn = 20.0_wp*pi/180.0_wp
+    real(wp), parameter :: doubtful_inclination = 20.0_wp*pi/180.0_wp
     ! Height of a step over the penetration. Lower ones change it by less than 0.5 %.
     real(wp), parameter :: doubtful_step = 0.01_wp
     ! Slope of a step over penetration by half the patch's width. With 0.5 the largest pressure is
@@ -150,7 +150,7 @@ contains
         type(status_t), intent(inout) :: status      !! limitations so far, no error
 
         character(len=message_length) :: words
-        real(wp) :: lowest, highest, y, h_left, h_right, inv2r, slope, turn
+        real(wp) :: lowest, highest, y, h_left, h_right, inv2r, slope, inclination
         integer :: k, first
 
         if (strips%n < 1) return
@@ -160,7 +160,7 @@ contains
         lowest = huge(1.0_wp)
         highest = -huge(1.0_wp)
         slope = 0.0_wp
-        turn = 0.0_wp
+        inclination = 0.0_wp
         first = 1
         do k = 1, strips%n
             y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
@@ -174,7 +174,8 @@ contains
             if (k < strips%n) then
                 if (strips%patch(k + 1) == strips%patch(k)) cycle
             end if
-            turn = max(turn, largest_turn(curve, strips%y_left(first), strips%y_right(k)))
+            inclination = max(inclination, inclination_change(curve, strips%y_left(first), &
+                                                              strips%y_right(k)))
             first = k + 1
         end do
         if (highest <= 0.0_wp) then
@@ -188,8 +189,9 @@ contains
             call add_words(words, ' 1/mm in the contact raised to '//number_text(curve%least_inv2r))
             call add_limitation(status, st_flat_along_x, words)
         end if
-        if (turn > doubtful_turn) then
-            words = 'half-space doubtful: the surfaces turn by '//number_text(turn*180.0_wp/pi)
+        if (inclination > doubtful_inclination) then
+            words = 'half-space doubtful: the inclination of the surfaces changes by ' &
+                //number_text(inclination*180.0_wp/pi)
             call add_words(words, ' degrees over a patch')
             call add_limitation(status, st_conformal, words)
         else if (slope > doubtful_slope) then

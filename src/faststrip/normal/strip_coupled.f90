@@ -205,23 +205,23 @@ contains
     end subroutine check_kept
 
     !> Residual of all equations for the strips where they are.
-    pure subroutine residual(workspace, compliance, goal, ends, n, penetration, missing)
+    pure subroutine residual(workspace, compliance, goal, ends, n, penetration, residual)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: goal
         type(end_t), intent(in) :: ends(:)
         integer, intent(in) :: n
         real(wp), intent(in) :: penetration
-        real(wp), intent(inout) :: missing(:)
+        real(wp), intent(inout) :: residual(:)
 
         integer :: e
 
         call strip_residual(workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
                             workspace%inv2r(:n), compliance, goal, workspace%p0(:n), &
-                            workspace%half_length(:n), penetration, missing, &
+                            workspace%half_length(:n), penetration, residual, &
                             workspace%newton%y, workspace%newton%influence)
         do e = 1, size(ends)
-            missing(2*n + 1 + e) = wanted(workspace, ends(e))
+            residual(2*n + 1 + e) = wanted(workspace, ends(e))
         end do
     end subroutine residual
 
@@ -252,16 +252,16 @@ contains
         real(wp) :: kept_length, away
 
         m = 2*n + 1 + size(ends)
-        associate (jacobian => workspace%newton%jacobian, missing => workspace%newton%step, &
+        associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
                    other => workspace%newton%history(:, 1))
             call strip_jacobian(workspace%y_left(:n), workspace%y_right(:n), &
                                 workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
                                 workspace%p0(:n), workspace%half_length(:n), penetration, &
-                                p_scale, jacobian, missing, workspace%newton%y, &
+                                p_scale, jacobian, residual, workspace%newton%y, &
                                 workspace%newton%influence)
             jacobian(2*n + 2:m, :m) = 0.0_wp
             do e = 1, size(ends)
-                missing(2*n + 1 + e) = wanted(workspace, ends(e))
+                residual(2*n + 1 + e) = wanted(workspace, ends(e))
                 jacobian(:m, 2*n + 1 + e) = 0.0_wp
                 if (ends(e)%fixed) then
                     jacobian(2*n + 1 + e, 2*n + 1 + e) = 1.0_wp
@@ -272,7 +272,7 @@ contains
                     kept_length = workspace%half_length(k)
                     workspace%half_length(k) = kept_length*(1.0_wp + length_difference)
                     jacobian(2*n + 1 + e, n + k) = &
-                        (missing(2*n + 1 + e) - wanted(workspace, ends(e)))/length_difference
+                        (residual(2*n + 1 + e) - wanted(workspace, ends(e)))/length_difference
                     workspace%half_length(k) = kept_length
                 end do
             end do
@@ -291,7 +291,7 @@ contains
                                     workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
                                     workspace%p0(:n), workspace%half_length(:n), penetration, &
                                     other, workspace%newton%y, workspace%newton%influence)
-                jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - missing(:2*n + 1))/difference
+                jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
                 call place_edges(workspace, patches)
             end do
             call lu_factor(m, jacobian, workspace%newton%pivot, singular)

@@ -67,7 +67,7 @@ contains
     !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
     !> tips, load (or zero).
     pure subroutine strip_residual(y_left, y_right, height, inv2r, compliance, goal, p0, &
-                                   half_length, penetration, missing, y, influence)
+                                   half_length, penetration, residual, y, influence)
         real(wp), intent(in) :: y_left(:)      !! left edges, (n), mm
         real(wp), intent(in) :: y_right(:)     !! right edges, (n), mm
         real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
@@ -77,7 +77,7 @@ contains
         real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
         real(wp), intent(in) :: half_length(:) !! xd, (n), mm
         real(wp), intent(in) :: penetration    !! D above the lowest height, mm
-        real(wp), intent(inout) :: missing(:)  !! (2n + 1)
+        real(wp), intent(inout) :: residual(:)  !! (2n + 1)
         real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 1)
 
         integer :: n, s
@@ -85,21 +85,21 @@ contains
 
         n = size(p0)
         call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
-                            missing, y)
+                            residual, y)
         scale = compliance/penetration
         do s = 1, n
             call center_influence_column(half_length(s), y_left(s), y_right(s), y(:n), &
                                          influence(:n, 1))
-            missing(:n) = missing(:n) - scale*p0(s)*influence(:n, 1)
+            residual(:n) = residual(:n) - scale*p0(s)*influence(:n, 1)
             call tip_influence_column(half_length(s), y_left(s), y_right(s), half_length, y(:n), &
                                       influence(:n, 1))
-            missing(n + 1:2*n) = missing(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
+            residual(n + 1:2*n) = residual(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
         end do
     end subroutine strip_residual
 
     !> The same, and the Jacobian of its negative in p0/p_scale, ln xd, ln D.
     pure subroutine strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
-                                   half_length, penetration, p_scale, jacobian, missing, y, &
+                                   half_length, penetration, p_scale, jacobian, residual, y, &
                                    influence)
         real(wp), intent(in) :: y_left(:), y_right(:) !! edges, (n), mm
         real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
@@ -111,7 +111,7 @@ contains
         real(wp), intent(in) :: penetration    !! D above the lowest height, mm
         real(wp), intent(in) :: p_scale        !! unit of the pressures' changes, MPa
         real(wp), intent(inout) :: jacobian(:, :) !! first 2n + 1 rows and columns
-        real(wp), intent(inout) :: missing(:)  !! (2n + 1)
+        real(wp), intent(inout) :: residual(:)  !! (2n + 1)
         real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 3)
 
         integer :: n, k, s
@@ -119,7 +119,7 @@ contains
 
         n = size(p0)
         call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
-                            missing, y)
+                            residual, y)
         scale = compliance/penetration
         do k = 1, n
             jacobian(n + k, n + k) = 2.0_wp*inv2r(k)*half_length(k)**2/penetration
@@ -129,7 +129,7 @@ contains
             call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y(:n), &
                                                   influence(:n, 1), influence(:n, 3))
             do k = 1, n
-                missing(k) = missing(k) - scale*p0(s)*influence(k, 1)
+                residual(k) = residual(k) - scale*p0(s)*influence(k, 1)
                 jacobian(k, s) = scale*p_scale*influence(k, 1)
                 jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
             end do
@@ -138,7 +138,7 @@ contains
                                                influence(:n, 2), influence(:n, 3))
             tip = jacobian(n + s, n + s)
             do k = 1, n
-                missing(n + k) = missing(n + k) - scale*p0(s)*influence(k, 1)
+                residual(n + k) = residual(n + k) - scale*p0(s)*influence(k, 1)
                 jacobian(n + k, s) = scale*p_scale*influence(k, 1)
                 jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
             end do
@@ -164,20 +164,20 @@ contains
 
     !> What is missing before the displacements are subtracted, and the load's equation whole.
     pure subroutine start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, &
-                                   penetration, missing, y)
+                                   penetration, residual, y)
         real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:)
         type(demand_t), intent(in) :: goal
         real(wp), intent(in) :: p0(:), half_length(:), penetration
-        real(wp), intent(inout) :: missing(:), y(:)
+        real(wp), intent(inout) :: residual(:), y(:)
 
         integer :: n
 
         n = size(p0)
         y(:n) = 0.5_wp*(y_left + y_right)
-        missing(:n) = (penetration - height)/penetration
-        missing(n + 1:2*n) = missing(:n) - inv2r*half_length**2/penetration
-        missing(2*n + 1) = 0.0_wp
-        if (goal%by_load) missing(2*n + 1) = &
+        residual(:n) = (penetration - height)/penetration
+        residual(n + 1:2*n) = residual(:n) - inv2r*half_length**2/penetration
+        residual(2*n + 1) = 0.0_wp
+        if (goal%by_load) residual(2*n + 1) = &
             1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/goal%load
     end subroutine start_residual
 

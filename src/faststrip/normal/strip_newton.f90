@@ -83,14 +83,14 @@ contains
 
         integer :: n, iteration, backs
         logical :: singular
-        real(wp) :: limit, p_scale, largest, depth, missing, missing_before
+        real(wp) :: limit, p_scale, largest, depth, residual, residual_before
 
         n = size(p0)
         outcome = newton_failed
         workspace%kept = .false.
         leaves = .false.
         backs = 0
-        missing_before = 1.0e100_wp
+        residual_before = 1.0e100_wp
         p_scale = 1.0_wp
         limit = 1.0_wp
         depth = penetration
@@ -101,8 +101,8 @@ contains
                 call strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
                                     half_length, penetration, largest, workspace%jacobian, &
                                     workspace%step, workspace%y, workspace%influence)
-                missing = norm2(step)
-                if (missing > most_growth*missing_before .and. backs < max_backs) then
+                residual = norm2(step)
+                if (residual > most_growth*residual_before .and. backs < max_backs) then
                     ! The step led too far: a part of it from where it began.
                     backs = backs + 1
                     call add_cost(cost, n, 0, .false., 1)
@@ -110,7 +110,7 @@ contains
                 else
                     backs = 0
                     call add_cost(cost, n, 2*n + 1, .true., 0)
-                    missing_before = missing
+                    residual_before = residual
                     p_scale = largest
                     call lu_factor(2*n + 1, workspace%jacobian, workspace%pivot, singular)
                     if (singular) return

@@ -202,7 +202,7 @@ contains
         logical, intent(inout) :: is_torn(n)
 
         integer :: first, last, k
-        real(wp) :: up, down, turn
+        real(wp) :: up, down, change
 
         last = 1
         do while (last < n)
@@ -215,9 +215,9 @@ contains
             up = 0.0_wp
             down = 0.0_wp
             do k = first, last
-                turn = 0.5_wp*excess(k)*(x(k + 1) - x(k - 1))
-                up = up + max(turn, 0.0_wp)
-                down = down - min(turn, 0.0_wp)
+                change = 0.5_wp*excess(k)*(x(k + 1) - x(k - 1))
+                up = up + max(change, 0.0_wp)
+                down = down - min(change, 0.0_wp)
             end do
             if (min(up, down) >= step_balance*max(up, down)) cycle
             if ((last - first > 1 .and. min(up, down) <= 0.0_wp) &

@@ -251,7 +251,7 @@ contains
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
 
-        real(wp) :: l1, l2, l3, top, pmax, width, y, row, h, x, t, bound, size_squared, step
+        real(wp) :: l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound, size_squared, step
         real(wp) :: cksi, slope_x, slope_y, px, py, sx, sy, cell, place, ahead_x, ahead_y
         integer :: i, j, state
 
@@ -267,7 +267,7 @@ contains
             l2 = l1
             l3 = l1
         end if
-        top = mu*load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
+        peak_bound = mu*load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -285,7 +285,7 @@ contains
                 px = px - step*slope_x
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
-                bound = top*merge(sqrt(place), place, variant%elliptic_bound)
+                bound = peak_bound*merge(sqrt(place), place, variant%elliptic_bound)
                 size_squared = px*px + py*py
                 sx = 0.0_wp
                 sy = 0.0_wp

@@ -2,10 +2,10 @@
 !>
 !> Each patch has a virtual ellipse (semi-axes a, b of its area and second moments), which gives
 !> Kalker's coefficients; everything else is the strip's own: its length 2 xd, its pressure p0 and
-!> its place y. The lobes of a patch with a neck have ellipses of their own, and where they hang
-!> together a little (`patch_lobes`), what their ellipses give is averaged strip by strip. A strip
-!> is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's
-!> eq. (25)-(48) once corrected). What differs from the paper, and why:
+!> its place y. The sub-patches of a patch with a neck have ellipses of their own, and where they
+!> hang together a little (`sub_patches`), what their ellipses give is averaged strip by strip. A
+!> strip is marched from its leading edge like in FASTSIM (Kalker 1982; the paper's eq. (25)-(48)
+!> once corrected). What differs from the paper, and why:
 !>
 !> - **S1** **Flexibility** `L_i = l_i (xd/a)^gamma`, gamma = 3/8. FASTSIM has gamma = 0 (one
 !>   flexibility for the patch), strip theory gamma = 1 (each strip is a half-plane of its own,
@@ -63,8 +63,8 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_motion, only: check_motion, over_force
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
-    use faststrip_normal_patch_lobes, only: has_neck, find_openness, next_level, level_weight, &
-                                            next_lobe, all_parted, all_joined
+    use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
+                                            next_sub_patch, all_parted, all_joined
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, put_element, field_power, most_points, &
                                           state_adhesion, state_slip
@@ -97,7 +97,7 @@ module faststrip_tangential_faststrip
     ! A patch or a strip that can carry less than this, N, carries nothing.
     real(wp), parameter :: smallest_force = 1.0e-20_wp
 
-    !> What the strips of one patch, or of one lobe, share.
+    !> What the strips of one patch, or of one sub-patch, share.
     type :: patch_law_t
         real(wp) :: a = 0.0_wp   !! semi-axis of the virtual ellipse along x, mm
         real(wp) :: y = 0.0_wp   !! centroid, mm
@@ -126,13 +126,13 @@ module faststrip_tangential_faststrip
         integer :: strip(most_lanes) = 0  !! their numbers
         real(wp), dimension(most_lanes) :: y, half_length !! mm
         real(wp), dimension(most_lanes) :: cell           !! area of an element, mm^2
-        real(wp), dimension(most_lanes) :: top, inverse_top !! mu p0, MPa
+        real(wp), dimension(most_lanes) :: peak_bound, inverse_peak_bound !! mu p0, MPa
         real(wp), dimension(most_lanes) :: slope_x, slope_y0, slope_y1 !! of adhesion, MPa/mm
         real(wp), dimension(most_lanes) :: rigid_x        !! longitudinal rigid slip
         real(wp), dimension(most_lanes) :: k1, k2         !! flexibilities in slip, mm/MPa
         real(wp), dimension(most_lanes) :: onset          !! scale of 1/lambda, MPa
         real(wp), dimension(most_lanes) :: px, py         !! of the last element, MPa
-        real(wp), dimension(most_lanes) :: f, way         !! lambda times way, mm/MPa; way, mm
+        real(wp), dimension(most_lanes) :: f, step         !! lambda times step, mm/MPa; step, mm
         real(wp), dimension(most_lanes) :: excess         !! |p|^2 over the squared bound, MPa^2
         real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
         real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, held !! over the elements
@@ -240,7 +240,8 @@ contains
         first_element = 1
         if (present(field)) first_element = field%n + 1
         if (has_neck(strips%half_length(first:last))) then
-            call march_lobes(strips, first, last, material, mu, creepage, points, result, stuck, &
+            call march_sub_patches(strips, first, last, material, mu, creepage, points, result, &
+                                   stuck, &
                              covered, status, field, per_strip)
         else
             call find_law(patch_ellipse(strips, first, last), material, mu, creepage, law, status)
@@ -308,8 +309,8 @@ contains
         law%alpha = asymmetry*(1.0_wp - spin_share)
     end subroutine find_law
 
-    !> March the strips of a patch with a neck, each by the mean of the laws of its lobes.
-    pure subroutine march_lobes(strips, first, last, material, mu, creepage, points, result, &
+    !> March the strips of a patch with a neck, each by the mean of the laws of its sub-patches.
+    pure subroutine march_sub_patches(strips, first, last, material, mu, creepage, points, result, &
                                 stuck, covered, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last, points
@@ -332,8 +333,9 @@ contains
         do while (level < all_joined)
             begin = first
             do while (begin <= last)
-                call next_lobe(strips, first, openness, level, begin, from, to, share)
-                ! A lobe stays the same until one of its strips or of those next to it is a neck.
+                call next_sub_patch(strips, first, openness, level, begin, from, to, share)
+                ! A sub-patch stays the same until one of its strips or of those next to it is a
+                ! neck.
                 associate (around => openness(max(first, from - 1):min(last, to + 1)))
                     if (level > all_parted .and. .not. any(around == level)) cycle
                     weight = level_weight(level, next_level(around, level))
@@ -356,7 +358,7 @@ contains
                               result, stuck, covered, field, per_strip)
             begin = i
         end do
-    end subroutine march_lobes
+    end subroutine march_sub_patches
 
     !> Add a law to a sum of laws.
     pure subroutine add_law(weight, law, total)
@@ -459,19 +461,19 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
 
         real(wp), dimension(most_lanes) :: ahead_x, ahead_y
-        real(wp) :: t, way
+        real(wp) :: t, step
         integer :: i, n
 
         n = size(bound)
         do i = 1, n
             t = real(n - 2*i + 1, wp)/n
             ! Half a step from the edge to the middle of the first element.
-            way = merge(1.0_wp, 2.0_wp, i == 1)/n
+            step = merge(1.0_wp, 2.0_wp, i == 1)/n
             if (present(field)) then
                 ahead_x = block%px
                 ahead_y = block%py
             end if
-            call advance(block, t, way, bound(i), creepage%ceta, creepage%cphi)
+            call advance(block, t, step, bound(i), creepage%ceta, creepage%cphi)
             if (present(field)) call note_elements(block, strips, creepage, ahead_x, ahead_y, i, &
                                                    n, field)
         end do
@@ -480,7 +482,7 @@ contains
 
     !> Put element `i` of every strip of a block into the field.
     !>
-    !> The slip of the implicit step is that of the way from the element ahead, where the traction
+    !> The slip of the implicit step is that of the step from the element ahead, where the traction
     !> is the mean of both; what goes into the field at the element itself gives the same heat
     !> (S8). The last element has also the half step to the trailing edge, on which the
     !> traction falls to nothing.
@@ -532,7 +534,7 @@ contains
 
         do k = 1, block%n
             used = min(sqrt(block%sum_x(k)**2 + block%sum_y(k)**2) &
-                       /(0.25_wp*pi*points*block%top(k)), 1.0_wp)
+                       /(0.25_wp*pi*points*block%peak_bound(k)), 1.0_wp)
             fx = block%cell(k)*block%sum_x(k)
             fy = block%cell(k)*block%sum_y(k)
             mz = block%cell(k)*(1.0_wp + law%stretch_x*(1.0_wp - used))*block%arm_x(k) &
@@ -585,7 +587,7 @@ contains
                 block%strip(k) = i
                 block%half_length(k) = xd
                 block%y(k) = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
-                block%top(k) = mu*p0
+                block%peak_bound(k) = mu*p0
                 block%cell(k) = 2.0_wp*xd/points*width
             end associate
         end do
@@ -594,7 +596,7 @@ contains
         do k = block%n + 1, block%lanes
             block%half_length(k) = block%half_length(block%n)
             block%y(k) = block%y(block%n)
-            block%top(k) = block%top(block%n)
+            block%peak_bound(k) = block%peak_bound(block%n)
         end do
         !$omp simd private(softness, hardness, offset)
         do k = 1, block%lanes
@@ -611,7 +613,7 @@ contains
             block%k1(k) = law%k1*softness
             block%k2(k) = law%k2*softness
             block%onset(k) = slip_onset/sqrt(law%k1*law%k2)*block%half_length(k)*hardness
-            block%inverse_top(k) = 1.0_wp/block%top(k)
+            block%inverse_peak_bound(k) = 1.0_wp/block%peak_bound(k)
             block%px(k) = 0.0_wp
             block%py(k) = 0.0_wp
             block%f(k) = 0.0_wp
@@ -624,27 +626,27 @@ contains
 
     !> One element further in all lanes, from the leading edge to the trailing one: in adhesion the
     !> traction grows by the slope of adhesion; where that leaves the bound, it slides.
-    pure subroutine advance(block, t, way_per_length, bound, ceta, cphi)
+    pure subroutine advance(block, t, step_per_length, bound, ceta, cphi)
         type(block_t), intent(inout) :: block
         real(wp), intent(in) :: t              !! place of the element over half-length
-        real(wp), intent(in) :: way_per_length !! way since the last point over half-length
+        real(wp), intent(in) :: step_per_length !! way since the last point over half-length
         real(wp), intent(in) :: bound          !! bound over mu p0
         real(wp), intent(in) :: ceta, cphi     !! creepages
 
         real(wp) :: slope_y, mean_x
         integer :: k, first
 
-        mean_x = t + 0.5_wp*way_per_length
+        mean_x = t + 0.5_wp*step_per_length
         !$omp simd private(slope_y)
         do k = 1, block%lanes
-            block%way(k) = block%half_length(k)*way_per_length
+            block%step(k) = block%half_length(k)*step_per_length
             slope_y = block%slope_y0(k) + block%half_length(k)*mean_x*block%slope_y1(k)
-            block%extra_y(k) = block%way(k)*(block%k2(k)*slope_y &
+            block%extra_y(k) = block%step(k)*(block%k2(k)*slope_y &
                                              - (ceta + block%half_length(k)*t*cphi))
-            block%px(k) = block%px(k) - block%way(k)*block%slope_x(k)
-            block%py(k) = block%py(k) - block%way(k)*slope_y
+            block%px(k) = block%px(k) - block%step(k)*block%slope_x(k)
+            block%py(k) = block%py(k) - block%step(k)*slope_y
             block%excess(k) = block%px(k)*block%px(k) + block%py(k)*block%py(k) &
-                              - (block%top(k)*bound)**2
+                              - (block%peak_bound(k)*bound)**2
         end do
         do first = 1, block%lanes, lane_step
             if (any(block%excess(first:first + lane_step - 1) > 0.0_wp)) then
@@ -664,7 +666,7 @@ contains
 
     !> Bring those of a few lanes that left the bound back to it.
     !>
-    !> The step is implicit in the slip (S4): with f = lambda times the way,
+    !> The step is implicit in the slip (S4): with f = lambda times the step,
     !>
     !>     p_i = (K_i q_i - way e_i)/(K_i + f),   |p| = bound.
     !>
@@ -687,9 +689,9 @@ contains
         do k = first, first + lane_step - 1
             k1 = block%k1(k)
             k2 = block%k2(k)
-            grip = block%onset(k)/block%way(k)
-            inverse_limit = block%inverse_top(k)*inverse_bound
-            extra_x = block%way(k)*(k1*block%slope_x(k) - block%rigid_x(k))
+            grip = block%onset(k)/block%step(k)
+            inverse_limit = block%inverse_peak_bound(k)*inverse_bound
+            extra_x = block%step(k)*(k1*block%slope_x(k) - block%rigid_x(k))
             push_x = k1*block%px(k) + extra_x
             push_y = k2*block%py(k) + block%extra_y(k)
             fade = 1.0_wp/(1.0_wp + grip*block%f(k))

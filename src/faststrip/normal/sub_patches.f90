@@ -1,31 +1,32 @@
-!> The lobes of a contact patch with a neck: which strips hang together, and how firmly.
+!> The sub-patches of a contact patch with a neck: which strips hang together, and how firmly.
 !>
 !> Tractions pass hardly through a neck, and freely through what is nearly as long as the rest. How
 !> open a strip is says its length over the longest strip to its left or to its right, whichever is
-!> shorter. Strips more open than a level fall into runs, the lobes; those of a neck between two
-!> lobes belong to both, in proportion to the width on the other side. No level is the right
-!> one: what is wanted of the lobes is to be averaged over the levels from `all_parted` to
-!> `all_joined` with the weights of `level_weight`. So lobes join and part gradually, nothing
-!> depends on which strip of a neck is the shortest, and left and right count alike.
+!> shorter. Strips more open than a level fall into runs, the sub-patches; those of a neck between
+!> two sub-patches belong to both, in proportion to the width on the other side. No level is the
+!> right one: what is wanted of the sub-patches is to be averaged over the levels from `all_parted`
+!> to `all_joined` with the weights of `level_weight`. So sub-patches join and part gradually,
+!> nothing depends on which strip of a neck is the shortest, and left and right count alike.
 !>
 !> In use: `find_openness`; `level = all_parted`; until the level is `all_joined`, `next_level`
-!> ends the stretch of levels that give the same lobes, and `next_lobe` finds them one by one.
-module faststrip_normal_patch_lobes
+!> ends the stretch of levels that give the same sub-patches, and `next_sub_patch` finds them one by
+!> one.
+module faststrip_normal_sub_patches
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: has_neck, find_openness, next_level, level_weight, next_lobe
+    public :: has_neck, find_openness, next_level, level_weight, next_sub_patch
     public :: all_parted, all_joined
 
-    ! Round numbers about 0.3, the one level that lobes had before. Against TANG, on 72 contacts of
-    ! two humps that meet, the mean errors are 1.0, 0.7 and 0.6 % (Fx, Fy of mu N, Mz of mu N b)
-    ! after 1.0, 0.9 and 0.7; the 20 contacts S1002/UIC60 have no strip so short. Higher bounds do
-    ! better on smooth humps (0.2, 0.5 and 0.5 % from 0.3 to 0.8), but take the ragged strips of
-    ! rough gaps for necks: with 0.2 to 0.6 a fifth more contacts, with 0.3 to 0.8 twice as many
-    ! change their forces by over 3 % with 2 % of the load. The closer the bounds, the faster the
-    ! forces change while a neck grows.
+    ! Round numbers about 0.3, the one level that sub-patches had before. Against TANG, on 72
+    ! contacts of two humps that meet, the mean errors are 1.0, 0.7 and 0.6 % (Fx, Fy of mu N, Mz of
+    ! mu N b) after 1.0, 0.9 and 0.7; the 20 contacts S1002/UIC60 have no strip so short. Higher
+    ! bounds do better on smooth humps (0.2, 0.5 and 0.5 % from 0.3 to 0.8), but take the ragged
+    ! strips of rough gaps for necks: with 0.2 to 0.6 a fifth more contacts, with 0.3 to 0.8 twice
+    ! as many change their forces by over 3 % with 2 % of the load. The closer the bounds, the
+    ! faster the forces change while a neck grows.
     real(wp), parameter :: all_parted = 0.1_wp !! openness up to which a strip is a neck
     real(wp), parameter :: all_joined = 0.5_wp !! openness from which it is none
 
@@ -76,7 +77,7 @@ contains
         end do
     end subroutine find_openness
 
-    !> Up to which level the lobes are those just above this one.
+    !> Up to which level the sub-patches are those just above this one.
     pure real(wp) function next_level(openness, level)
         real(wp), intent(in) :: openness(:) !! of the strips of a patch
         real(wp), intent(in) :: level       !! from `all_parted`, below `all_joined`
@@ -102,14 +103,15 @@ contains
         weight_below = t*t*(3.0_wp - 2.0_wp*t)
     end function weight_below
 
-    !> The next lobe of a patch at the levels just above one: which strips, with what share.
-    pure subroutine next_lobe(strips, first, openness, level, begin, from, to, share)
+    !> The next sub-patch of a patch at the levels just above one: which strips, with what share.
+    pure subroutine next_sub_patch(strips, first, openness, level, begin, from, to, share)
         type(contact_strips_t), intent(in) :: strips !! checked strips
         integer, intent(in) :: first           !! first strip of the patch
         real(wp), intent(in) :: openness(first:) !! of the strips of the patch
         real(wp), intent(in) :: level          !! strips as open as that or less are necks
         integer, intent(inout) :: begin
-            !! first strip of the lobe proper; then that of the next lobe, or beyond the patch
+            !! first strip of the sub-patch proper; then that of the next sub-patch, or beyond the
+            !! patch
         integer, intent(out) :: from, to       !! strips, with those of the necks on either side
         real(wp), intent(inout) :: share(first:) !! set from `from` to `to`: 1, in necks less
 
@@ -134,12 +136,12 @@ contains
         call share_neck(strips, begin - 1, from, share(from:begin - 1))
         call share_neck(strips, last + 1, to, share(last + 1:to))
         begin = to + 1
-    end subroutine next_lobe
+    end subroutine next_sub_patch
 
-    !> What of the strips of a neck belongs to the lobe on one side.
+    !> What of the strips of a neck belongs to the sub-patch on one side.
     pure subroutine share_neck(strips, near, away, share)
         type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: near, away    ! strip next to the lobe, strip next to the other one
+        integer, intent(in) :: near, away    ! strip next to the sub-patch, next to the other one
         real(wp), intent(inout) :: share(min(near, away):)
 
         real(wp) :: beyond, width
@@ -158,4 +160,4 @@ contains
             share = 0.5_wp
         end if
     end subroutine share_neck
-end module faststrip_normal_patch_lobes
+end module faststrip_normal_sub_patches
