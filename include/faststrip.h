@@ -153,10 +153,10 @@ int faststrip_last_message(const faststrip_workspace *workspace, char *text, siz
  * length is sizeof(faststrip_case): how much of it the caller knows. */
 int faststrip_default_case(faststrip_case *contact, size_t length);
 
-/* What faststrip_new would return for the same case and room; text, if not null, says why. */
+/* What faststrip_new would return for the same case and capacity; text, if not null, says why. */
 int faststrip_check_case(const faststrip_case *contact, int max_points, char *text, size_t length);
 
-/* Make a workspace with room for the methods of a case, gaps of up to max_points points and, if
+/* Make a workspace with capacity for the methods of a case, gaps of up to max_points points and, if
  * with_elements, the elements. *workspace is null when there is an error. */
 int faststrip_new(const faststrip_case *contact, int max_points, faststrip_workspace **workspace);
 
@@ -164,14 +164,15 @@ int faststrip_new(const faststrip_case *contact, int max_points, faststrip_works
  * freed through another pointer is told (100). */
 int faststrip_free(faststrip_workspace **workspace);
 
-/* Copy gap, solution and room of one workspace into another, for a step that may be taken back. */
+/* Copy gap, solution and capacity of one workspace into another, for a step that may be taken
+ * back. */
 int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 
 /* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
- * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. inclination says how far the surfaces
- * have turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told; null: not
- * known. All numbers must be finite; they are copied. With more points than there is room for (110)
- * nothing is read. With an error the workspace keeps the gap that it had. */
+ * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. inclination says how far the
+ * surfaces have turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told;
+ * null: not known. All numbers must be finite; they are copied. With more points than there is
+ * capacity for (110) nothing is read. With an error the workspace keeps the gap that it had. */
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
                       const double *inv2r, const double *inclination);
 
@@ -180,16 +181,16 @@ int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contac
                     faststrip_result *result);
 
 /* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in
- * MPa, number of the patch. room is the length of the arrays; *n becomes the number of strips even
- * if that is more. */
-int faststrip_get_strips(faststrip_workspace *workspace, int room, int *n, double *y_left,
+ * MPa, number of the patch. capacity is the length of the arrays; *n becomes the number of strips
+ * even if that is more. */
+int faststrip_get_strips(faststrip_workspace *workspace, int capacity, int *n, double *y_left,
                          double *y_right, double *half_length, double *p0, int *patch);
 
 /* The elements of the last contact, if with_elements asked for them: middle (mm), area (mm^2),
  * pressure and traction on the rail (MPa), slip over rolling speed, state (1 adhesion, 2 slip). */
-int faststrip_get_elements(faststrip_workspace *workspace, int room, int *n, double *x, double *y,
-                           double *area, double *pn, double *px, double *py, double *sx,
-                           double *sy, int *state);
+int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n, double *x,
+                           double *y, double *area, double *pn, double *px, double *py,
+                           double *sx, double *sy, int *state);
 
 /* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear
  * modulus, MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces

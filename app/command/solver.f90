@@ -29,7 +29,7 @@ module faststrip_command_solver
 
     public :: solver_t, release_solver, outcome_t, make_solver, solve
 
-    !> Methods with the room they need, used for one contact after the other.
+    !> Methods with the capacity they need, used for one contact after the other.
     type :: solver_t
         type(numerics_t) :: numerics        !! what was asked for
         type(numerics_t) :: chosen          !! what the last contact was solved by
@@ -64,7 +64,7 @@ module faststrip_command_solver
 
 contains
 
-    !> Make room for a choice of methods.
+    !> Allocate for a choice of methods.
     subroutine make_solver(numerics, with_field, solver, status, with_strip_forces)
         type(numerics_t), intent(in) :: numerics !! checked
         logical, intent(in) :: with_field       !! are the elements wanted?
@@ -241,11 +241,11 @@ contains
         type(solver_t), intent(inout) :: solver
         type(status_t), intent(inout) :: status
 
-        type(status_t) :: room
+        type(status_t) :: capacity
 
         call reserve_field(solver%field, max(solver%workspace%strips%n &
                                              *solver%chosen%points_per_strip, &
-                                             size(solver%field%x)), room)
-        if (is_error(room)) status = room
+                                             size(solver%field%x)), capacity)
+        if (is_error(capacity)) status = capacity
     end subroutine grow_field
 end module faststrip_command_solver

@@ -46,14 +46,14 @@ int faststrip_identify(const char *path, long long identity[2])
 
 /* A path without links and dots; what does not exist yet keeps its name in its folder. Returns
  * the length, 0 if there is no such path. */
-int faststrip_resolve(const char *path, char *out, int room)
+int faststrip_resolve(const char *path, char *out, int capacity)
 {
     char full[PATH_MAX], folder[PATH_MAX], name[PATH_MAX], link[PATH_MAX];
     const char *slash;
     ssize_t n;
     int step;
 
-    if (room < PATH_MAX || strlen(path) >= sizeof name)
+    if (capacity < PATH_MAX || strlen(path) >= sizeof name)
         return 0;
     if (realpath(path, out))
         return (int)strlen(out);
@@ -166,16 +166,16 @@ int faststrip_print(const char *line)
     return puts(line) == EOF || fflush(stdout) == EOF;
 }
 
-static void append(char *line, size_t room, const char *text)
+static void append(char *line, size_t capacity, const char *text)
 {
     size_t n = strlen(line);
 
-    while (*text && n + 1 < room)
+    while (*text && n + 1 < capacity)
         line[n++] = *text++;
     line[n] = '\0';
 }
 
-static void append_number(char *line, size_t room, int number)
+static void append_number(char *line, size_t capacity, int number)
 {
     char digits[12];
     int i = sizeof digits - 1;
@@ -184,7 +184,7 @@ static void append_number(char *line, size_t room, int number)
     do
         digits[--i] = (char)('0' + number % 10);
     while ((number /= 10) > 0);
-    append(line, room, digits + i);
+    append(line, capacity, digits + i);
 }
 
 struct known_signal {

@@ -34,11 +34,11 @@ module faststrip_command_system
             integer(c_int) :: kind
         end function c_identify
 
-        function c_resolve(path, out, room) bind(c, name='faststrip_resolve') result(length)
+        function c_resolve(path, out, capacity) bind(c, name='faststrip_resolve') result(length)
             import :: c_char, c_int
             character(kind=c_char), intent(in) :: path(*)
             character(kind=c_char), intent(out) :: out(*)
-            integer(c_int), value :: room
+            integer(c_int), value :: capacity
             integer(c_int) :: length
         end function c_resolve
 

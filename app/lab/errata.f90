@@ -367,7 +367,7 @@ contains
         real(wp), intent(in) :: shift
         type(contact_strips_t), intent(inout) :: strips
 
-        integer, parameter :: room = 200
+        integer, parameter :: capacity = 200
         type(profile_t) :: wheel, rail
         type(rigid_contact_t) :: contact, left
         type(gap_t) :: gap
@@ -385,9 +385,9 @@ contains
         call make_gap(wheel, rail, wheelset_t(), contact, standard_gap_step, standard_gap_height, &
                       gap, status)
         call fail_on_error(status)
-        call reserve_strips(strips, room, status)
+        call reserve_strips(strips, capacity, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(workspace, room, size(gap%y), status)
+        call reserve_strip_workspace(workspace, capacity, size(gap%y), status)
         call fail_on_error(status)
         call set_strip_gap(workspace, gap, status)
         call fail_on_error(status)

@@ -41,7 +41,7 @@ program figures
         workspace = workspace_t()
         call reserve_workspace(workspace, case%methods, n, status)
         if (elements == 1) call reserve_contact_field(field, case%methods, status)
-        if (is_error(status)) error stop 'no room'
+        if (is_error(status)) error stop 'no capacity'
         call set_contact_gap(workspace, case%gap%y, case%gap%h, case%gap%inv2r, status, &
                              case%gap%inclination)
         deallocate (case%gap%y, case%gap%h, case%gap%inv2r)

@@ -515,7 +515,7 @@ static void forked(void)
 
 /* A caller whose header knows less of a case: nothing beyond is read or written, in a case that
  * ends where its memory ends, and what it lacks is the default. So errors are estimated, here of a
- * gap that is named for them, but not written where the result has no room. */
+ * gap that is named for them, but not written where the result has no capacity. */
 static void older(void)
 {
     const size_t whole = sizeof(faststrip_case);
@@ -532,14 +532,14 @@ static void older(void)
     faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
     for (size = 16; size <= whole; size += 8) {
         const size_t known = size < whole ? FIRST_RESULT : sizeof(faststrip_result);
-        unsigned char *exact = malloc(size), *room = malloc(whole), *figures = malloc(known);
+        unsigned char *exact = malloc(size), *capacity = malloc(whole), *figures = malloc(known);
         faststrip_case *contact = (faststrip_case *)exact, filled;
         faststrip_workspace *own;
         faststrip_result wanted;
 
-        memset(room, 0x5a, whole);
-        wrong += faststrip_default_case((faststrip_case *)room, size) != 0;
-        for (i = size; i < whole; i++) wrong += room[i] != 0x5a;
+        memset(capacity, 0x5a, whole);
+        wrong += faststrip_default_case((faststrip_case *)capacity, size) != 0;
+        for (i = size; i < whole; i++) wrong += capacity[i] != 0x5a;
         wrong += faststrip_default_case(contact, size) != 0 || contact->size != size;
         memcpy(exact + sizeof size, (char *)&e.contact + sizeof size, size - sizeof size);
         faststrip_default_case(&filled, whole);
@@ -559,7 +559,7 @@ static void older(void)
         if (size == whole) wrong += status != 0 || wanted.is_estimated;
         sizes++;
         free(exact);
-        free(room);
+        free(capacity);
         free(figures);
     }
     faststrip_free(&workspace);

@@ -219,7 +219,7 @@ class _Workspace:
 
 
 class Contact:
-    """One wheel on one rail: methods, the room they need, the gap, the last solution.
+    """One wheel on one rail: methods, the capacity they need, the gap, the last solution.
 
     normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
     each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
@@ -249,16 +249,16 @@ class Contact:
         case.with_elements = flag("with_elements", with_elements)
         case.estimate = flag("estimate", estimate)
         case.resolution_limit = above_zero("resolution_limit", resolution_limit)
-        self._make_room(whole("max_points", max_points, *GAP_POINTS))
+        self._reserve(whole("max_points", max_points, *GAP_POINTS))
 
-    def _make_room(self, max_points: int) -> None:
+    def _reserve(self, max_points: int) -> None:
         workspace, case = _Workspace(), self._case
         arguments = ctypes.byref(case), max_points, ctypes.byref(workspace.handle)
 
         def make() -> Tuple[int, _Workspace]:
             return library.faststrip_new(*arguments), workspace
 
-        # Much room is a matter of seconds too.
+        # Much capacity is a matter of seconds too.
         elements = case.fastsim_nx * case.fastsim_ny if case.with_elements else 0
         long = case.strips_per_patch > 100 or elements > LONG_GRID or max_points > LONG_GAP
         status, _ = interruptible(make, self._abandon) if long else make()
@@ -340,7 +340,7 @@ class Contact:
         if inclination is not None:
             others.append(as_long_as(points, "inclination", inclination))
         if not self._closed and (self._workspace is None or points.size > self._max_points):
-            self._make_room(max(points.size, self._max_points))
+            self._reserve(max(points.size, self._max_points))
         addresses = _addresses([points, *others])
         if inclination is None:
             addresses.append(None)
@@ -396,7 +396,7 @@ class Contact:
         return arrays
 
     def copy_from(self, other: "Contact") -> None:
-        """Take over gap, solution and room of another contact, for a step that is taken back."""
+        """Take over gap, solution and capacity of another contact, for a step taken back."""
         if not isinstance(other, Contact):
             raise refused("other", "a Contact", other)
         if other is self:

@@ -46,7 +46,8 @@ module faststrip
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_coefficients_solve, fastsim_variant_t
-    use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_faststrip, only: faststrip_tangential_solve, &
+                                              faststrip_solve => faststrip_tangential_solve
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
     use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
                                          law_shen_hedrick_elkins, law_polach

@@ -107,18 +107,18 @@ module faststrip_files_csv
             integer(c_int) :: code
         end function c_remove
 
-        function c_readlink(path, target, room) bind(c, name='readlink') result(length)
+        function c_readlink(path, target, capacity) bind(c, name='readlink') result(length)
             import :: c_char, c_size_t
             character(kind=c_char), intent(in) :: path(*)
             character(kind=c_char), intent(out) :: target(*)
-            integer(c_size_t), value :: room
+            integer(c_size_t), value :: capacity
             integer(c_size_t) :: length
         end function c_readlink
 
-        function c_gethostname(name, room) bind(c, name='gethostname') result(code)
+        function c_gethostname(name, capacity) bind(c, name='gethostname') result(code)
             import :: c_char, c_int, c_size_t
             character(kind=c_char), intent(out) :: name(*)
-            integer(c_size_t), value :: room
+            integer(c_size_t), value :: capacity
             integer(c_int) :: code
         end function c_gethostname
 
@@ -272,7 +272,7 @@ contains
         type(status_t), intent(inout) :: status
         type(csv_text_t), allocatable :: more_cells(:, :)
         integer, allocatable :: more_lines(:)
-        integer :: n, room, i, j
+        integer :: n, capacity, i, j
 
         if (size(cells) /= table%n_columns) then
             call refuse_width(table, cells, number, status)
@@ -285,8 +285,8 @@ contains
             return
         end if
         if (n == size(table%line)) then
-            room = 2*n + 64
-            allocate (more_cells(table%n_columns, room), more_lines(room))
+            capacity = 2*n + 64
+            allocate (more_cells(table%n_columns, capacity), more_lines(capacity))
             do j = 1, n
                 do i = 1, table%n_columns
                     call move_alloc(table%cells(i, j)%text, more_cells(i, j)%text)

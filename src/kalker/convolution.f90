@@ -43,8 +43,8 @@ module faststrip_kalker_convolution
         integer :: ny = 0        !! along the second
         integer :: mx = 0        !! of the doubled grid, at least 2 nx
         integer :: my = 0        !! at least 2 ny
-        integer :: n_kernels = 0 !! kernels there is room for
-        integer :: n_sources = 0 !! transformed sources there is room for
+        integer :: n_kernels = 0 !! kernels there is memory for
+        integer :: n_sources = 0 !! transformed sources there is memory for
         real(c_double), pointer, contiguous, private :: field(:, :) => null()
         complex(c_double_complex), pointer, contiguous, private :: spectrum(:, :) => null()
         complex(c_double_complex), pointer, contiguous, private :: source(:, :, :) => null()
@@ -60,8 +60,8 @@ module faststrip_kalker_convolution
 
 contains
 
-    !> Make room and plans for a grid; nothing happens if they are there already, in which case the
-    !> kernels stay. Otherwise kernels are lost and have to be set.
+    !> Allocate memory and plans for a grid; nothing happens if they are there already, in which
+    !> case the kernels stay. Otherwise kernels are lost and have to be set.
     subroutine reserve_convolution(convolution, nx, ny, n_kernels, n_sources, status)
         type(convolution_t), intent(inout) :: convolution !! ready for `set_kernel`
         integer, intent(in) :: nx         !! points along the first axis, 1 to 16384
@@ -126,13 +126,13 @@ contains
 
     contains
 
-        type(c_ptr) function plan_along_y(room, sign)
-            type(c_ptr), intent(in) :: room
+        type(c_ptr) function plan_along_y(memory, sign)
+            type(c_ptr), intent(in) :: memory
             integer(c_int), intent(in) :: sign
 
             plan_along_y = fftw_plan_many_dft( &
-                1_c_int, [int(convolution%my, c_int)], int(half, c_int), room, c_null_ptr, &
-                int(half, c_int), 1_c_int, room, c_null_ptr, int(half, c_int), 1_c_int, sign, &
+                1_c_int, [int(convolution%my, c_int)], int(half, c_int), memory, c_null_ptr, &
+                int(half, c_int), 1_c_int, memory, c_null_ptr, int(half, c_int), 1_c_int, sign, &
                 fftw_estimate)
         end function plan_along_y
 
@@ -286,7 +286,7 @@ contains
         integer, intent(in) :: s             !! where to keep it, 1 to `n_sources`
         real(wp), intent(in) :: source(:, :) !! shape (nx, ny)
 
-        type(c_ptr) :: room
+        type(c_ptr) :: memory
         integer :: j
 
         associate (nx => convolution%nx, ny => convolution%ny)
@@ -298,8 +298,8 @@ contains
                                       convolution%source(:, :, s))
             convolution%source(:, ny + 1:, s) = (0.0_wp, 0.0_wp)
         end associate
-        room = c_loc(convolution%source(1, 1, s))
-        call fftw_execute_dft(convolution%plans(3), room, room)
+        memory = c_loc(convolution%source(1, 1, s))
+        call fftw_execute_dft(convolution%plans(3), memory, memory)
     end subroutine transform_source
 
     !> The sum of convolutions of transformed sources, `sum factors(i) kernels(i) * sources(i)`.

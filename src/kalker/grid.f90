@@ -101,12 +101,12 @@ contains
     !> Number of patches: sets of elements in contact that touch by sides or corners.
     subroutine count_patches(pressure, stack, number)
         real(wp), intent(in) :: pressure(:, :)  !! positive in contact
-        integer, intent(inout) :: stack(0:)     !! room for twice as many numbers as elements
+        integer, intent(inout) :: stack(0:)     !! capacity for twice as many numbers as elements
         integer, intent(out) :: number          !! of patches
 
         integer :: nx, ny, n, first, element, i, j, k, l
 
-        ! The second half of the room marks the elements that were seen.
+        ! The second half of the capacity marks the elements that were seen.
         nx = size(pressure, 1)
         ny = size(pressure, 2)
         stack(nx*ny:2*nx*ny - 1) = 0

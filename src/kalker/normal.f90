@@ -112,7 +112,7 @@ module faststrip_kalker_normal
 
 contains
 
-    !> Make room for gaps of up to `max_points` points. Not needed for `norm_solve_heights`.
+    !> Allocate for gaps of up to `max_points` points. Not needed for `norm_solve_heights`.
     subroutine reserve_norm(workspace, max_points, status)
         type(norm_workspace_t), intent(inout) :: workspace !! sized; a last solution stays
         integer, intent(in) :: max_points     !! points of a gap, >= 5

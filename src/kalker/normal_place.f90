@@ -2,7 +2,7 @@
 !>
 !> Middles of elements lie at odd multiples of half a side, x = 0 and y = 0 between elements, as
 !> CONTACT's grids of the reference do. Rows and columns are taken as the start has them, with
-!> room. Displacements are positive, so that all contact is where the undeformed gap is below the
+!> margin. Displacements are positive, so that all contact is where the undeformed gap is below the
 !> approach: rows of which that holds and that are not in the grid are looked at afterwards, on the
 !> line x = 0, with the rows of the solution as strips. Whether the columns suffice is seen by the
 !> outermost.
@@ -36,7 +36,7 @@ module faststrip_kalker_normal_place
 
     real(wp), parameter :: guess_room = 1.3_wp   ! of the level, for rows of a guess
     real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
-    real(wp), parameter :: strips_room = 0.02_wp ! of the extent of a strip solution
+    real(wp), parameter :: strips_margin = 0.02_wp ! of the extent of a strip solution
     ! A row is missing if its gap is below this of the approach: strips are not exact.
     real(wp), parameter :: doubtful = 1.0e-3_wp
     real(wp), parameter :: most_rows = 1.0e6_wp  ! along the gap's data
@@ -85,17 +85,17 @@ contains
         type(contact_strips_t), intent(in) :: strips !! a solution with a strip at least
         type(extent_t), intent(inout) :: extent      !! a guess, replaced where it is known better
 
-        real(wp) :: room
+        real(wp) :: margin
 
         associate (left => strips%y_left(1), right => strips%y_right(strips%n))
-            room = strips_room*(right - left)
-            extent%y_from = left - room
-            extent%y_to = right + room
+            margin = strips_margin*(right - left)
+            extent%y_from = left - margin
+            extent%y_to = right + margin
         end associate
-        extent%half_length = (1.0_wp + strips_room)*maxval(strips%half_length(:strips%n))
+        extent%half_length = (1.0_wp + strips_margin)*maxval(strips%half_length(:strips%n))
     end subroutine extent_of_strips
 
-    !> Extent of a solution on another grid, with room for one of its elements.
+    !> Extent of a solution on another grid, with margin for one of its elements.
     pure subroutine extent_of_grid(grid, extent)
         type(contact_grid_t), intent(in) :: grid !! with pressures
         type(extent_t), intent(inout) :: extent  !! a guess, replaced where it is known better

@@ -63,7 +63,7 @@ contains
         between = quantity(k)**2 + (value - quantity(k)**2)*((y - middle)/(place - middle))
     end function between
 
-    !> Number of rows in contact: the strips `rows_as_strips` needs room for.
+    !> Number of rows in contact: the strips `rows_as_strips` needs capacity for.
     pure integer function count_rows(grid)
         type(contact_grid_t), intent(in) :: grid !! with pressures
 
@@ -80,7 +80,7 @@ contains
     !> pressure between them part patches. Meant for gaps that are symmetric in x.
     pure subroutine rows_as_strips(grid, strips, status)
         type(contact_grid_t), intent(in) :: grid        !! with pressures
-        type(contact_strips_t), intent(inout) :: strips !! with room for `count_rows`
+        type(contact_strips_t), intent(inout) :: strips !! with capacity for `count_rows`
         type(status_t), intent(out) :: status !! `st_no_contact`, `st_workspace_too_small`
 
         integer :: j, before
@@ -90,10 +90,10 @@ contains
         strips%n = 0
         strips%n_patches = 0
         if (.not. allocated(strips%p0)) then
-            call set_status(status, st_workspace_too_small, 'no room reserved for strips')
+            call set_status(status, st_workspace_too_small, 'no workspace was reserved for strips')
             return
         else if (size(strips%p0) < count_rows(grid)) then
-            call set_status(status, st_workspace_too_small, 'too little room for the strips')
+            call set_status(status, st_workspace_too_small, 'too little capacity for the strips')
             return
         end if
         before = -1

@@ -60,7 +60,7 @@ module faststrip_kalker_normal_solver
 
 contains
 
-    !> Make room for a grid.
+    !> Allocate for a grid.
     subroutine size_minimiser(minimiser, nx, ny)
         type(minimiser_t), intent(inout) :: minimiser !! sized
         integer, intent(in) :: nx, ny                 !! elements along x and y

@@ -96,7 +96,7 @@ contains
                                                         !! shift the friction work, N mm
         type(status_t), intent(out) :: status           !! how it ended
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for the elements in contact
+            !! filled when present; needs capacity for the elements in contact
 
         integer :: attempt
 

@@ -47,7 +47,7 @@ module faststrip_kalker_tangential_newton
 
 contains
 
-    !> Make room for a problem; tractions of the last solution stay if it had as many elements.
+    !> Allocate for a problem; tractions of the last solution stay if it had as many elements.
     subroutine size_newton(newton, problem)
         type(newton_t), intent(inout) :: newton !! sized
         type(problem_t), intent(in) :: problem  !! made

@@ -313,7 +313,7 @@ contains
 
     !> Elastic part of the slip at the nodes by tractions on the elements.
     subroutine apply_influence(problem, p, slip)
-        type(problem_t), intent(inout) :: problem !! made; its fields are room to work in
+        type(problem_t), intent(inout) :: problem !! made; its fields are capacity to work in
         real(wp), intent(in) :: p(:, :)           !! tractions, MPa, shape (2, n)
         real(wp), intent(inout) :: slip(:, :)     !! shape (2, n)
 

@@ -27,12 +27,12 @@ module faststrip_kalker_tangential_rows
 
 contains
 
-    !> Cut the rows into blocks and make room.
+    !> Cut the rows into blocks and make capacity.
     subroutine size_rows(rows, problem)
         type(rows_t), intent(inout) :: rows      !! blocks laid out
         type(problem_t), intent(in) :: problem   !! made
 
-        integer :: row, first, n, parts, part, most, room
+        integer :: row, first, n, parts, part, most, capacity
 
         most = problem%n_rows + problem%n/block_elements + 1
         if (allocated(rows%first)) then
@@ -41,7 +41,7 @@ contains
         if (.not. allocated(rows%first)) allocate (rows%first(most + 1), rows%start(most + 1), &
                                                    source=0)
         rows%n_blocks = 0
-        room = 0
+        capacity = 0
         do row = 1, problem%n_rows
             first = problem%row_start(row)
             n = problem%row_start(row + 1) - first
@@ -49,15 +49,15 @@ contains
             do part = 1, parts
                 rows%n_blocks = rows%n_blocks + 1
                 rows%first(rows%n_blocks) = first + (n*(part - 1))/parts
-                rows%start(rows%n_blocks) = room + 1
-                room = room + (2*((n*part)/parts - (n*(part - 1))/parts))**2
+                rows%start(rows%n_blocks) = capacity + 1
+                capacity = capacity + (2*((n*part)/parts - (n*(part - 1))/parts))**2
             end do
         end do
         rows%first(rows%n_blocks + 1) = problem%n + 1
         if (allocated(rows%factors)) then
-            if (size(rows%factors) < room) deallocate (rows%factors)
+            if (size(rows%factors) < capacity) deallocate (rows%factors)
         end if
-        if (.not. allocated(rows%factors)) allocate (rows%factors(room), source=0.0_wp)
+        if (.not. allocated(rows%factors)) allocate (rows%factors(capacity), source=0.0_wp)
         if (allocated(rows%pivots)) then
             if (size(rows%pivots) < 2*problem%n) deallocate (rows%pivots)
         end if

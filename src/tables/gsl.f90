@@ -36,7 +36,7 @@ module faststrip_tables_gsl
             type(c_ptr) :: workspace
         end function gsl_integration_workspace_alloc
 
-        !> Give the room back.
+        !> Give the memory back.
         subroutine gsl_integration_workspace_free(workspace) bind(c)
             import :: c_ptr
             type(c_ptr), value :: workspace
@@ -63,7 +63,7 @@ module faststrip_tables_gsl
             type(c_ptr) :: workspace
         end function gsl_integration_cquad_workspace_alloc
 
-        !> Give the room back.
+        !> Give the memory back.
         subroutine gsl_integration_cquad_workspace_free(workspace) bind(c)
             import :: c_ptr
             type(c_ptr), value :: workspace

@@ -120,7 +120,8 @@ contains
         n = strips%n
         if (size(w) < n .or. size(p0) < n .or. compliance <= 0.0_wp &
             .or. minval(strips%half_length(:n)) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'strips without length, or too little room')
+            call set_status(status, st_bad_argument, &
+                            'strips without length, or too little capacity')
             return
         end if
         allocate (matrix(n, n), right(n, 1), pivot(n))

@@ -70,8 +70,8 @@ def fastsim_force(a, b, c, creepage, elliptic=False, weighted=False, n=120):
             way = 0.5 * h if j == 0 else h
             px -= way * (cksi / l1 - y * cphi / l3)
             py -= way * (ceta / l2 + (x + 0.5 * way) * cphi / l3)
-            room = max(1.0 - (x / a) ** 2 - (y / b) ** 2, 0.0)
-            bound = top * (math.sqrt(room) if elliptic else room)
+            capacity = max(1.0 - (x / a) ** 2 - (y / b) ** 2, 0.0)
+            bound = top * (math.sqrt(capacity) if elliptic else capacity)
             size = math.hypot(px, py)
             if size > bound:
                 px, py = px * bound / size, py * bound / size

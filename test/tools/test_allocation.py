@@ -36,7 +36,7 @@ module contacts
     use faststrip
     implicit none
 
-    integer, parameter :: points = 601, room = 1200, kinds = 5
+    integer, parameter :: points = 601, capacity = 1200, kinds = 5
     real(wp), parameter :: load = 1.0e5_wp
 
     interface
@@ -81,8 +81,8 @@ contains
         type(room_t), intent(inout) :: here
         type(status_t) :: status
 
-        call reserve_strips(here%strips, room, status)
-        call reserve_strip_workspace(here%workspace, room, points, status)
+        call reserve_strips(here%strips, capacity, status)
+        call reserve_strip_workspace(here%workspace, capacity, points, status)
         call reserve_workspace(here%contact, contact_methods_t(strips_per_patch=101), points, &
                                status)
     end subroutine reserve

@@ -18,7 +18,7 @@ module faststrip_lab_bench_accuracy
 
     integer, parameter :: choices(2) = [15, strips_auto]
     character(len=*), parameter :: choice_names(2) = [character(len=4) :: '15', 'auto']
-    integer, parameter :: room = 200
+    integer, parameter :: capacity = 200
 
 contains
 
@@ -42,9 +42,9 @@ contains
         do i = 1, size(cases)
             points = max(points, size(cases(i)%gap%y))
         end do
-        call reserve_strips(strips, room, status)
+        call reserve_strips(strips, capacity, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(workspace, room, points, status)
+        call reserve_strip_workspace(workspace, capacity, points, status)
         call fail_on_error(status)
         call open_csv(writer, file, status)
         call fail_on_error(status)

@@ -31,7 +31,7 @@ module faststrip_lab_bench_certificate_tally
 
 contains
 
-    !> Make room for so many families and solutions; nothing is counted.
+    !> Allocate for so many families and solutions; nothing is counted.
     subroutine start_tally(tally, n_families, n_solutions)
         type(tally_t), intent(out) :: tally
         integer, intent(in) :: n_families, n_solutions

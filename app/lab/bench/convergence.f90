@@ -28,10 +28,10 @@ module faststrip_lab_bench_convergence
     integer, parameter :: hertz_points = 801
 
     !> Room for the solutions.
-    type :: room_t
+    type :: workspaces_t
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
-    end type room_t
+    end type workspaces_t
 
 contains
 
@@ -42,7 +42,7 @@ contains
         integer, intent(in) :: most_strips     !! no larger number of strips
 
         type(bench_case_t), allocatable :: cases(:)
-        type(room_t) :: room
+        type(workspaces_t) :: work
         type(csv_writer_t) :: writer
         type(normal_result_t) :: truth
         type(gap_t) :: gap
@@ -57,9 +57,9 @@ contains
         do i = 1, size(cases)
             points = max(points, size(cases(i)%gap%y))
         end do
-        call reserve_strips(room%strips, 2*true_strips + 60, status)
+        call reserve_strips(work%strips, 2*true_strips + 60, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(room%workspace, 2*true_strips + 60, points, status)
+        call reserve_strip_workspace(work%workspace, 2*true_strips + 60, points, status)
         call fail_on_error(status)
         call open_csv(writer, file, status)
         call fail_on_error(status)
@@ -70,24 +70,24 @@ contains
                                  'penetration_err', 'pmax_err', 'area_err'])
         do i = 1, size(cases)
             call progress('contacts', i, size(cases) + size(ratios))
-            call set_strip_gap(room%workspace, cases(i)%gap, status)
+            call set_strip_gap(work%workspace, cases(i)%gap, status)
             call fail_on_error(status, cases(i)%name)
-            call strip_solve(room%workspace, compliance, cases(i)%load, &
-                             strip_options_t(strips_per_patch=true_strips), room%strips, truth, &
+            call strip_solve(work%workspace, compliance, cases(i)%load, &
+                             strip_options_t(strips_per_patch=true_strips), work%strips, truth, &
                              status)
             if (status%code /= 0) then
                 call note(cases(i)%name // ' has no truth: ' // trim(status%message))
                 cycle
             end if
-            call put_errors(room, compliance, cases(i)%load, most_strips, cases(i)%name, &
+            call put_errors(work, compliance, cases(i)%load, most_strips, cases(i)%name, &
                             truth, writer)
         end do
         do i = 1, size(ratios)
             call progress('contacts', size(cases) + i, size(cases) + size(ratios))
             call make_ellipse(compliance, ratios(i), hertz_load, hertz_points, gap, truth)
-            call set_strip_gap(room%workspace, gap, status)
+            call set_strip_gap(work%workspace, gap, status)
             call fail_on_error(status)
-            call put_errors(room, compliance, hertz_load, most_strips, 'hertz_' &
+            call put_errors(work, compliance, hertz_load, most_strips, 'hertz_' &
                             // trim(number_text(ratios(i))), truth, writer)
         end do
         call close_csv(writer, status)
@@ -95,8 +95,8 @@ contains
     end subroutine bench_convergence
 
     !> One row for each number of strips on the gap that was set.
-    subroutine put_errors(room, compliance, load, most_strips, name, truth, writer)
-        type(room_t), intent(inout) :: room
+    subroutine put_errors(work, compliance, load, most_strips, name, truth, writer)
+        type(workspaces_t), intent(inout) :: work
         real(wp), intent(in) :: compliance, load
         integer, intent(in) :: most_strips
         character(len=*), intent(in) :: name
@@ -109,8 +109,8 @@ contains
 
         do k = 1, size(strip_counts)
             if (strip_counts(k) > most_strips) exit
-            call strip_solve(room%workspace, compliance, load, &
-                             strip_options_t(strips_per_patch=strip_counts(k)), room%strips, &
+            call strip_solve(work%workspace, compliance, load, &
+                             strip_options_t(strips_per_patch=strip_counts(k)), work%strips, &
                              result, status)
             call put_cell(writer, name)
             call put_cell(writer, strip_counts(k))

@@ -25,7 +25,7 @@ module faststrip_lab_bench_extremes_noise
                                       strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_tangential_faststrip, only: faststrip_solve, default_points
+    use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
@@ -347,7 +347,7 @@ contains
         real(wp), intent(out) :: figures(size(figure_names))
         type(status_t), intent(out) :: status
 
-        integer, parameter :: room = 100
+        integer, parameter :: capacity = 100
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
         type(normal_result_t) :: normal
@@ -355,15 +355,15 @@ contains
         type(status_t) :: tangential_status
 
         figures = 0.0_wp
-        call reserve_strips(strips, room, status)
-        call reserve_strip_workspace(workspace, room, size(contact%gap%y), status)
+        call reserve_strips(strips, capacity, status)
+        call reserve_strip_workspace(workspace, capacity, size(contact%gap%y), status)
         if (is_error(status)) return
         call set_strip_gap(workspace, contact%gap, status)
         if (is_error(status)) return
         call strip_solve_demand(workspace, normal_compliance(contact%material), contact%demand_t, &
                                 strip_options_t(), strips, normal, status)
         if (is_error(status)) return
-        call faststrip_solve(strips, contact%material, contact%mu, contact%creepage, &
+        call faststrip_tangential_solve(strips, contact%material, contact%mu, contact%creepage, &
                              default_points, forces, tangential_status)
         if (is_error(tangential_status)) status = tangential_status
         figures = [normal%penetration, normal%pmax, normal%area, forces%fx, forces%fy, forces%mz]

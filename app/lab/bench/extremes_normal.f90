@@ -31,11 +31,11 @@ module faststrip_lab_bench_extremes_normal
     real(wp), parameter :: wheel_inv2r = 0.5_wp/460.0_wp           ! 1/mm
 
     !> Room for the solutions.
-    type :: room_t
+    type :: workspaces_t
         real(wp) :: compliance = 0.0_wp
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
-    end type room_t
+    end type workspaces_t
 
 contains
 
@@ -44,25 +44,25 @@ contains
         logical, intent(in) :: quick                !! few points
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        type(room_t) :: room
+        type(workspaces_t) :: work
         type(status_t) :: status
         integer :: strips
 
-        room%compliance = normal_compliance(material_t())
+        work%compliance = normal_compliance(material_t())
         strips = 2*maxval(strip_counts) + 60
         if (quick) strips = 2*most_quick + 60
-        call reserve_strips(room%strips, strips, status)
+        call reserve_strips(work%strips, strips, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(room%workspace, strips, maxval(point_counts), status)
+        call reserve_strip_workspace(work%workspace, strips, maxval(point_counts), status)
         call fail_on_error(status)
-        call many_strips(room, quick, writer)
-        call all_ellipses(room, quick, writer)
-        call flat_gaps(room, quick, writer)
+        call many_strips(work, quick, writer)
+        call all_ellipses(work, quick, writer)
+        call flat_gaps(work, quick, writer)
     end subroutine normal_extremes
 
     !> Few and many strips on ellipses, with the condition of the matrix that gives pressures.
-    subroutine many_strips(room, quick, writer)
-        type(room_t), intent(inout) :: room
+    subroutine many_strips(work, quick, writer)
+        type(workspaces_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
@@ -73,25 +73,25 @@ contains
 
         do i = 1, size(few_ratios), merge(2, 1, quick)
             call progress('ellipses with many strips', i, size(few_ratios))
-            call make_ellipse(room%compliance, few_ratios(i), usual_load, usual_points, gap, truth)
+            call make_ellipse(work%compliance, few_ratios(i), usual_load, usual_points, gap, truth)
             do j = 1, size(strip_counts)
                 if (quick .and. strip_counts(j) > most_quick) exit
                 if (strip_counts(j) > most_at_every_ratio .and. 2*i - 1 /= size(few_ratios)) exit
                 row = row_t(chapter='strips', method='strip', x_name='a/b', x=few_ratios(i), &
                             y_name='N', y=real(strip_counts(j), wp), judge='hertz')
-                call put_solution(room, gap, usual_load, strip_counts(j), truth, row, writer)
+                call put_solution(work, gap, usual_load, strip_counts(j), truth, row, writer)
                 if (.not. row%has_value) cycle
                 row%quantity = 'condition'
                 row%judge = 'dgecon'
-                row%value = condition(room%strips)
+                row%value = condition(work%strips)
                 call put_row(writer, row)
             end do
         end do
     end subroutine many_strips
 
     !> Ellipses of all proportions under all loads.
-    subroutine all_ellipses(room, quick, writer)
-        type(room_t), intent(inout) :: room
+    subroutine all_ellipses(work, quick, writer)
+        type(workspaces_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
@@ -107,17 +107,17 @@ contains
             ratio = 10.0_wp**(0.5_wp*i)
             do j = -6, 9, merge(5, 1, quick)
                 load = 10.0_wp**j
-                call make_ellipse(room%compliance, ratio, load, usual_points, gap, truth)
+                call make_ellipse(work%compliance, ratio, load, usual_points, gap, truth)
                 row = row_t(chapter='ellipses', method='strip', x_name='a/b', x=ratio, &
                             y_name='load_N', y=load, judge='hertz')
-                call put_solution(room, gap, load, usual_strips, truth, row, writer)
+                call put_solution(work, gap, load, usual_strips, truth, row, writer)
             end do
         end do
     end subroutine all_ellipses
 
     !> Gaps of hardly any curvature across, by few and by many points.
-    subroutine flat_gaps(room, quick, writer)
-        type(room_t), intent(inout) :: room
+    subroutine flat_gaps(work, quick, writer)
+        type(workspaces_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
@@ -131,19 +131,19 @@ contains
             call progress('flat gaps', i + 15, 11)
             curvature = 10.0_wp**(0.5_wp*i)
             do j = 1, size(point_counts), merge(4, 1, quick)
-                call make_parabola(room%compliance, wheel_inv2r, 0.5_wp*curvature, usual_load, &
+                call make_parabola(work%compliance, wheel_inv2r, 0.5_wp*curvature, usual_load, &
                                    point_counts(j), gap, truth)
                 row = row_t(chapter='flat_gaps', method='strip', x_name='1/R_per_mm', &
                             x=curvature, y_name='points', y=real(point_counts(j), wp), &
                             judge='hertz')
-                call put_solution(room, gap, usual_load, usual_strips, truth, row, writer)
+                call put_solution(work, gap, usual_load, usual_strips, truth, row, writer)
             end do
         end do
     end subroutine flat_gaps
 
     !> Solve and write the errors of three figures.
-    subroutine put_solution(room, gap, load, strips, truth, row, writer)
-        type(room_t), intent(inout) :: room
+    subroutine put_solution(work, gap, load, strips, truth, row, writer)
+        type(workspaces_t), intent(inout) :: work
         type(gap_t), intent(in) :: gap
         real(wp), intent(in) :: load
         integer, intent(in) :: strips
@@ -154,10 +154,10 @@ contains
         type(normal_result_t) :: result
         type(status_t) :: status
 
-        call set_strip_gap(room%workspace, gap, status)
+        call set_strip_gap(work%workspace, gap, status)
         if (.not. is_error(status)) &
-            call strip_solve(room%workspace, room%compliance, load, &
-                             strip_options_t(strips_per_patch=strips), room%strips, result, status)
+            call strip_solve(work%workspace, work%compliance, load, &
+                             strip_options_t(strips_per_patch=strips), work%strips, result, status)
         call status_of(status, row)
         row%quantity = 'penetration_err'
         row%value = abs(result%penetration/truth%penetration - 1.0_wp)

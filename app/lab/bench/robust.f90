@@ -28,7 +28,7 @@ module faststrip_lab_bench_robust
     integer, parameter :: lattice_strips(4) = [5, 9, 15, 31]
     integer, parameter :: tried(4) = [15, 31, strips_auto, 201], reference_strips = 401
     character(len=*), parameter :: tried_names(4) = [character(len=4) :: '15', '31', 'auto', '201']
-    integer, parameter :: room = 900, points = 2001
+    integer, parameter :: capacity = 900, points = 2001
     integer, parameter :: n_ellipses = 25, n_shapes = 8
     real(wp), parameter :: inv2r = 1.0_wp/920.0_wp
     real(wp), parameter :: loads(2) = [2.0e4_wp, 1.0e5_wp]
@@ -52,11 +52,11 @@ contains
         type(status_t) :: status
 
         allocate (bench)
-        call reserve_strips(bench%strips, room, status)
+        call reserve_strips(bench%strips, capacity, status)
         call fail_on_error(status)
-        call reserve_lattice(bench%lattice, room, status)
+        call reserve_lattice(bench%lattice, capacity, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(bench%workspace, room, points, status)
+        call reserve_strip_workspace(bench%workspace, capacity, points, status)
         call fail_on_error(status)
         call reserve_gap_curve(bench%curve, points, status)
         call fail_on_error(status)

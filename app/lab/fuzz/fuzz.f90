@@ -10,7 +10,7 @@ module faststrip_lab_fuzz
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_lab_fuzz_faults, only: is_fault, fault_names
     use faststrip_lab_fuzz_judges, only: verdict_t
-    use faststrip_lab_fuzz_run, only: room_t, try_case
+    use faststrip_lab_fuzz_run, only: workspaces_t, try_case
     use faststrip_lab_fuzz_tables, only: print_verdicts, read_verdicts, put_fuzz_header, &
                                          put_fuzz_row
     implicit none
@@ -27,7 +27,7 @@ contains
         type(fuzz_case_t) :: case
         type(verdict_t), allocatable :: verdicts(:)
         integer, allocatable :: family(:), numbers(:)
-        type(room_t) :: room
+        type(workspaces_t) :: work
 
         call take_command(command)
         cases = option_integer(command, '--cases', 1000, least=1)
@@ -36,16 +36,16 @@ contains
         if (cases > huge(cases) - first) &
             call usage_error('--cases must end before case ' // integer_text(huge(cases)) &
                              // ', got ' // integer_text(cases), command%name)
-        room%thorough = given(command, '--thorough')
-        room%solver = option_word(command, '--solver', 'strip', [character(len=7) :: 'strip', &
+        work%thorough = given(command, '--thorough')
+        work%solver = option_word(command, '--solver', 'strip', [character(len=7) :: 'strip', &
                                                                  'lattice'])
-        room%fault = option_text(command, '--plant', '')
-        if (room%fault == 'list') then
+        work%fault = option_text(command, '--plant', '')
+        if (work%fault == 'list') then
             call list_faults()
             return
         end if
-        if (room%fault /= '' .and. .not. is_fault(room%fault)) &
-            call usage_error('unknown fault: ' // room%fault, command%name)
+        if (work%fault /= '' .and. .not. is_fault(work%fault)) &
+            call usage_error('unknown fault: ' // work%fault, command%name)
         if (given(command, '--read')) then
             if (given(command, '-o')) &
                 call usage_error('--read goes without -o', command%name)
@@ -65,7 +65,7 @@ contains
             call write_gap(option_text(command, '-o', '-'), seed, case)
             return
         end if
-        call try_cases(command, seed, first, cases, room, numbers, family, verdicts)
+        call try_cases(command, seed, first, cases, work, numbers, family, verdicts)
         call print_verdicts(numbers, family, verdicts)
     end subroutine run_fuzz
 
@@ -95,10 +95,10 @@ contains
     end subroutine take_command
 
     !> Solve and judge the cases, and write their rows if asked for.
-    subroutine try_cases(command, seed, first, cases, room, numbers, family, verdicts)
+    subroutine try_cases(command, seed, first, cases, work, numbers, family, verdicts)
         type(command_t), intent(in) :: command
         integer, intent(in) :: seed, first, cases
-        type(room_t), intent(inout) :: room
+        type(workspaces_t), intent(inout) :: work
         integer, allocatable, intent(out) :: numbers(:), family(:)
         type(verdict_t), allocatable, intent(out) :: verdicts(:)
 
@@ -125,7 +125,7 @@ contains
             n = n + 1
             numbers(n) = number
             family(n) = case%family
-            call try_case(seed, case, room, verdicts(n))
+            call try_case(seed, case, work, verdicts(n))
             if (given(command, '-o')) call put_fuzz_row(writer, case, verdicts(n))
             call progress('case', number - first + 1, cases)
         end do

@@ -13,7 +13,7 @@ module faststrip_lab_fuzz_run
     use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
     use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve, estimate_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_normal_strip_profile, only: profile_integral, profile_peak
+    use faststrip_normal_patch_curves, only: curve_integral, curve_peak
     use faststrip_contact_methods, only: normal_strip
     use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
                                        solve_contact_normal
@@ -29,16 +29,16 @@ module faststrip_lab_fuzz_run
     implicit none
     private
 
-    public :: room_t, try_case
+    public :: workspaces_t, try_case
 
     !> What the solvers work in, and how they are asked.
-    type :: room_t
+    type :: workspaces_t
         character(len=:), allocatable :: solver !! 'strip' or 'lattice'
         character(len=:), allocatable :: fault  !! planted in every answer, or blank
         logical :: thorough = .false.           !! every judge on every case?
         type(workspace_t) :: workspace          !! grown as needed
         type(lattice_workspace_t) :: lattice
-    end type room_t
+    end type workspaces_t
 
 contains
 
@@ -46,10 +46,10 @@ contains
     !>
     !> Cheap judges see every case. Of the judges that need a second solution one sees it, by the
     !> case's number in turn, and NORM sees one case in a hundred.
-    subroutine try_case(seed, case, room, verdict)
+    subroutine try_case(seed, case, work, verdict)
         integer, intent(in) :: seed             !! of the series
         type(fuzz_case_t), intent(in) :: case
-        type(room_t), intent(inout) :: room
+        type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(out) :: verdict
 
         type(material_t) :: material
@@ -57,9 +57,9 @@ contains
         type(contact_strips_t) :: strips
         integer :: r
 
-        call solve_case(case, material, .false., room, verdict)
+        call solve_case(case, material, .false., work, verdict)
         if (is_error(verdict%status) .or. verdict%badness(judge_finite) > 1.0_wp) return
-        associate (workspace => room%workspace)
+        associate (workspace => work%workspace)
             call judge_figures(case%load, case%gap, workspace%strips, verdict%result, verdict)
             if (any(verdict%badness > 1.0e8_wp)) return
             call judge_gap_curve(case%gap, workspace%solver%curve, verdict%result%penetration, &
@@ -70,17 +70,17 @@ contains
             if (verdict%badness(judge_depth) > 1.0_wp) return
             call estimate(material, workspace, verdict)
             call judge_estimates(verdict)
-            call judge_forces(seed, case%number, room%fault, material, case%load, workspace, &
+            call judge_forces(seed, case%number, work%fault, material, case%load, workspace, &
                               verdict)
             curve = workspace%solver%curve
             strips = workspace%strips
         end associate
-        if (room%thorough .or. has_norm(case%number, verdict%status%code == st_fallback_used)) &
+        if (work%thorough .or. has_norm(case%number, verdict%status%code == st_fallback_used)) &
             call judge_by_norm(case%gap, curve%h_lowest, normal_compliance(material), case%load, &
                                strips, verdict)
         do r = 1, size(relations)
-            if (room%thorough .or. modulo(case%number/2, size(relations)) == r - 1) &
-                call try_relation(relations(r), case, material, curve, room, verdict)
+            if (work%thorough .or. modulo(case%number/2, size(relations)) == r - 1) &
+                call try_relation(relations(r), case, material, curve, work, verdict)
         end do
     end subroutine try_case
 
@@ -94,12 +94,12 @@ contains
     end function has_norm
 
     !> Solve the related case and compare.
-    subroutine try_relation(relation, case, material, curve, room, verdict)
+    subroutine try_relation(relation, case, material, curve, work, verdict)
         integer, intent(in) :: relation
         type(fuzz_case_t), intent(in) :: case
         type(material_t), intent(in) :: material
         type(gap_curve_t), intent(in) :: curve
-        type(room_t), intent(inout) :: room
+        type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
 
         type(fuzz_case_t) :: other_case
@@ -111,18 +111,18 @@ contains
         call related_case(relation, case, curve, verdict%result, other_case, other_material, &
                           has_one)
         if (.not. has_one) return
-        call solve_case(other_case, other_material, .true., room, other)
-        if (.not. is_error(other%status)) call estimate(other_material, room%workspace, other)
-        call judge_relation(relation, verdict, curve, other, room%workspace%solver%curve)
+        call solve_case(other_case, other_material, .true., work, other)
+        if (.not. is_error(other%status)) call estimate(other_material, work%workspace, other)
+        call judge_relation(relation, verdict, curve, other, work%workspace%solver%curve)
     end subroutine try_relation
 
     !> Solve a case, note how long it took, and plant the fault. The call for embedding keeps the
     !> floating-point flags to itself; what it calls shows them.
-    subroutine solve_case(case, material, embedded, room, verdict)
+    subroutine solve_case(case, material, embedded, work, verdict)
         type(fuzz_case_t), intent(in) :: case
         type(material_t), intent(in) :: material
         logical, intent(in) :: embedded ! by the call for embedding, or by what it calls?
-        type(room_t), intent(inout) :: room
+        type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
 
         type(contact_case_t) :: contact
@@ -135,29 +135,29 @@ contains
         contact%gap = case%gap
         contact%methods%normal = normal_strip
         contact%methods%strips_per_patch = case%strips
-        call reserve_workspace(room%workspace, contact%methods, size(case%gap%y), verdict%status)
-        if (room%solver == 'lattice') then
+        call reserve_workspace(work%workspace, contact%methods, size(case%gap%y), verdict%status)
+        if (work%solver == 'lattice') then
             max_strips = 3*case%strips + 150
-            call reserve_strips(room%workspace%strips, max_strips, verdict%status)
-            call reserve_lattice(room%lattice, max_strips, verdict%status)
+            call reserve_strips(work%workspace%strips, max_strips, verdict%status)
+            call reserve_lattice(work%lattice, max_strips, verdict%status)
         end if
         call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
         call system_clock(before, rate)
-        if (room%solver == 'lattice') then
-            call solve_by_lattice(case, material, room, verdict)
+        if (work%solver == 'lattice') then
+            call solve_by_lattice(case, material, work, verdict)
         else if (embedded) then
-            call solve_contact_normal(room%workspace, contact, verdict%result, verdict%status)
+            call solve_contact_normal(work%workspace, contact, verdict%result, verdict%status)
         else
-            call set_strip_gap(room%workspace%solver, case%gap, verdict%status)
+            call set_strip_gap(work%workspace%solver, case%gap, verdict%status)
             if (.not. is_error(verdict%status)) &
-                call strip_solve(room%workspace%solver, normal_compliance(material), case%load, &
+                call strip_solve(work%workspace%solver, normal_compliance(material), case%load, &
                                  strip_options_t(strips_per_patch=case%strips), &
-                                 room%workspace%strips, verdict%result, verdict%status)
+                                 work%workspace%strips, verdict%result, verdict%status)
         end if
         call system_clock(after)
         verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
         call report_badness(verdict, judge_finite, merge(huge(1.0_wp), 0.0_wp, exception_raised()))
-        verdict%strips = room%workspace%strips%n
+        verdict%strips = work%workspace%strips%n
         if (is_error(verdict%status)) then
             call report_badness(verdict, judge_answer, &
                                 merge(0.0_wp, huge(1.0_wp), &
@@ -166,8 +166,8 @@ contains
         end if
         call report_badness(verdict, judge_answer, 0.0_wp)
         ! The tangential methods ask for a solved workspace.
-        room%workspace%solved_by = normal_strip
-        call plant_fault(room%fault, room%workspace%solver%curve, room%workspace%strips, &
+        work%workspace%solved_by = normal_strip
+        call plant_fault(work%fault, work%workspace%solver%curve, work%workspace%strips, &
                          verdict%result)
     end subroutine solve_case
 
@@ -187,20 +187,20 @@ contains
         end select
     end function may_be_refused
 
-    subroutine solve_by_lattice(case, material, room, verdict)
+    subroutine solve_by_lattice(case, material, work, verdict)
         type(fuzz_case_t), intent(in) :: case
         type(material_t), intent(in) :: material
-        type(room_t), intent(inout) :: room
+        type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
 
         integer :: p, first, last
 
-        associate (curve => room%workspace%solver%curve, strips => room%workspace%strips, &
+        associate (curve => work%workspace%solver%curve, strips => work%workspace%strips, &
                    result => verdict%result)
             call reserve_gap_curve(curve, size(case%gap%y), verdict%status)
             call set_gap_curve(curve, case%gap, verdict%status)
             if (is_error(verdict%status)) return
-            call lattice_solve(room%lattice, curve, normal_compliance(material), case%load, &
+            call lattice_solve(work%lattice, curve, normal_compliance(material), case%load, &
                                case%strips, strips, result%penetration, verdict%status)
             if (is_error(verdict%status)) return
             ! As its answers are always named.
@@ -213,11 +213,11 @@ contains
                 associate (left => strips%y_left(first:last), &
                            right => strips%y_right(first:last))
                     result%area = result%area &
-                        + 2.0_wp*profile_integral(left, right, strips%half_length(first:last))
+                        + 2.0_wp*curve_integral(left, right, strips%half_length(first:last))
                     result%pmax = max(result%pmax, &
-                                      profile_peak(left, right, strips%p0(first:last)))
+                                      curve_peak(left, right, strips%p0(first:last)))
                     result%x_max = max(result%x_max, &
-                                       profile_peak(left, right, strips%half_length(first:last)))
+                                       curve_peak(left, right, strips%half_length(first:last)))
                 end associate
             end do
             result%y_min = strips%y_left(1)

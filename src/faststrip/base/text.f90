@@ -29,7 +29,7 @@ module faststrip_base_text
     character(len=1), parameter :: tab = achar(9), carriage_return = achar(13)
 
     ! The first 20 significant digits of half-way between the largest double and the next one
-    ! that there is no room for, and the power of ten of its first digit.
+    ! that there is no capacity for, and the power of ten of its first digit.
     character(len=*), parameter :: overflow_digits = '17976931348623158079'
     integer, parameter :: overflow_exponent = 308, underflow_exponent = -330
 
@@ -298,7 +298,7 @@ contains
         integer, intent(in) :: line            !! line number; below 1: left out
         character(len=:), allocatable :: words, place
         integer, parameter :: longest_value = 60
-        integer :: room
+        integer :: capacity
 
         words = what
         if (len(value) > longest_value) then
@@ -308,12 +308,12 @@ contains
         end if
         place = ')'
         if (line > 0) place = ':' // integer_text(line) // ')'
-        room = message_length - len(words) - len(place) - 2
-        if (len(file) <= room) then
+        capacity = message_length - len(words) - len(place) - 2
+        if (len(file) <= capacity) then
             place = ' (' // file // place
         else
-            room = max(room - 3, 0)
-            place = ' (...' // file(len(file) - room + 1:) // place
+            capacity = max(capacity - 3, 0)
+            place = ' (...' // file(len(file) - capacity + 1:) // place
         end if
         call set_status(status, code, words // place)
     end subroutine set_place_status

@@ -1,9 +1,9 @@
 !> One contact from gap to forces: the call an embedding program makes.
 !>
-!> A workspace, one per thread, is given room once; after that nothing is allocated, and every call
-!> leaves the host's floating-point flags, traps and rounding as they were. The workspace
-!> remembers the gap and, for warm starts, the last solution; copying it (by assignment) saves
-!> both, for steps that are taken back.
+!> A workspace, one per thread, is given capacity once; after that nothing is allocated, and every
+!> call leaves the host's floating-point flags, traps and rounding as they were. The workspace
+!> remembers the gap and, for warm starts, the last solution; copying it (by assignment) saves both,
+!> for steps that are taken back.
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
@@ -29,7 +29,7 @@ module faststrip_contact_solve
                                           strip_forces_t
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_variant_t
-    use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_faststrip, only: faststrip_tangential_solve
     use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
                                          law_shen_hedrick_elkins, law_polach
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
@@ -67,7 +67,8 @@ module faststrip_contact_solve
 
     !> Everything a solution needs beside the case; owned by the caller, one per thread.
     type :: workspace_t
-        type(strip_workspace_t) :: solver !! the gap (`solver%curve`) and the strip solver's room
+        type(strip_workspace_t) :: solver
+            !! the gap (`solver%curve`) and the strip solver's capacity
         type(contact_strips_t) :: strips  !! of the last contact
         type(hertz_t) :: hertz            !! of the last contact, if by Hertz
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
@@ -75,9 +76,9 @@ module faststrip_contact_solve
 
 contains
 
-    !> Make room for the methods and for gaps of up to `max_points` points: the only allocation.
+    !> Allocate for the methods and for gaps of up to `max_points` points: the only allocation.
     !>
-    !> A workspace with room for strips serves every normal method up to its number of strips.
+    !> A workspace with capacity for strips serves every normal method up to its number of strips.
     subroutine reserve_workspace(workspace, methods, max_points, status)
         type(workspace_t), intent(inout) :: workspace  !! sized
         type(contact_methods_t), intent(in) :: methods !! what will be asked of it
@@ -87,20 +88,20 @@ contains
 
         real(wp), allocatable :: trial(:)
         integer(int64) :: numbers
-        integer :: room, failure
+        integer :: capacity, failure
 
         call check_contact_methods(methods, status)
         if (is_error(status)) return
         if (max_points < min_gap_points .or. max_points > most_gap_points) then
-            call set_status(status, st_bad_argument, 'room for gap points must be 5 to a ' // &
+            call set_status(status, st_bad_argument, 'capacity for gap points must be 5 to a ' // &
                             'million, got ' // count_text(max_points))
             return
         end if
-        room = strip_room(methods)
+        capacity = strip_capacity(methods)
         ! Tried as a whole first: what the parts find missing would stop the program.
-        numbers = 20_int64*max_points + 100_int64*room
-        if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < room) &
-            numbers = numbers + 8_int64*room*room + 400000_int64
+        numbers = 20_int64*max_points + 100_int64*capacity
+        if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < capacity) &
+            numbers = numbers + 8_int64*capacity*capacity + 400000_int64
         allocate (trial(numbers), stat=failure)
         if (failure /= 0) then
             call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
@@ -108,16 +109,16 @@ contains
         end if
         deallocate (trial)
         workspace%solved_by = 0
-        call reserve_strips(workspace%strips, room, status)
+        call reserve_strips(workspace%strips, capacity, status)
         if (is_error(status)) return
         if (methods%normal == normal_hertz) then
             call reserve_gap_curve(workspace%solver%curve, max_points, status)
         else
-            call reserve_strip_workspace(workspace%solver, room, max_points, status)
+            call reserve_strip_workspace(workspace%solver, capacity, max_points, status)
         end if
     end subroutine reserve_workspace
 
-    !> Make room for the elements of a tangential method.
+    !> Allocate for the elements of a tangential method.
     subroutine reserve_contact_field(field, methods, status)
         type(tangential_field_t), intent(inout) :: field !! sized
         type(contact_methods_t), intent(in) :: methods   !! what will be asked for
@@ -136,7 +137,7 @@ contains
                             // 'only, no tractions element by element')
             return
         end if
-        elements = max(int(strip_room(methods), int64)*methods%points_per_strip, &
+        elements = max(int(strip_capacity(methods), int64)*methods%points_per_strip, &
                        int(methods%fastsim_nx, int64)*methods%fastsim_ny*most_patches)
         failure = 1
         if (elements < huge(failure)) allocate (trial(9*elements), stat=failure)
@@ -150,7 +151,7 @@ contains
 
     !> Hand over the gap that the next solutions are for.
     subroutine set_contact_gap(workspace, y, h, inv2r, status, inclination)
-        type(workspace_t), intent(inout) :: workspace !! with room for as many points
+        type(workspace_t), intent(inout) :: workspace !! with capacity for as many points
         real(wp), intent(in) :: y(:)          !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
         real(wp), intent(in) :: inv2r(:)      !! 1/(2 R), R the local radius along x, 1/mm
@@ -172,12 +173,12 @@ contains
     !> A status below `first_error` is that of the normal solution: the result stands, with a named
     !> limitation. With an error there is no result.
     subroutine solve_contact(workspace, case, result, status, field)
-        type(workspace_t), intent(inout) :: workspace !! with room for the methods
+        type(workspace_t), intent(inout) :: workspace !! with capacity for the methods
         type(contact_case_t), intent(in) :: case      !! what to solve
         type(contact_result_t), intent(out) :: result !! figures
         type(status_t), intent(out) :: status
             !! those of `strip_solve`, `hertz_solve_gap`, `replace_by_ellipses`,
-            !! `faststrip_solve`, `fastsim_solve`, `check_material` and `check_gap`
+            !! `faststrip_tangential_solve`, `fastsim_solve`, `check_material` and `check_gap`
         type(tangential_field_t), intent(inout), optional :: field
             !! elements, if wanted; see `reserve_contact_field`
 
@@ -202,7 +203,7 @@ contains
     !> The normal problem alone; the strips are in the workspace.
     subroutine solve_contact_normal(workspace, case, normal, status, certificate, is_estimated, &
                                     curve)
-        type(workspace_t), intent(inout) :: workspace !! with room for the method
+        type(workspace_t), intent(inout) :: workspace !! with capacity for the method
         type(contact_case_t), intent(in) :: case      !! gap, material, demand, method
         type(normal_result_t), intent(out) :: normal  !! figures
         type(status_t), intent(out) :: status         !! as `solve_contact`
@@ -284,9 +285,9 @@ contains
         options%strips_per_patch = case%methods%strips_per_patch
         options%warm_start = case%warm_start
         options%resolution_limit = case%resolution_limit
-        if (workspace%solver%max_strips < strip_room(case%methods)) then
+        if (workspace%solver%max_strips < strip_capacity(case%methods)) then
             call set_status(status, st_workspace_too_small, &
-                            'the workspace has room for fewer strips than the method may need')
+                            'the workspace has capacity for fewer strips than the method may need')
             return
         end if
         call strip_solve_demand(workspace%solver, normal_compliance(case%material), case%demand_t, &
@@ -389,7 +390,8 @@ contains
             case (tangential_none)
                 call clear_status(status)
             case (tangential_faststrip)
-                call faststrip_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                call faststrip_tangential_solve(workspace%strips, case%material, case%mu, &
+                                                case%creepage, &
                                      methods%points_per_strip, tangential, status, field, &
                                      per_strip)
             case (tangential_faststrip_paper)
@@ -455,10 +457,10 @@ contains
     end subroutine solve_law
 
     !> Room for the strips of all patches together.
-    pure integer function strip_room(methods)
+    pure integer function strip_capacity(methods)
         type(contact_methods_t), intent(in) :: methods
 
-        strip_room = 2*methods%strips_per_patch + 60
-        if (methods%strips_per_patch == strips_auto) strip_room = 2*strips_auto_most + 60
-    end function strip_room
+        strip_capacity = 2*methods%strips_per_patch + 60
+        if (methods%strips_per_patch == strips_auto) strip_capacity = 2*strips_auto_most + 60
+    end function strip_capacity
 end module faststrip_contact_solve

@@ -58,7 +58,7 @@ contains
                                                       !! fewer than 5 samples within the height
         real(wp), allocatable :: h(:), inv2r(:), inclination(:)
         real(wp) :: z_line, dz, d2z
-        integer :: n_left, n_right, i, room
+        integer :: n_left, n_right, i, capacity
 
         call check_sampling(step, height, status)
         if (is_error(status)) return
@@ -66,10 +66,11 @@ contains
         if (is_error(status)) return
         call profile_at(wheel, 0.0_wp, z_line, dz, d2z, status)
         if (is_error(status)) return
-        room = min(max_samples, &
+        capacity = min(max_samples, &
                    ceiling(2.0_wp*min(wheel%y_last - wheel%y_first, &
                                       rail%y_last - rail%y_first, 1.0e6_wp)/step) + 1)
-        allocate (h(-room:room), inv2r(-room:room), inclination(-room:room), source=0.0_wp)
+        allocate (h(-capacity:capacity), inv2r(-capacity:capacity), &
+                  inclination(-capacity:capacity), source=0.0_wp)
         call sample_side(-1, n_left)
         call sample_side(1, n_right)
         if (min(n_left, n_right) < 0) then
@@ -97,7 +98,7 @@ contains
             on_wheel = inclined_point_t(y=contact%y_wheel)
             on_rail = inclined_point_t(y=contact%y_rail)
             n = -1
-            do j = 0, room
+            do j = 0, capacity
                 y_turned = real(side*j, wp)*step
                 call go_to(wheel, contact%y_wheel, contact%z_wheel, contact%gamma, y_turned, &
                            on_wheel, found)

@@ -52,7 +52,7 @@ module faststrip_geometry_gap_curve
 
 contains
 
-    !> Make room for gaps of up to `max_points` points.
+    !> Allocate for gaps of up to `max_points` points.
     subroutine reserve_gap_curve(curve, max_points, status)
         type(gap_curve_t), intent(inout) :: curve !! emptied and sized
         integer, intent(in) :: max_points         !! >= 5
@@ -60,7 +60,7 @@ contains
 
         call clear_status(status)
         if (max_points < 5) then
-            call set_status(status, st_bad_argument, 'room for fewer than 5 gap points asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than 5 gap points asked')
             return
         end if
         curve%n = 0
@@ -104,7 +104,7 @@ contains
         real(wp), intent(in), optional :: inclination(:)
             !! of the surfaces from y = 0 on, finite, rad
 
-        call check_room(curve, size(y), status)
+        call check_capacity(curve, size(y), status)
         if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, inclination)
         if (is_error(status)) return
         call take_points(curve, y, h, inv2r, status)
@@ -121,7 +121,7 @@ contains
 
         integer :: n, nodes
 
-        call check_room(to, from%n, status)
+        call check_capacity(to, from%n, status)
         if (is_error(status)) return
         n = from%n
         nodes = from%n_pieces + 1
@@ -155,7 +155,7 @@ contains
 
         n = size(y)
         curve%n = 0
-        call check_room(curve, n, status)
+        call check_capacity(curve, n, status)
         if (is_error(status)) return
         curve%y(:n) = y
         curve%h(:n) = h
@@ -226,21 +226,21 @@ contains
         curve%is_image = .not. curve%is_image
     end subroutine mirror_gap_curve
 
-    !> Refuse more points than there is room for; the points themselves are not looked at.
-    pure subroutine check_room(curve, n, status)
+    !> Refuse more points than there is capacity for; the points themselves are not looked at.
+    pure subroutine check_capacity(curve, n, status)
         type(gap_curve_t), intent(in) :: curve
         integer, intent(in) :: n
         type(status_t), intent(out) :: status
 
         call clear_status(status)
         if (.not. allocated(curve%y)) then
-            call set_status(status, st_workspace_too_small, 'no room was reserved for the gap')
+            call set_status(status, st_workspace_too_small, 'no workspace was reserved for the gap')
         else if (n > size(curve%y)) then
             call set_status(status, st_workspace_too_small, 'the gap must have at most ' // &
                             trim(count_text(size(curve%y))) // &
-                            ' points, for which room was reserved, got ' // count_text(n))
+                            ' points, for which capacity was reserved, got ' // count_text(n))
         end if
-    end subroutine check_room
+    end subroutine check_capacity
 
     !> Geometric mean of the terms that are positive; the least of all where no other is so much
     !> larger that it matters; 0 if none is.

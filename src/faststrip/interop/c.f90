@@ -91,7 +91,7 @@ contains
         if (c_associated(text)) code = max(code, put_text(trim(status%message), text, length))
     end function faststrip_check_case
 
-    !> Make a workspace with room for the methods of a case.
+    !> Make a workspace with capacity for the methods of a case.
     integer(c_int) function faststrip_new(case, max_points, workspace) bind(c) result(code)
         type(c_ptr), value :: case           !! a `faststrip_case`
         integer(c_int), value :: max_points  !! most points of a gap
@@ -224,10 +224,11 @@ contains
     end function faststrip_solve
 
     !> The strips of the last contact.
-    integer(c_int) function faststrip_get_strips(workspace, room, n, y_left, y_right, half_length, &
+    integer(c_int) function faststrip_get_strips(workspace, capacity, n, y_left, y_right, &
+                                                 half_length, &
                                                  p0, patch) bind(c) result(code)
         integer(c_intptr_t), value :: workspace !! a handle
-        integer(c_int), value :: room                          !! length of the arrays
+        integer(c_int), value :: capacity                          !! length of the arrays
         type(c_ptr), value :: n                                !! number of strips, written
         type(c_ptr), value :: y_left, y_right, half_length, p0 !! mm, mm, mm, MPa, written
         type(c_ptr), value :: patch                            !! number of the patch, written
@@ -241,7 +242,8 @@ contains
         if (is_error(status)) return
         associate (strips => handle%workspace%strips)
             count = merge(strips%n, 0, handle%workspace%solved_by > 0)
-            call check_room(handle, room, count, n, [y_left, y_right, half_length, p0, patch])
+            call check_capacity(handle, capacity, count, n, [y_left, y_right, half_length, p0, &
+                                                             patch])
             code = handle%status%code
             if (is_error(handle%status)) return
             call put_numbers(strips%y_left(:count), y_left)
@@ -253,10 +255,11 @@ contains
     end function faststrip_get_strips
 
     !> The elements of the last contact, if they were asked for.
-    integer(c_int) function faststrip_get_elements(workspace, room, n, x, y, area, pn, px, py, sx, &
+    integer(c_int) function faststrip_get_elements(workspace, capacity, n, x, y, area, pn, px, &
+                                                   py, sx, &
                                                    sy, state) bind(c) result(code)
         integer(c_intptr_t), value :: workspace !! a handle
-        integer(c_int), value :: room   !! length of the arrays
+        integer(c_int), value :: capacity   !! length of the arrays
         type(c_ptr), value :: n         !! number of elements, written
         type(c_ptr), value :: x, y      !! middle of the element, mm, written
         type(c_ptr), value :: area      !! mm^2, written
@@ -274,7 +277,7 @@ contains
         if (is_error(status)) return
         associate (field => handle%field)
             count = field%n
-            call check_room(handle, room, count, n, [x, y, area, pn, px, py, sx, sy, state])
+            call check_capacity(handle, capacity, count, n, [x, y, area, pn, px, py, sx, sy, state])
             code = handle%status%code
             if (is_error(handle%status) .or. count == 0) return
             call put_numbers(field%x(:count), x)
@@ -387,9 +390,9 @@ contains
     end subroutine take_case
 
     !> Tell how many there are, and refuse arrays that are missing or too short.
-    subroutine check_room(handle, room, count, n, arrays)
+    subroutine check_capacity(handle, capacity, count, n, arrays)
         type(handle_t), intent(inout) :: handle
-        integer(c_int), intent(in) :: room
+        integer(c_int), intent(in) :: capacity
         integer, intent(in) :: count
         type(c_ptr), intent(in) :: n, arrays(:)
 
@@ -404,7 +407,7 @@ contains
             call set_status(handle%status, st_bad_argument, 'nowhere to put the number')
             return
         end if
-        if (room < count) then
+        if (capacity < count) then
             call set_status(handle%status, st_workspace_too_small, 'the arrays are too short')
             return
         end if
@@ -413,7 +416,7 @@ contains
             call set_status(handle%status, st_bad_argument, 'an array is missing')
             return
         end do
-    end subroutine check_room
+    end subroutine check_capacity
 
     subroutine put_numbers(values, address)
         real(c_double), intent(in) :: values(:)

@@ -260,10 +260,10 @@ contains
     !> CALL FSSTRP(IWORK, M, N, YL, YR, XD, P0, IPATCH, INFO)
     !>
     !> The strips of the last contact.
-    subroutine fsstrp(iwork, room, n, y_left, y_right, half_length, p0, patch, info) &
+    subroutine fsstrp(iwork, capacity, n, y_left, y_right, half_length, p0, patch, info) &
         bind(c, name='fsstrp_')
         integer(c_int), intent(in) :: iwork(n_iwork)         !! with a solution
-        integer(c_int), intent(in) :: room                   !! length of the arrays
+        integer(c_int), intent(in) :: capacity                   !! length of the arrays
         integer(c_int), intent(out) :: n                     !! number of strips
         real(c_double), intent(inout) :: y_left(*), y_right(*) !! edges, mm
         real(c_double), intent(inout) :: half_length(*)      !! mm
@@ -279,7 +279,7 @@ contains
         if (handle%workspace%solved_by == 0) return
         associate (strips => handle%workspace%strips)
             n = strips%n
-            if (room < n) then
+            if (capacity < n) then
                 info = st_workspace_too_small
                 return
             end if
@@ -294,10 +294,10 @@ contains
     !> CALL FSELEM(IWORK, M, N, X, Y, AREA, PN, PX, PY, SX, SY, ISTATE, INFO)
     !>
     !> The elements of the last contact, if IOPT(9) asked for them.
-    subroutine fselem(iwork, room, n, x, y, area, pn, px, py, sx, sy, state, info) &
+    subroutine fselem(iwork, capacity, n, x, y, area, pn, px, py, sx, sy, state, info) &
         bind(c, name='fselem_')
         integer(c_int), intent(in) :: iwork(n_iwork)   !! with a solution
-        integer(c_int), intent(in) :: room             !! length of the arrays
+        integer(c_int), intent(in) :: capacity             !! length of the arrays
         integer(c_int), intent(out) :: n               !! number of elements
         real(c_double), intent(inout) :: x(*), y(*)    !! middle of the element, mm
         real(c_double), intent(inout) :: area(*)       !! mm^2
@@ -314,8 +314,8 @@ contains
         if (.not. associated(handle)) return
         associate (field => handle%field)
             n = field%n
-            if (room < n) info = st_workspace_too_small
-            if (n == 0 .or. room < n) return
+            if (capacity < n) info = st_workspace_too_small
+            if (n == 0 .or. capacity < n) return
             x(:n) = field%x(:n)
             y(:n) = field%y(:n)
             area(:n) = field%area(:n)

@@ -21,15 +21,15 @@ module faststrip_interop_handle
         type(workspace_t) :: workspace
         type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
                                           !! the F77 face sets how errors are estimated once
-        type(tangential_field_t) :: field !! elements of the last contact, if room was made
+        type(tangential_field_t) :: field !! elements of the last contact, if capacity was made
         type(contact_result_t) :: result  !! figures of the last contact
         type(status_t) :: status          !! of the last call
     end type handle_t
 
 contains
 
-    !> Make a handle with room for methods, gaps of up to `max_points` points and, if wanted, the
-    !> elements. The one allocation.
+    !> Make a handle with capacity for methods, gaps of up to `max_points` points and, if wanted,
+    !> the elements. The one allocation.
     subroutine new_handle(methods, max_points, with_field, number, status)
         type(contact_methods_t), intent(in) :: methods !! what will be asked of it
         integer, intent(in) :: max_points              !! points of a gap
@@ -105,7 +105,7 @@ contains
         end if
     end subroutine handle_solve
 
-    !> Copy gap, solution and elements of one handle into another; the other's room becomes the
+    !> Copy gap, solution and elements of one handle into another; the other's capacity becomes the
     !> same.
     subroutine copy_handle(from, to)
         type(handle_t), intent(in) :: from  !! stays as it is

@@ -91,7 +91,7 @@ contains
             place%address = address
             place%handle = handle
         else
-            call set_status(status, st_workspace_too_small, 'no room for another workspace')
+            call set_status(status, st_workspace_too_small, 'no capacity for another workspace')
         end if
         call unlock()
     end subroutine enter_register
@@ -154,7 +154,7 @@ contains
         end if
     end subroutine find_place
 
-    !> The same, where no block is there yet with a new one; null if there is no more room.
+    !> The same, where no block is there yet with a new one; null if there is no more capacity.
     subroutine make_place(number, place)
         integer, intent(in) :: number
         type(place_t), pointer, intent(out) :: place

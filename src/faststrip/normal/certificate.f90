@@ -138,7 +138,7 @@ contains
     !> The cost is two influence integrals off the centre line and one on it for each
     !> pair of strips: about that of one Newton iteration.
     !>
-    !> Errors: `st_workspace_too_small` (no gap, no room for strips), `st_bad_argument` (no
+    !> Errors: `st_workspace_too_small` (no gap, no capacity for strips), `st_bad_argument` (no
     !> strips, strips without length or out of order, no pressure), `st_bad_material`,
     !> `st_not_finite`, `st_no_contact` (penetration not above the lowest gap),
     !> `st_out_of_range` (a size beyond 1e-30 to 1e30).
@@ -474,7 +474,8 @@ contains
         else if (curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set')
         else if (.not. allocated(strips%p0)) then
-            call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
+            call set_status(status, st_workspace_too_small, &
+                            'no workspace was reserved for the strips')
         else if (strips%n < 1) then
             call set_status(status, st_bad_argument, 'there are no strips to certify')
         else if (result%penetration <= curve%h_lowest) then

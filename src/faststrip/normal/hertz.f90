@@ -260,7 +260,7 @@ contains
     pure subroutine hertz_strips(hertz, n, strips, status)
         type(hertz_t), intent(in) :: hertz              !! a solved contact
         integer, intent(in) :: n                        !! number of strips, >= 1
-        type(contact_strips_t), intent(inout) :: strips !! with room for n, see `reserve_strips`
+        type(contact_strips_t), intent(inout) :: strips !! with capacity for n, see `reserve_strips`
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (n < 1, no ellipse), `st_workspace_too_small`
 
@@ -274,11 +274,11 @@ contains
             return
         end if
         if (.not. allocated(strips%p0)) then
-            call set_status(status, st_workspace_too_small, 'no room reserved for strips')
+            call set_status(status, st_workspace_too_small, 'no workspace was reserved for strips')
             return
         end if
         if (size(strips%p0) < n) then
-            call set_status(status, st_workspace_too_small, 'too little room for the strips')
+            call set_status(status, st_workspace_too_small, 'too little capacity for the strips')
             return
         end if
         call put_hertz_strips(hertz, 1, n, strips)
@@ -291,7 +291,7 @@ contains
     pure subroutine put_hertz_strips(hertz, first, last, strips)
         type(hertz_t), intent(in) :: hertz              !! an ellipse with its pressure
         integer, intent(in) :: first                    !! number of its first strip, >= 1
-        integer, intent(in) :: last                     !! number of its last strip, there is room
+        integer, intent(in) :: last !! number of its last strip, there is capacity
         type(contact_strips_t), intent(inout) :: strips !! edges, lengths, pressures are written
 
         real(wp) :: left, right, q

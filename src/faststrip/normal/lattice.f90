@@ -56,7 +56,7 @@ module faststrip_normal_lattice
     integer, parameter :: spare_cells = 10       ! and so many more
     integer, parameter :: coarse_cells = 15      ! at most across the widest range of the first
     integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
-    integer, parameter :: fewest_cells = 9       ! across a patch, if there is room
+    integer, parameter :: fewest_cells = 9       ! across a patch, if there is capacity
     integer, parameter :: max_ranges = 64
     integer, parameter :: fewest_layings = 3, max_layings = 5
     integer, parameter :: block = 64             ! points evaluated together
@@ -92,7 +92,7 @@ module faststrip_normal_lattice
 
 contains
 
-    !> Make room; the only allocation, to be done before the first solution.
+    !> Allocate; the only allocation, to be done before the first solution.
     subroutine reserve_lattice(workspace, max_strips, status)
         type(lattice_workspace_t), intent(inout) :: workspace !! sized
         integer, intent(in) :: max_strips     !! strips of all patches together, >= 3
@@ -100,7 +100,7 @@ contains
 
         call clear_status(status)
         if (max_strips < 3) then
-            call set_status(status, st_bad_argument, 'room for fewer than 3 strips asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than 3 strips asked')
             return
         end if
         if (workspace%max_strips >= min(max_strips, most_cells)) return
@@ -218,11 +218,12 @@ contains
         else if (curve%least_inv2r <= 0.0_wp) then
             call check_curvature(curve, status)
         else if (.not. allocated(strips%p0)) then
-            call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
+            call set_status(status, st_workspace_too_small, &
+                            'no workspace was reserved for the strips')
         else if (min(workspace%max_strips, size(strips%p0)) &
                  < min(n_strips, most_lattice_strips)) then
             call set_status(status, st_workspace_too_small, &
-                            'the patch needs more strips than there is room for')
+                            'the patch needs more strips than there is capacity for')
         end if
     end subroutine check_input
 
@@ -288,7 +289,7 @@ contains
         type(status_t), intent(out) :: status
 
         real(wp) :: overlap
-        integer :: laying, room, wanted
+        integer :: laying, capacity, wanted
         logical :: solved
         type(lattice_figures_t) :: before, last
 
@@ -301,15 +302,15 @@ contains
             return
         end if
         wanted = min(n_strips, most_lattice_strips)
-        room = min(workspace%max_strips, size(strips%p0), &
+        capacity = min(workspace%max_strips, size(strips%p0), &
                    nint(cells_per_strip*wanted) + spare_cells)
         call first_ranges(workspace, curve, depth)
         workspace%n = 0
         do laying = 1, max_layings
             if (laying == 1) then
-                call lay(workspace, curve, min(wanted, coarse_cells), room)
+                call lay(workspace, curve, min(wanted, coarse_cells), capacity)
             else
-                call lay(workspace, curve, min(wanted + 1, room), room)
+                call lay(workspace, curve, min(wanted + 1, capacity), capacity)
             end if
             call set_reach(workspace, depth)
             associate (n => workspace%n, elements => workspace%elements)
@@ -370,10 +371,10 @@ contains
     end subroutine first_ranges
 
     !> Divide the ranges into even cells, and keep the lengths of the lattice before.
-    pure subroutine lay(workspace, curve, wanted, room)
+    pure subroutine lay(workspace, curve, wanted, capacity)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
-        integer, intent(in) :: wanted, room ! cells across the widest range, and of all
+        integer, intent(in) :: wanted, capacity ! cells across the widest range, and of all
 
         real(wp) :: widest, width, nearest, h
         integer :: r, k, i, n, fewest, share
@@ -388,7 +389,7 @@ contains
         workspace%n_old = n
         associate (from => workspace%y_from, to => workspace%y_to, cells => workspace%cells, &
                    m => workspace%n_ranges)
-            do while (m > max(1, room/range_cells))
+            do while (m > max(1, capacity/range_cells))
                 ! All that are as near to each other, or the order would count.
                 nearest = (1.0_wp + same)*minval(from(2:m) - to(:m - 1))
                 n = 1
@@ -408,7 +409,7 @@ contains
                 do r = 1, m
                     cells(r) = max(fewest, int(share*((to(r) - from(r))/widest) + cells_rounding))
                 end do
-                if (sum(cells(:m)) <= room) exit
+                if (sum(cells(:m)) <= capacity) exit
             end do
             i = 0
             do r = 1, m

@@ -47,7 +47,7 @@ module faststrip_normal_lattice_elements
 
 contains
 
-    !> Make room for the elements of lattices of up to `max_cells` cells.
+    !> Allocate for the elements of lattices of up to `max_cells` cells.
     subroutine reserve_elements(elements, max_cells)
         type(elements_t), intent(inout) :: elements !! sized
         integer, intent(in) :: max_cells            !! >= 1

@@ -20,7 +20,7 @@
 !> overlap, or is an error where a step leads there, as to a fill value below the gap.
 !>
 !> Of several limitations the status has the code of the first that applies here, and all of the
-!> words there is room for:
+!> words there is capacity for:
 !>
 !>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, more_strips,
 !>     fewer_strips, under_resolved

@@ -37,7 +37,7 @@ module faststrip_normal_strip
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, share_strips, &
                                               cut_leaving_strips, free_ends, &
                                               drop_slivers
-    use faststrip_normal_strip_profile, only: profile_integral, profile_peak
+    use faststrip_normal_patch_curves, only: curve_integral, curve_peak
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, place_strips, remember, mirror_old
     use faststrip_normal_strip_start, only: start_patches, resume_patches
@@ -100,7 +100,7 @@ contains
     !> Solve the normal problem of the gap in the workspace under a load.
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
-    !> `st_workspace_too_small` (no gap set, room for too few strips), `st_out_of_range` and
+    !> `st_workspace_too_small` (no gap set, capacity for too few strips), `st_out_of_range` and
     !> `st_linear_algebra` (a contact beyond all proportion; a penetration that is not positive),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
@@ -566,11 +566,12 @@ contains
         else if (workspace%curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set in the workspace')
         else if (.not. allocated(strips%p0)) then
-            call set_status(status, st_workspace_too_small, 'no room was reserved for the strips')
+            call set_status(status, st_workspace_too_small, &
+                            'no workspace was reserved for the strips')
         else if (min(workspace%max_strips, size(strips%p0)) &
                  < max(options%strips_per_patch, fewest_strips)) then
             call set_status(status, st_workspace_too_small, &
-                            'more strips per patch asked than there is room for')
+                            'more strips per patch asked than there is capacity for')
         else
             call check_curvature(workspace%curve, status)
         end if
@@ -619,9 +620,9 @@ contains
             result%strips_across = max(result%strips_across, last - first + 1)
             associate (left => strips%y_left(first:last), right => strips%y_right(first:last), &
                        half_length => strips%half_length(first:last))
-                result%area = result%area + 2.0_wp*profile_integral(left, right, half_length)
-                result%pmax = max(result%pmax, profile_peak(left, right, strips%p0(first:last)))
-                result%x_max = max(result%x_max, profile_peak(left, right, half_length))
+                result%area = result%area + 2.0_wp*curve_integral(left, right, half_length)
+                result%pmax = max(result%pmax, curve_peak(left, right, strips%p0(first:last)))
+                result%x_max = max(result%x_max, curve_peak(left, right, half_length))
             end associate
         end do
         result%y_min = strips%y_left(1)

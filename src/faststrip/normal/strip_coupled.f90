@@ -84,7 +84,7 @@ contains
                 updates = 0
             else
                 call add_cost(cost, n, m, .false., 1)
-                call residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
+                call coupled_residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
                               workspace%newton%step)
             end if
             associate (step => workspace%newton%step, history => workspace%newton%history)
@@ -205,7 +205,7 @@ contains
     end subroutine check_kept
 
     !> Residual of all equations for the strips where they are.
-    pure subroutine residual(workspace, compliance, goal, ends, n, penetration, residual)
+    pure subroutine coupled_residual(workspace, compliance, goal, ends, n, penetration, residual)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: goal
@@ -223,7 +223,7 @@ contains
         do e = 1, size(ends)
             residual(2*n + 1 + e) = wanted(workspace, ends(e))
         end do
-    end subroutine residual
+    end subroutine coupled_residual
 
     !> How far an end should move outwards.
     pure real(wp) function wanted(workspace, one_end)

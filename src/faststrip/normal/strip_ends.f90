@@ -63,15 +63,15 @@ contains
 
     !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
     !> the less the place counts: everything else may have moved since.
-    pure subroutine hold_back(width, room, pushes, step)
+    pure subroutine hold_back(width, space, pushes, step)
         real(wp), intent(in) :: width    ! of the end strip, mm
-        real(wp), intent(in) :: room     ! from the end to the place that was too far, mm
+        real(wp), intent(in) :: space     ! from the end to the place that was too far, mm
         integer, intent(inout) :: pushes ! how often the end has pushed against it
         real(wp), intent(inout) :: step  ! how far the end moves out, mm
 
         real(wp) :: most
 
-        most = 0.5_wp*room + forget*width*(2.0_wp**pushes - 1.0_wp)
+        most = 0.5_wp*space + forget*width*(2.0_wp**pushes - 1.0_wp)
         if (step <= most) return
         step = most
         pushes = min(pushes + 1, 20)

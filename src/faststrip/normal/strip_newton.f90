@@ -43,7 +43,7 @@ module faststrip_normal_strip_newton
 
 contains
 
-    !> Make room for systems of up to `max_strips` strips.
+    !> Allocate for systems of up to `max_strips` strips.
     subroutine reserve_newton(workspace, max_strips)
         type(newton_workspace_t), intent(inout) :: workspace !! sized
         integer, intent(in) :: max_strips                    !! >= 1

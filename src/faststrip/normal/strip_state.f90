@@ -29,7 +29,7 @@ module faststrip_normal_strip_state
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
         real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
         logical :: old_is_mirrored = .false. !! was their gap solved as its mirror image?
-        integer :: max_strips = 0   !! room, all patches together
+        integer :: max_strips = 0   !! capacity, all patches together
         real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:) ! of the strips
         real(wp), allocatable :: p0(:), half_length(:)
         real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
@@ -40,7 +40,7 @@ module faststrip_normal_strip_state
 
 contains
 
-    !> Make room; the only allocation, to be done before the first solution.
+    !> Allocate; the only allocation, to be done before the first solution.
     subroutine reserve_strip_workspace(workspace, max_strips, max_points, status)
         type(strip_workspace_t), intent(inout) :: workspace !! sized
         integer, intent(in) :: max_strips     !! strips of all patches together, >= 3
@@ -48,7 +48,7 @@ contains
         type(status_t), intent(out) :: status !! `st_bad_argument`
 
         if (max_strips < fewest_strips) then
-            call set_status(status, st_bad_argument, 'room for fewer than 3 strips asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than 3 strips asked')
             return
         end if
         call reserve_gap_curve(workspace%curve, max_points, status)
@@ -87,7 +87,7 @@ contains
     pure subroutine place_strips(workspace, patches, n)
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
-        integer, intent(out) :: n ! number of strips; beyond the room there is, nothing is placed
+        integer, intent(out) :: n ! number of strips; if they are too many, nothing is placed
 
         real(wp) :: middle, half, y, eta, ratio
         integer :: p, k, i, q
@@ -125,7 +125,7 @@ contains
 
     !> Cut the patches into strips: their edges, and the gap on their centre lines.
     pure subroutine place_edges(workspace, patches)
-        type(strip_workspace_t), intent(inout) :: workspace !! with room enough
+        type(strip_workspace_t), intent(inout) :: workspace !! with capacity enough
         type(patches_t), intent(in) :: patches
 
         real(wp) :: middle, half, h, a

@@ -23,7 +23,7 @@ module faststrip_normal_strips
 
 contains
 
-    !> Make room for strips; the only allocation, to be done before the first solution.
+    !> Allocate for strips; the only allocation, to be done before the first solution.
     subroutine reserve_strips(strips, capacity, status)
         type(contact_strips_t), intent(inout) :: strips !! emptied and sized
         integer, intent(in) :: capacity                 !! largest number of strips, >= 1
@@ -33,7 +33,7 @@ contains
         strips%n = 0
         strips%n_patches = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'room for fewer than one strip asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than one strip asked')
             return
         end if
         if (allocated(strips%p0)) then

@@ -89,7 +89,7 @@ contains
             !! `st_bad_argument` (no ellipse, mu < 0, grid), `st_not_finite`,
             !! `st_bad_material`, `st_out_of_range` (creepages, mu, a/b), `st_workspace_too_small`
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for nx*ny elements
+            !! filled when present; needs capacity for nx*ny elements
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
 
         type(areas_t) :: areas
@@ -128,7 +128,7 @@ contains
             !! `st_bad_material` (g), `st_out_of_range` (anything beyond all proportion),
             !! `st_workspace_too_small`
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for nx*ny elements
+            !! filled when present; needs capacity for nx*ny elements
 
         type(areas_t) :: areas
 
@@ -176,7 +176,7 @@ contains
             !! those of `fastsim_solve`; `st_bad_argument`, `st_not_finite`, `st_out_of_range`
             !! for the strips
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for nx*ny elements a patch
+            !! filled when present; needs capacity for nx*ny elements a patch
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
 
         type(patch_ellipse_t) :: ellipse

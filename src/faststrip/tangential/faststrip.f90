@@ -71,7 +71,7 @@ module faststrip_tangential_faststrip
     implicit none
     private
 
-    public :: faststrip_solve, default_points, most_points
+    public :: faststrip_tangential_solve, default_points, most_points
 
     !> Points along each strip unless told otherwise.
     integer, parameter :: default_points = 15
@@ -141,7 +141,8 @@ module faststrip_tangential_faststrip
 contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
-    pure subroutine faststrip_solve(strips, material, mu, creepage, points_per_strip, result, &
+    pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
+                                               result, &
                                     status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
@@ -154,9 +155,9 @@ contains
             !! `st_bad_material`, `st_out_of_range` (creepages, mu, points),
             !! `st_workspace_too_small`
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for n*points_per_strip elements
+            !! filled when present; needs capacity for n*points_per_strip elements
         type(strip_forces_t), intent(inout), optional :: per_strip
-            !! filled when present; needs room for n strips
+            !! filled when present; needs capacity for n strips
 
         real(wp) :: stuck, covered
         integer :: first, last
@@ -194,21 +195,22 @@ contains
             end if
         end do
         if (covered > 0.0_wp) result%stick_fraction = stuck/covered
-    end subroutine faststrip_solve
+    end subroutine faststrip_tangential_solve
 
-    !> Empty the sums of strips that are about to be filled, if they have the room.
+    !> Empty the sums of strips that are about to be filled, if they have the capacity.
     pure subroutine empty_strip_forces(forces, n, status)
         type(strip_forces_t), intent(inout) :: forces
         integer, intent(in) :: n
         type(status_t), intent(inout) :: status
 
-        integer :: room
+        integer :: capacity
 
-        room = 0
-        if (allocated(forces%fx)) room = size(forces%fx)
+        capacity = 0
+        if (allocated(forces%fx)) capacity = size(forces%fx)
         forces%n = 0
-        if (room < n) then
-            call set_status(status, st_workspace_too_small, 'too little room for the strips'' sums')
+        if (capacity < n) then
+            call set_status(status, st_workspace_too_small, &
+                            'too little capacity for the strips'' sums')
             return
         end if
         forces%n = n
@@ -563,7 +565,7 @@ contains
                   /(1.0_wp + stiffening*saturation*spin_share)
     end function in_slip
 
-    !> The strip numbers `first` to `last` as lanes; those without load or room are left out.
+    !> The strip numbers `first` to `last` as lanes; those without load or capacity are left out.
     pure subroutine fill_block(law, strips, first, last, mu, creepage, points, block)
         type(patch_law_t), intent(in) :: law
         type(contact_strips_t), intent(in) :: strips

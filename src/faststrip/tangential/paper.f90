@@ -90,9 +90,9 @@ contains
         type(creepage_t), intent(in) :: creepage     !! about y = 0, for all patches
         integer, intent(in) :: points_per_strip      !! 1 to `most_points`
         type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
-        type(status_t), intent(out) :: status        !! those of `faststrip_solve`
+        type(status_t), intent(out) :: status        !! those of `faststrip_tangential_solve`
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for n*points_per_strip elements
+            !! filled when present; needs capacity for n*points_per_strip elements
 
         call solve_patches(strips, material, mu, creepage, points_per_strip, &
                            march_reading_t(way_from_edge=.false., bare_moment=.false., &
@@ -108,9 +108,9 @@ contains
         type(creepage_t), intent(in) :: creepage     !! about y = 0, for all patches
         integer, intent(in) :: points_per_strip      !! 1 to `most_points`
         type(tangential_result_t), intent(out) :: result !! sums; zero when there is an error
-        type(status_t), intent(out) :: status        !! those of `faststrip_solve`
+        type(status_t), intent(out) :: status        !! those of `faststrip_tangential_solve`
         type(tangential_field_t), intent(inout), optional :: field
-            !! filled when present; needs room for n*points_per_strip elements
+            !! filled when present; needs capacity for n*points_per_strip elements
 
         call solve_patches(strips, material, mu, creepage, points_per_strip, &
                            march_reading_t(bound_of_strip=.false., way_from_edge=.false., &

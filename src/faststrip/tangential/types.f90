@@ -54,7 +54,7 @@ module faststrip_tangential_types
 
 contains
 
-    !> Make room for the sums of strips; the only allocation, to be done before the first solution.
+    !> Allocate for the sums of strips; the only allocation, to be done before the first solution.
     subroutine reserve_strip_forces(forces, capacity, status)
         type(strip_forces_t), intent(inout) :: forces !! emptied and sized
         integer, intent(in) :: capacity               !! largest number of strips, >= 1
@@ -63,7 +63,7 @@ contains
         call clear_status(status)
         forces%n = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'room for fewer than one strip asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than one strip asked')
             return
         end if
         if (allocated(forces%fx)) then
@@ -74,7 +74,7 @@ contains
                   source=0.0_wp)
     end subroutine reserve_strip_forces
 
-    !> Make room for a field; the only allocation, to be done before the first solution.
+    !> Allocate for a field; the only allocation, to be done before the first solution.
     subroutine reserve_field(field, capacity, status)
         type(tangential_field_t), intent(inout) :: field !! emptied and sized
         integer, intent(in) :: capacity                  !! largest number of elements, >= 1
@@ -83,7 +83,7 @@ contains
         call clear_status(status)
         field%n = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'room for fewer than one element asked')
+            call set_status(status, st_bad_argument, 'capacity for fewer than one element asked')
             return
         end if
         if (allocated(field%x)) then
@@ -97,7 +97,7 @@ contains
         allocate (field%state(capacity), source=0)
     end subroutine reserve_field
 
-    !> Empty a field that is about to be filled, if it has the room.
+    !> Empty a field that is about to be filled, if it has the capacity.
     pure subroutine empty_field(field, elements, status)
         type(tangential_field_t), intent(inout) :: field !! reserved beforehand
         integer, intent(in) :: elements                  !! number of elements to come
@@ -106,13 +106,14 @@ contains
         call clear_status(status)
         field%n = 0
         if (.not. allocated(field%x)) then
-            call set_status(status, st_workspace_too_small, 'no room reserved for the field')
+            call set_status(status, st_workspace_too_small, &
+                            'no workspace was reserved for the field')
         else if (size(field%x) < elements) then
-            call set_status(status, st_workspace_too_small, 'too little room for the field')
+            call set_status(status, st_workspace_too_small, 'too little capacity for the field')
         end if
     end subroutine empty_field
 
-    !> Put one more element into a field that has the room.
+    !> Put one more element into a field that has the capacity.
     pure subroutine add_element(field, x, y, area, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! emptied by `empty_field`
         real(wp), intent(in) :: x, y   !! middle of the element, mm
@@ -128,7 +129,7 @@ contains
 
     !> Put an element into a place of a field.
     pure subroutine put_element(field, i, x, y, area, pn, px, py, sx, sy, state)
-        type(tangential_field_t), intent(inout) :: field !! with the room
+        type(tangential_field_t), intent(inout) :: field !! with the capacity
         integer, intent(in) :: i       !! place, 1 to n
         real(wp), intent(in) :: x, y   !! middle of the element, mm
         real(wp), intent(in) :: area   !! mm^2

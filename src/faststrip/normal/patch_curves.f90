@@ -4,17 +4,17 @@
 !> patch, where they vanish (they are parabolas on an ellipse). Through them goes a parabola at
 !> each strip: its own middle and the two neighbours', the end of the patch standing in for the
 !> neighbour an end strip lacks.
-module faststrip_normal_strip_profile
+module faststrip_normal_patch_curves
     use faststrip_base_kinds, only: wp
     implicit none
     private
 
-    public :: profile_integral, profile_peak
+    public :: curve_integral, curve_peak
 
 contains
 
     !> Integral over y of a quantity known at the middles of a patch's strips.
-    pure real(wp) function profile_integral(left, right, value) result(integral)
+    pure real(wp) function curve_integral(left, right, value) result(integral)
         real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
         real(wp), intent(in) :: right(:) !! right edges, (n), mm
         real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
@@ -47,13 +47,13 @@ contains
             integral = integral + sum(weight*jacobian &
                                       *sqrt(max(q0 + s*(slope + s*bend), 0.0_wp)))
         end do
-    end function profile_integral
+    end function curve_integral
 
     !> Largest value of a quantity known at the middles of a patch's strips.
     !>
     !> From one middle to the next the square goes over from the parabola of the one strip to that
     !> of the other, so that the peak does not jump where another strip becomes the largest.
-    pure real(wp) function profile_peak(left, right, value) result(peak)
+    pure real(wp) function curve_peak(left, right, value) result(peak)
         real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
         real(wp), intent(in) :: right(:) !! right edges, (n), mm
         real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
@@ -81,7 +81,7 @@ contains
             largest = max(largest, q0 + s*(slope + s*bend))
         end if
         peak = sqrt(largest)
-    end function profile_peak
+    end function curve_peak
 
     !> Largest value on 0 <= t <= 1 of `q0 + (q1 - q0) t + t (t - 1) (b0 + (b1 - b0) t)`.
     pure real(wp) function peak_between(q0, q1, b0, b1) result(peak)
@@ -134,4 +134,4 @@ contains
         bend = (slope - (q_before - q0)/before)/(after - before)
         slope = slope - bend*after
     end subroutine parabola
-end module faststrip_normal_strip_profile
+end module faststrip_normal_patch_curves
