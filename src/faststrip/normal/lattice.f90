@@ -36,11 +36,11 @@ module faststrip_normal_lattice
     use faststrip_influence_row, only: center_influence_column
     use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
                                                  solve_elements, element_columns
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals, mirror_gap_curve
     use faststrip_normal_limitations, only: check_curvature
     use faststrip_normal_lattice_estimate, only: lattice_errors_t, lattice_figures_t, &
                                                  lattice_figures, estimate_errors
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_types, only: demand_t
     implicit none
     private
@@ -125,7 +125,7 @@ contains
     subroutine lattice_solve(workspace, curve, compliance, load, n_strips, strips, penetration, &
                              status)
         type(lattice_workspace_t), intent(inout) :: workspace !! reserved beforehand
-        type(gap_curve_t), intent(in) :: curve      !! a gap that was set
+        type(gap_curve_t), intent(inout) :: curve   !! a gap that was set; unchanged after it
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: load                !! normal force Q, N
         integer, intent(in) :: n_strips             !! across the largest patch, >= 3
@@ -139,6 +139,7 @@ contains
             !! more than 1 % of the penetration
 
         real(wp) :: depth
+        logical :: mirrored
 
         penetration = 0.0_wp
         strips%n = 0
@@ -150,9 +151,12 @@ contains
                             'the load is not positive: ' // trim(number_text(load)) // ' N')
             return
         end if
+        mirrored = curve%is_image
+        if (mirrored) call mirror_gap_curve(curve)
         call start_depth(curve, compliance, load, depth)
         call solve(workspace, curve, compliance, demand_t(load=load), n_strips, strips, depth, &
                    status)
+        if (mirrored) call mirror_back(curve, strips)
         if (.not. is_error(status)) penetration = depth + curve%h_lowest
     end subroutine lattice_solve
 
@@ -160,7 +164,7 @@ contains
     subroutine lattice_solve_penetration(workspace, curve, compliance, penetration, n_strips, &
                                          strips, status)
         type(lattice_workspace_t), intent(inout) :: workspace !! reserved beforehand
-        type(gap_curve_t), intent(in) :: curve      !! a gap that was set
+        type(gap_curve_t), intent(inout) :: curve   !! a gap that was set; unchanged after it
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: penetration         !! approach D of the bodies, from h = 0, mm
         integer, intent(in) :: n_strips             !! across the largest patch, >= 3
@@ -168,6 +172,7 @@ contains
         type(status_t), intent(out) :: status       !! as `lattice_solve`; `st_no_contact`
 
         real(wp) :: depth
+        logical :: mirrored
 
         strips%n = 0
         strips%n_patches = 0
@@ -180,9 +185,21 @@ contains
                             trim(number_text(curve%h_lowest)) // ' mm')
             return
         end if
+        mirrored = curve%is_image
+        if (mirrored) call mirror_gap_curve(curve)
         call solve(workspace, curve, compliance, demand_t(.false., penetration=depth), n_strips, &
                    strips, depth, status)
+        if (mirrored) call mirror_back(curve, strips)
     end subroutine lattice_solve_penetration
+
+    !> The gap as it was, and the strips of its mirror image as its own.
+    pure subroutine mirror_back(curve, strips)
+        type(gap_curve_t), intent(inout) :: curve
+        type(contact_strips_t), intent(inout) :: strips
+
+        call mirror_gap_curve(curve)
+        call mirror_strips(strips)
+    end subroutine mirror_back
 
     !> Forget them: the next answer is not of a lattice.
     pure subroutine forget_lattice_errors(workspace)
