@@ -18,6 +18,7 @@ module faststrip_tables_quadrature
     use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, &
                                            c_funptr, c_int, c_loc, c_ptr, c_size_t
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_numerics_logarithm, only: log_1p
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      message_length, st_bad_argument, st_not_finite, &
                                      st_out_of_range, st_quadrature
@@ -236,7 +237,7 @@ contains
         real(c_double) :: f
 
         type(side_t), pointer :: side
-        real(wp) :: delta, sl, sr, d, one_d
+        real(wp) :: delta, sl, sr, d
 
         call c_f_pointer(params, side)
         delta = distance_at(tau, side)
@@ -246,8 +247,7 @@ contains
         sr = sqrt(delta*delta + side%cr*side%cr)
         if (side%cl > 0.0_wp) then
             d = (side%width + side%squares/(sr + sl))/(side%cl + sl)
-            one_d = 1.0_wp + d
-            f = log(one_d) + (d - (one_d - 1.0_wp))/one_d
+            f = log_1p(d)
         else
             f = asinh(side%cr/delta)
         end if

@@ -21,25 +21,32 @@ module faststrip_influence_closed
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &
                                                        a_short, b_short, r_short, short_last
     use faststrip_numerics_elliptic, only: complete_elliptic_d
+    use faststrip_numerics_logarithm, only: log_1p
     implicit none
     private
 
     public :: influence_primitive, influence_primitive_slope
     public :: strip_influence, strip_influence_slope
     public :: strip_influence_edges, strip_influence_center_gradient
+    public :: c_small, c_large, c_near, c_far, table_end
 
-    ! The two forms of G overlap on [c_large, c_small].
+    !> Largest c of the form for small c, in half-lengths: as far as its polynomials were fitted.
     real(wp), parameter :: c_small = 1.0_wp
+    !> Least c of the form for large c: as far as its polynomial was fitted. The two forms overlap
+    !> for strips with an edge on either side of 1.
     real(wp), parameter :: c_large = 0.7_wp
+    ! Where both forms serve a difference is taken apart here, at the geometric mean of both ends.
     real(wp), parameter :: c_middle = 0.84_wp
-    ! Fewer terms serve up to c = 0.6 and from c = 5/3 on.
+    !> Largest c of the short form for small c, 0.6.
     real(wp), parameter :: c_near = sqrt(short_last)
+    !> Least c of the short form for large c, 5/3 and a rounding.
     real(wp), parameter :: c_far = 1.0_wp/c_near + 1.0e-12_wp
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
-    ! 2n atanh(1/(2n)): a table, and beyond it powers of 1/(4n^2).
+    !> The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
     integer, parameter :: table_end = 64
+    ! 2n atanh(1/(2n)), and the coefficients of its powers.
     real(wp), parameter :: distance_table(table_end) = &
         [(2*k_*atanh(1.0_wp/(2*k_)), k_=1, table_end)]
     real(wp), parameter :: distance_series(0:4) = [(1.0_wp/(2*k_ + 1), k_=0, 4)]
@@ -325,12 +332,8 @@ contains
     elemental real(wp) function log_ratio(cl, cr) result(value)
         real(wp), intent(in) :: cl, cr
 
-        real(wp) :: d, one_d
-
         if (cr - cl < cl) then
-            d = (cr - cl)/cl
-            one_d = 1.0_wp + d
-            value = log(one_d) + (d - (one_d - 1.0_wp))/one_d
+            value = log_1p((cr - cl)/cl)
         else if (cl >= c_large) then
             value = log(cr/cl)
         else

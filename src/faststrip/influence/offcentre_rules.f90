@@ -1,0 +1,62 @@
+!> Which rule the scalar procedures off the centre line take, for a value or for derivatives.
+module faststrip_influence_offcentre_rules
+    use faststrip_base_kinds, only: wp
+    use faststrip_influence_angle_rules, only: exact, fine, far_limit, half_t, rule_size, &
+                                               rule_start
+    implicit none
+    private
+
+    public :: demand_t, for_value, for_gradient, least_far_rule, least_near_rule
+    public :: n_scalar_rules, scalar_size, scalar_start
+
+    ! Fewer sizes than the columns have, for choosing one costs as much as some nodes: 4, 6, 8, 12,
+    ! 16, 20, 24, 32, 48, 64, 96, 128, 192.
+    integer, parameter :: n_scalar_rules = 13
+    integer, parameter :: choice(n_scalar_rules) = [1, 2, 3, 5, 7, 9, 11, 13, 16, 18, 19, 20, 21]
+    !> Nodes of each rule.
+    integer, parameter :: scalar_size(n_scalar_rules) = rule_size(choice)
+    !> The place of its first node in the tables of faststrip_influence_angle_rules.
+    integer, parameter :: scalar_start(n_scalar_rules) = rule_start(choice)
+    real(wp), parameter :: value_far(n_scalar_rules) = far_limit(choice, exact)
+    real(wp), parameter :: gradient_far(n_scalar_rules) = far_limit(choice, fine)
+    real(wp), parameter :: value_near(n_scalar_rules) = half_t(choice, exact)
+    real(wp), parameter :: gradient_near(n_scalar_rules) = half_t(choice, fine)
+
+    !> What one accuracy asks of the rules.
+    type :: demand_t
+        real(wp) :: far(n_scalar_rules)  !! least sigma of each far rule
+        real(wp) :: near(n_scalar_rules) !! largest half interval of each near rule
+        integer :: last_far       !! largest far rule worth its price
+        real(wp) :: thin          !! largest cr/(1 - |X|) of the series
+        real(wp) :: tail          !! of the series, where it may be cut
+        real(wp) :: loss          !! largest cr/(cr - cl) when primitives are subtracted
+        real(wp) :: split         !! least cr for taking the logarithm apart
+    end type demand_t
+
+    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, &
+                                                      1.0e-16_wp, 20.0_wp, 0.5_wp)
+    type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 7, 0.2_wp, &
+                                                         1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
+
+contains
+
+    !> The smallest trapezium rule in theta that is accurate enough; n_scalar_rules + 1 if none is.
+    pure integer function least_far_rule(sigma, demand) result(rule)
+        real(wp), intent(in) :: sigma
+        type(demand_t), intent(in) :: demand
+
+        do rule = 1, n_scalar_rules
+            if (sigma >= demand%far(rule)) exit
+        end do
+    end function least_far_rule
+
+    !> The smallest trapezium rule in phi that is accurate enough; the largest if none is.
+    pure integer function least_near_rule(half, demand) result(rule)
+        real(wp), intent(in) :: half
+        type(demand_t), intent(in) :: demand
+
+        do rule = 1, n_scalar_rules - 1
+            if (half <= demand%near(rule)) exit
+        end do
+    end function least_near_rule
+end module faststrip_influence_offcentre_rules

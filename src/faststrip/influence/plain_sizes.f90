@@ -1,0 +1,28 @@
+!> Sizes whose quotients stay far from the ends of the number range.
+module faststrip_influence_plain_sizes
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    implicit none
+    private
+
+    public :: is_plain, least_size, largest_size
+
+    !> Lengths in mm between which columns divide without a second thought. Contacts
+    !> have 1e-3 to 1e3; what lies outside goes to the scalar procedures, at their cost.
+    real(wp), parameter :: least_size = 1.0e-100_wp
+    !> The same, above.
+    real(wp), parameter :: largest_size = 1.0e100_wp
+
+contains
+
+    !> Are these sizes such that their quotients stay far from the ends of the number range?
+    elemental logical function is_plain(half_length, place)
+        real(wp), intent(in) :: half_length !! of a strip, mm
+        real(wp), intent(in) :: place       !! the size of a coordinate, mm
+
+        is_plain = .false.
+        if (.not. (ieee_is_finite(half_length) .and. ieee_is_finite(place))) return
+        is_plain = half_length >= least_size .and. half_length <= largest_size &
+                   .and. place <= largest_size
+    end function is_plain
+end module faststrip_influence_plain_sizes
