@@ -1,12 +1,19 @@
 #!/usr/bin/env python3
 """Install faststrip below a prefix: program, library, modules, header, pkg-config file, man page.
 
-    install.py --stage FOLDER --prefix FOLDER
+    install.py --stage FOLDER --program FILE --prefix FOLDER
 
-FOLDER of --stage is what `fpm install` made. Its archive holds everything, also what needs GSL; from
-it only what the public names need is linked into one object, in which only they stay visible.
-Static and shared library are both made of that object. Public are the procedures `use faststrip`
-gives, and those of the C and F77 faces; the latter also get their names without underscore.
+FOLDER of --stage is what `fpm install` made of the core, and FILE the program. The core's archive
+could be handed on as it is, but for what hosts of other languages need and what they must not see:
+
+- Only public names are visible: what `use faststrip` gives, and the C and F77 faces. No host can
+  come to depend on a procedure behind them, or clash with it. Local names do not reach across
+  files, so the archive is linked into one object first.
+- F77's procedures have second names without underscore, for hosts that are compiled with
+  -fno-underscoring, and for C.
+- The shared library has a soname, which changes when programs have to be linked anew, and a
+  version at each name, so that a program built with a later release is refused by an older one.
+- The pkg-config file tells compilers where all that is, and what static linking needs more.
 """
 
 import argparse
@@ -55,7 +62,7 @@ def defined_names(archive):
 
 def umbrella_names():
     """The linker's names of what `use faststrip` gives, whether they are procedures or not."""
-    text = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
+    text = (ROOT / "src" / "faststrip" / "faststrip.f90").read_text(encoding="utf-8")
     text = re.sub(r"&\s*\n\s*", "", text)
     names = set()
     for module, only in re.findall(r"^\s*use (\w+), only: (.*)$", text, re.MULTILINE):
@@ -74,13 +81,12 @@ def public_names(archive):
 
 
 def link_object(archive, names, aliases, target):
-    """One object of what the names need, with nothing else visible."""
+    """One object of the whole archive, in which only the names and the second ones are visible."""
     listed = target.with_suffix(".names")
     listed.write_text("".join(f"{name}\n" for name in sorted(names | plain(aliases))),
                       encoding="utf-8")
-    undefined = [word for name in sorted(names) for word in ("-u", name)]
     second = [f"--defsym={name[:-1]}={name}" for name in sorted(aliases)]
-    command("ld", "-r", *undefined, *second, archive, "-o", target)
+    command("ld", "-r", *second, "--whole-archive", archive, "-o", target)
     command("objcopy", f"--keep-global-symbols={listed}", target)
 
 
@@ -127,13 +133,14 @@ def run_time_libraries():
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--stage", required=True, type=pathlib.Path)
+    parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--prefix", required=True, type=pathlib.Path)
     options = parser.parse_args()
     prefix = options.prefix.absolute()
     with open(ROOT / "fpm.toml", "rb") as file:
         version = tomllib.load(file)["version"]
     copies = (
-        (options.stage / "bin" / "faststrip", "bin/faststrip"),
+        (options.program, "bin/faststrip"),
         (options.stage / "include" / "faststrip.mod", "include/faststrip/faststrip.mod"),
         (ROOT / "include" / "faststrip.h", "include/faststrip.h"),
         (ROOT / "LICENSE", "share/doc/faststrip/LICENSE"),
