@@ -3,6 +3,7 @@
 import atexit
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -10,6 +11,13 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTS = ROOT / "example" / "hosts"
+
+
+def readme_blocks():
+    """Language and text of the blocks of the README's section for hosts."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    section = text.split("## Embed it in your code")[1].split("\n## ")[0]
+    return re.findall(r"^```(\w+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
 
 
 class Installation:

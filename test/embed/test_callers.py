@@ -3,16 +3,9 @@
 import re
 import unittest
 
-from installed import ROOT, HostTest
+from installed import ROOT, HostTest, readme_blocks
 
 FILES = {"fortran": "caller.f90", "f77": "caller.f", "c": "caller.c", "python": "caller.py"}
-
-
-def blocks():
-    """Language and text of the blocks of the README's section."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    section = text.split("## Embed it in your code")[1].split("\n## ")[0]
-    return re.findall(r"^```(\w+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
 
 
 class Callers(HostTest):
@@ -23,7 +16,7 @@ class Callers(HostTest):
 
     def test_the_callers_of_the_readme_print_the_same_bits(self):
         found = {}
-        for language, text in blocks():
+        for language, text in readme_blocks():
             if language in FILES:
                 self.write(FILES[language], text)
             else:
@@ -41,7 +34,7 @@ class Callers(HostTest):
         self.assertAlmostEqual(force, -12.23e3, delta=200.0)
 
     def test_cplusplus_static_and_without_underscores(self):
-        sources = dict(blocks())
+        sources = dict(readme_blocks())
         self.write("caller.cpp", sources["c"])
         self.shell("g++ -std=c++11 -Wall -Wextra -pedantic -Werror caller.cpp"
                    " $(pkg-config --cflags --libs faststrip) -o caller_cpp")
@@ -53,7 +46,7 @@ class Callers(HostTest):
 
     def test_static_linking_by_pkg_config(self):
         """Against the archive alone: static altogether, or but for the system's libraries."""
-        sources = dict(blocks())
+        sources = dict(readme_blocks())
         self.write("caller.c", sources["c"])
         self.write("caller.cpp", sources["c"])
         self.write("caller.f", sources["f77"])
@@ -80,7 +73,7 @@ class Callers(HostTest):
         self.assertEqual(len(found), 1, found)
 
     def test_hosts_that_trap(self):
-        sources = dict(blocks())
+        sources = dict(readme_blocks())
         traps = "-g -ffpe-trap=invalid,zero,overflow,underflow"
         for language, name, flags in (("fortran", "caller.f90", "--cflags --libs"),
                                       ("f77", "caller.f", "--libs")):
