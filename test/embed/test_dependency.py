@@ -1,0 +1,122 @@
+"""Another fpm project that depends on the core by its path: it needs LAPACK and no GPL library."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+from installed import ROOT, readme_blocks
+
+FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
+MANIFEST = """\
+name = "host"
+
+[build]
+auto-executables = false
+{link}
+[dependencies]
+{package}.path = "{path}"
+
+[[executable]]
+name = "host"
+source-dir = "app"
+main = "main.f90"
+"""
+# Stands before the linker: notes what it is told and refuses what the core must not need.
+LINKER = """\
+#!/bin/sh
+printf '%s\\n' "$*" >>"{folder}/linked"
+for word in "$@"; do
+    case $word in
+    *gsl* | *fftw*)
+        echo "ld: refused: $word" >&2
+        exit 1
+        ;;
+    esac
+done
+exec {linker} "$@"
+"""
+
+
+class Dependency(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        # Without links: what is relative is so to the place itself.
+        self.folder = pathlib.Path(temporary.name).resolve()
+        self.host = self.folder / "host"
+        self.write("bin/ld", LINKER.format(folder=self.folder, linker=shutil.which("ld")))
+        (self.folder / "bin" / "ld").chmod(0o755)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def build(self, package, path, source, link=""):
+        """Build a host of a package; the code, and what was said."""
+        self.write("host/fpm.toml", MANIFEST.format(
+            package=package, path=os.path.relpath(ROOT / path, self.host), link=link))
+        self.write("host/app/main.f90", source)
+        kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
+        done = subprocess.run(
+            [pathlib.Path(sys.executable).parent / "fpm", "build", "--compiler", "gfortran",
+             "--flag", f"-O0 -frecursive -fopenmp-simd -B{self.folder}/bin"],
+            cwd=self.host, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, encoding="utf-8", env=kept, timeout=6000, check=False)
+        return done.returncode, done.stdout
+
+    def linked(self):
+        """What the linker was told."""
+        return (self.folder / "linked").read_text(encoding="utf-8")
+
+    def test_the_core_links_without_gsl_and_fftw(self):
+        code, said = self.build("faststrip", ".", dict(readme_blocks())["fortran"])
+        self.assertEqual(code, 0, said)
+        self.assertRegex(self.linked(), r"-lopenblas\b")
+        self.assertNotRegex(self.linked(), FORBIDDEN)
+        program, = self.host.glob("build/gfortran_*/app/host")
+        needed = subprocess.run(["readelf", "-dW", program], stdout=subprocess.PIPE,
+                                encoding="utf-8", check=True).stdout
+        self.assertIn("[libopenblas.so", needed)
+        self.assertNotRegex(needed, FORBIDDEN)
+        # No more of the project was compiled than the core.
+        objects = [path.name for path in self.host.glob("build/gfortran_*/**/*.o")]
+        self.assertGreater(len(objects), 40)
+        self.assertEqual([name for name in objects
+                          if re.search("src_(kalker|tables|files)|app_(command|lab)", name)], [])
+        result = subprocess.run([program], stdout=subprocess.PIPE, encoding="utf-8", check=True,
+                                env={"OPENBLAS_NUM_THREADS": "1"})
+        status, penetration, force = (float(word) for word in result.stdout.split())
+        self.assertEqual(status, 0.0)
+        # Hertz: 0.10799 mm; a little less than half of what friction can carry.
+        self.assertAlmostEqual(penetration, 0.10799, delta=1e-4)
+        self.assertAlmostEqual(force, -12.23e3, delta=200.0)
+
+    def test_the_linker_would_have_refused_them(self):
+        for library in ("gsl", "fftw3"):
+            with self.subTest(library):
+                code, said = self.build("faststrip", ".", "end\n", f'link = ["{library}"]')
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"ld: refused: -l{library}", said)
+
+    def test_packages_name_the_libraries_they_need(self):
+        """And none that they do not need."""
+        found = {}
+        for path in sorted(ROOT.glob("**/fpm.toml")):
+            name = path.relative_to(ROOT).parent.as_posix()
+            if name.split("/")[0] in (".venv", "build", "out"):
+                continue
+            build = tomllib.loads(path.read_text(encoding="utf-8")).get("build", {})
+            found[name] = build.get("link", [])
+        self.assertEqual({name: link for name, link in found.items() if link},
+                         {".": ["openblas"], "src/kalker": ["fftw3"], "src/tables": ["gsl"]})
+
+
+if __name__ == "__main__":
+    unittest.main()
