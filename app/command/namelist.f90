@@ -4,8 +4,8 @@
 !> reading a group line by line.
 module faststrip_command_namelist
     use faststrip_base_status, only: status_t
-    use faststrip_base_text, only: text_file_t, open_text, read_line, close_text, trim_blanks, &
-                                   lower_case, integer_text
+    use faststrip_base_text, only: trim_blanks, lower_case, integer_text
+    use faststrip_files_lines, only: text_file_t, open_text, read_line, close_text
     use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
     implicit none
     private

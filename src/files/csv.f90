@@ -13,9 +13,9 @@ module faststrip_files_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_file_format, st_file_write
-    use faststrip_base_text, only: text_file_t, open_text, close_text, is_folder, read_line, &
-                                   trim_blanks, parse_real, parse_integer, integer_text, &
+    use faststrip_base_text, only: trim_blanks, parse_real, parse_integer, integer_text, &
                                    set_place_status
+    use faststrip_files_lines, only: text_file_t, open_text, close_text, is_folder, read_line
     implicit none
     private
 

@@ -7,8 +7,9 @@ module faststrip_files_profile
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_file_format, st_not_increasing, &
                                      st_too_few_points
-    use faststrip_base_text, only: text_file_t, open_text, read_line, close_text, trim_blanks, &
-                                   parse_real, integer_text, lower_case, set_place_status
+    use faststrip_base_text, only: trim_blanks, parse_real, integer_text, lower_case, &
+                                   set_place_status
+    use faststrip_files_lines, only: text_file_t, open_text, read_line, close_text
     implicit none
     private
 
