@@ -1,6 +1,7 @@
 """What ./run install puts below a prefix: names, versions, what the library needs."""
 
 import ast
+import gzip
 import re
 import shutil
 import stat
@@ -16,6 +17,20 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
                 " fscopy fsfree fsmsg fslast".split())
+
+# What only the laboratory says, its modules' names and its commands, and where it reads.
+LABORATORY = ("faststrip_lab", "fuzz", "bench", "trade", "scenes", "reference/", "example/")
+
+
+def laboratory_words(path):
+    """Those of them that stand in a file; modules are compressed."""
+    data = path.read_bytes()
+    text = (gzip.decompress(data) if path.suffix == ".mod" else data).decode("latin-1")
+    return {word for word in LABORATORY if word in text}
+
+
+def subcommands(program):
+    return re.findall(r"^  ([a-z]+) ", command(program, "--help"), re.MULTILINE)
 
 
 def command(*words):
@@ -58,11 +73,35 @@ class Installed(HostTest):
             with self.subTest(path.name):
                 text = command("nm", *(["-D"] if path.suffix == ".so" else []), path)
                 self.assertEqual([line for line in text.splitlines() if FORBIDDEN.search(line)], [])
-                self.assertNotRegex(text, r" U .*(_st_open|_st_read\b|_stop_|_error_stop_|\bexit\b)")
-        # The test can fail: the whole archive of the build needs both.
-        whole = command("nm", ROOT / "build" / "stage" / "lib" / "libfaststrip.a")
+                # The library opens no file, and does not end its host. (Numbers are read from
+                # texts.)
+                self.assertNotRegex(text, r" U .*(_st_(open|inquire|close)\b|_stop_|\bexit\b)")
+        # The test can fail: the program needs both.
+        whole = command("nm", "-D", self.installed.prefix / "bin" / "faststrip")
         self.assertRegex(whole, "gsl_integration")
         self.assertRegex(whole, "fftw_")
+
+    def test_nothing_of_the_laboratory_is_installed(self):
+        for path in sorted(self.installed.prefix.rglob("*")):
+            name = path.relative_to(self.installed.prefix).as_posix()
+            self.assertNotRegex(name, r"\blab\b|bench|fuzz|\.csv$|\.nml$")
+            if path.is_file():
+                with self.subTest(name):
+                    self.assertEqual(laboratory_words(path), set())
+        # The words are those that its own program has.
+        self.assertEqual(laboratory_words(ROOT / "bin" / "faststrip-lab"), set(LABORATORY))
+
+    def test_the_installed_program_refuses_what_the_laboratory_does(self):
+        program = self.installed.prefix / "bin" / "faststrip"
+        laboratory = subcommands(ROOT / "bin" / "faststrip-lab")
+        self.assertLessEqual({"bench", "fuzz", "report"}, set(laboratory))
+        self.assertEqual(set(laboratory) & set(subcommands(program)), set())
+        for name in laboratory:
+            done = subprocess.run([program, name], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  encoding="utf-8", check=False)
+            with self.subTest(name):
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertIn(name, done.stderr)
 
     def test_only_public_names_are_exported(self):
         names = self.exported()
@@ -73,7 +112,7 @@ class Installed(HostTest):
         fortran = {name for name in names if "_MOD_" in name}
         self.assertEqual(set(names) - fortran,
                          declared | F77_NAMES | {f"{name}_" for name in F77_NAMES})
-        umbrella = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
+        umbrella = (ROOT / "src" / "faststrip" / "faststrip.f90").read_text(encoding="utf-8")
         for name in fortran:
             self.assertIn(name.split("_MOD_")[1], umbrella)
         self.assertIn("__faststrip_contact_solve_MOD_solve_contact", fortran)
@@ -92,16 +131,39 @@ class Installed(HostTest):
         self.assertNotRegex(members, r"GNU-stack.* X ")
 
     def test_one_version_everywhere(self):
+        """It stands in fpm.toml; what cannot read it there agrees."""
+        version = re.escape(self.version)
         texts = {
-            "include/faststrip.h": rf'FASTSTRIP_VERSION "{self.version}"',
-            "src/faststrip/interop/c.f90": rf"version = '{self.version}'",
-            "python/pyproject.toml": rf'(?m)^version = "{self.version}"',
-            "python/faststrip/__init__.py": rf'__version__ = "{self.version}"',
+            "include/faststrip.h": rf'FASTSTRIP_VERSION "{version}"',
+            "src/faststrip/interop/c.f90": rf"version = '{version}'",
+            "app/command/console.f90": rf"version = '{version}'",
+            "python/pyproject.toml": rf'(?m)^version = "{version}"$',
+            "python/faststrip/__init__.py": rf'(?m)^__version__ = "{version}"$',
+            "CITATION.cff": rf"(?m)^version: {version}$",
         }
         for name, pattern in texts.items():
             with self.subTest(name):
                 self.assertRegex((ROOT / name).read_text(encoding="utf-8"), pattern)
         self.assertEqual(self.shell("pkg-config --modversion faststrip").strip(), self.version)
+        self.assertRegex(command(self.installed.prefix / "bin" / "faststrip", "--version"),
+                         rf"^faststrip {version}\b")
+
+    def test_no_other_file_names_a_version(self):
+        """CMakeLists.txt reads fpm.toml, and the packages above the core have no version."""
+        named = re.compile(r"(?i)version\w*\W+\d+\.\d+\.\d+")
+        found = set()
+        for path in (*ROOT.glob("*.*"), *ROOT.glob("src/**/*.*"), *ROOT.glob("app/**/*.*"),
+                     *ROOT.glob("include/*"), *ROOT.glob("python/**/*.*"), *ROOT.glob("docs/*.md"),
+                     *ROOT.glob("test/fpm.toml")):
+            name = path.relative_to(ROOT).as_posix()
+            if (path.is_file() and "build/" not in name and ".egg-info" not in name
+                    and path.suffix in (".f90", ".toml", ".txt", ".h", ".c", ".py", ".cff", ".md")
+                    and named.search(path.read_text(encoding="utf-8"))):
+                found.add(name)
+        self.assertEqual(found, {
+            "fpm.toml", "include/faststrip.h", "src/faststrip/interop/c.f90",
+            "app/command/console.f90", "python/pyproject.toml", "python/faststrip/__init__.py",
+            "CITATION.cff"})
 
     def test_pkg_config_knows_the_flags(self):
         flags = self.shell("pkg-config --cflags --libs faststrip")
@@ -122,7 +184,7 @@ class Installed(HostTest):
         self.assertEqual(cases, sorted(set(cases)))
 
     def test_statuses_are_the_same_in_every_face(self):
-        source = (ROOT / "src" / "faststrip" / "status.f90").read_text(encoding="utf-8")
+        source = (ROOT / "src" / "faststrip" / "base" / "status.f90").read_text(encoding="utf-8")
         codes = {name: int(code) for name, code in
                  re.findall(r"integer, parameter :: st_(\w+) = (\d+)", source)}
         # Of readers and quadrature, which are not in the installed library.
@@ -133,7 +195,7 @@ class Installed(HostTest):
                  re.findall(r"^    FASTSTRIP_([A-Z_]+) = (\d+)", header, re.MULTILINE)}
         self.assertEqual(found.pop("first_error"), 100)
         self.assertEqual(found, core)
-        umbrella = (ROOT / "src" / "faststrip.f90").read_text(encoding="utf-8")
+        umbrella = (ROOT / "src" / "faststrip" / "faststrip.f90").read_text(encoding="utf-8")
         for name in core:
             self.assertRegex(umbrella, rf"\bst_{name}\b")
 
@@ -159,10 +221,9 @@ class Installed(HostTest):
     def test_the_man_page_names_every_subcommand(self):
         page = self.installed.prefix / "share" / "man" / "man1" / "faststrip.1"
         text = page.read_text(encoding="utf-8")
-        general = command(self.installed.prefix / "bin" / "faststrip", "--help")
-        subcommands = re.findall(r"^  ([a-z]+) ", general, re.MULTILINE)
-        self.assertGreater(len(subcommands), 5)
-        for name in subcommands:
+        listed = subcommands(self.installed.prefix / "bin" / "faststrip")
+        self.assertGreater(len(listed), 4)
+        for name in listed:
             self.assertIn(f".SS {name}\n", text)
         if shutil.which("man"):
             done = subprocess.run(["man", "--warnings", "-l", str(page)], stdout=subprocess.PIPE,
