@@ -3,6 +3,7 @@
 !> Needs LAPACK and nothing else: no file is read or written, nothing is printed, nothing stops.
 !> Readers (`src/files`), GSL's quadrature and the making of coefficient tables (`src/tables`) and
 !> Kalker's variational methods with FFTW (`src/kalker`) are packages of their own.
+!> Each name comes from the module that makes it: so an installed library shows it to the linker.
 module faststrip
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, message_length, st_ok, &
@@ -36,9 +37,10 @@ module faststrip
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve, &
-                                      strip_solve_penetration, strip_solve_demand, strips_auto
+    use faststrip_normal_strip, only: strip_options_t, strip_solve, strip_solve_penetration, &
+                                      strip_solve_demand, strips_auto
+    use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
+                                            set_strip_gap
     use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           field_power, strip_forces_t, &

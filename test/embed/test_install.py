@@ -121,6 +121,19 @@ class Installed(HostTest):
                   if len(line.split()) == 3}
         self.assertEqual(static, set(names))
 
+    def test_every_procedure_of_the_umbrella_can_be_linked(self):
+        umbrella = ROOT / "src" / "faststrip" / "faststrip.f90"
+        text = re.sub(r"&\s*\n\s*", "", umbrella.read_text(encoding="utf-8"))
+        names = {name.strip() for names in re.findall(r"(?m)^ *use \w+, only: (.*)$", text)
+                 for name in names.split(",")}
+        made = set()
+        for path in umbrella.parent.rglob("*.f90"):
+            made |= set(re.findall(r"(?m)^ {4}(?!end\b)[^!\n]*\b(?:subroutine|function) (\w+)",
+                                   path.read_text(encoding="utf-8")))
+        shown = {name.split("_MOD_")[1] for name in self.exported() if "_MOD_" in name}
+        self.assertGreater(len(names & made), 50)
+        self.assertEqual((names & made) - shown, set())
+
     def test_symbols_have_a_version_and_the_stack_is_not_executable(self):
         versions = set(version for name, version in self.exported().items()
                        if not name.startswith("FASTSTRIP_"))

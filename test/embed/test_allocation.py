@@ -1,14 +1,9 @@
 """The strip solver from a program of its own: no allocation, the same bits every time."""
 
-import os
-import pathlib
 import re
-import shutil
-import subprocess
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from installed import HostTest
 
 # Stands in for the C library's functions, in the program and in all libraries it loads.
 COUNTER = r"""
@@ -218,46 +213,23 @@ end program threads
 """
 
 
-def release_library():
-    """The newest static library that fpm built without run-time checks, and its modules' folder."""
-    libraries = [path for path in (ROOT / "build").glob("gfortran_*/libfaststrip.a")
-                 if b"above upper bound of" not in path.read_bytes()]
-    modules = list((ROOT / "build").glob("gfortran_*/faststrip.mod"))
-    newest = [max(paths, key=lambda path: path.stat().st_mtime) for paths in (libraries, modules)]
-    return newest[0], newest[1].parent
-
-
-@unittest.skipUnless(shutil.which("gcc"), "needs gcc")
-class Solver(unittest.TestCase):
+class Solver(HostTest):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-        library, modules = release_library()
+        super().setUpClass()
         for name, text in (("counter.c", COUNTER), ("contacts.f90", MODULE),
                            ("counting.f90", COUNTING), ("threads.f90", THREADS)):
-            (cls.folder / name).write_text(text, encoding="utf-8")
-        cls.command("gcc", "-O1", "-c", "counter.c")
-        flags = ["-O1", "-frecursive", "-fopenmp", f"-I{modules}"]
-        libraries = [str(library), "-lopenblas"]
-        cls.command("gfortran", *flags, "-c", "contacts.f90")
+            cls.write(name, text)
+        cls.shell("gcc -O1 -c counter.c")
+        flags = "-O1 -frecursive -fopenmp $(pkg-config --cflags faststrip)"
+        cls.shell(f"gfortran {flags} -c contacts.f90")
         for name in ("counting", "threads"):
-            cls.command("gfortran", *flags, f"{name}.f90", "contacts.o", "counter.o", "-o", name,
-                        *libraries)
-
-    @classmethod
-    def command(cls, *words, **environment):
-        done = subprocess.run(words, cwd=cls.folder, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=3000,
-                              env=dict(os.environ, **environment), check=False)
-        if done.returncode != 0:
-            raise AssertionError(f"{' '.join(words)}: {done.returncode}\n{done.stdout}")
-        return done.stdout
+            cls.shell(f"gfortran {flags} {name}.f90 contacts.o counter.o -o {name}"
+                      " $(pkg-config --libs faststrip)")
 
     def solved(self, name, library_threads=1):
         """Rows of kind, strips, status code, allocations; and the bits by kind and strips."""
-        text = self.command(str(self.folder / name), OPENBLAS_NUM_THREADS=str(library_threads))
+        text = self.shell(f"./{name}", OPENBLAS_NUM_THREADS=str(library_threads))
         rows, bits = [], {}
         for line in text.splitlines():
             if not line.startswith("solved"):
