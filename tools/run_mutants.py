@@ -49,13 +49,13 @@ import tomllib
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
 FLAGS = "-Og -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
 TRAPS = "-ffpe-trap=invalid,zero,overflow"
-C_FLAGS = "-Og -fPIC"
+C_FLAGS = "-O1 -fPIC"
 # Not copied: what is built, and the lists themselves, which change no result.
 LEFT_OUT = {".git", ".venv", "build", "bin", "out", "__pycache__", "tools/mutants"}
 # The main program of the tests, which sets the traps.
 RUNNER = "build/tests/generated_runner.f90"
 # Written by the build, and here once and for all: a new commit alone changes no result.
-REVISION = "app/revision.f90"
+REVISION = "app/command/revision.f90"
 REVISION_TEXT = """\
 module faststrip_command_revision
     implicit none
@@ -75,18 +75,26 @@ TIME_OUT = "time-out"
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
 FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
          "test/embed/test_callers.py", "test/embed/test_legacy.py"]
-FORTRAN_ROOMS = ("ground", "numerics", "influence", "profile", "normal", "tangential", "contact",
-                 "errata")
+FORTRAN_ROOMS = ("base", "numerics", "influence", "geometry", "normal", "tangential", "contact",
+                 "kalker", "tables")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],
-    "app": [("python", ["test/cli"])],
+    "command": [("python", ["test/cli"])],
     "python": [("installed", FACES[:3])],
     "plots": [("python", ["test/plots"])],
 }
 TABLES = ["test/tools/test_choice_table.py", "test/tools/test_kalker_table.py"]
 ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),
               ("python", ["test/plots"])]
+# What is linked of what: the beginnings of the names of its sources.
+PACKAGES = ("src/",)
+TESTS = (*PACKAGES, "test/", "build/tests/")
+PROGRAMS = {
+    "faststrip": (*PACKAGES, "app/command/", "app/programs/faststrip.f90"),
+    "faststrip-lab": (*PACKAGES, "app/command/", "app/lab/", "app/programs/faststrip_lab.f90"),
+}
+LIBRARY = ("src/faststrip/",)
 
 
 class Unfit(Exception):
@@ -213,7 +221,7 @@ def module_text(path):
 
 
 class Source:
-    """A Fortran file: the modules it makes and those it uses; or a C file, with neither."""
+    """A file of Fortran, the modules it makes and those it uses; or a file of C."""
 
     MADE = re.compile(r"^\s*module\s+(?!procedure\b)(\w+)\s*(?:!.*)?$", re.I | re.M)
     USED = re.compile(r"^\s*use\b(?:\s*,[^:\n]*)?\s*(?:::)?\s*(\w+)", re.I | re.M)
@@ -222,25 +230,35 @@ class Source:
         self.name = name
         self.object = name.replace("/", "_") + ".o"
         self.text = (root / name).read_text(encoding="utf-8")
-        self.made, self.used = set(), set()
-        if name.endswith(".c"):
-            return
-        self.made = {word.lower() for word in self.MADE.findall(self.text)}
-        self.used = {word.lower() for word in self.USED.findall(self.text)} - self.made
+        self.is_c = name.endswith(".c")
+        code = "" if self.is_c else self.text
+        self.made = {word.lower() for word in self.MADE.findall(code)}
+        self.used = {word.lower() for word in self.USED.findall(code)} - self.made
 
     def compile(self, path, folder, modules, target):
         """Compile it from a path; modules are sought in some folders, what is made goes to one."""
-        command = ["gcc", "-c", *C_FLAGS.split()]
-        if self.name.endswith(".f90"):
-            traps = TRAPS.split() if self.name == RUNNER else []
-            command = ["gfortran", "-c", *FLAGS.split(), *traps, "-J", str(target),
-                       *(f"-I{place}" for place in (target, *modules))]
+        if self.is_c:
+            compiler = ["gcc", *C_FLAGS.split()]
+        else:
+            compiler = ["gfortran", *FLAGS.split(), *(TRAPS.split() if self.name == RUNNER else []),
+                        "-J", str(target), *(f"-I{place}" for place in (target, *modules))]
         done = subprocess.run(
-            [*command, str(path), "-o", str(target / self.object)],
+            [*compiler, "-c", str(path), "-o", str(target / self.object)],
             cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, encoding="utf-8", errors="replace", check=False)
         if done.returncode != 0:
             raise Unfit(f"{path} does not compile\n{done.stdout}")
+
+
+def linked_libraries(root, names):
+    """What the packages of a tree are linked to: those above the core before it."""
+    found = []
+    for name in sorted(names, key=lambda name: len(name.parts), reverse=True):
+        if name.name == "fpm.toml":
+            manifest = tomllib.loads((root / name).read_text(encoding="utf-8"))
+            link = manifest.get("build", {}).get("link", [])
+            found += [link] if isinstance(link, str) else link
+    return list(dict.fromkeys(found))
 
 
 def in_order(sources):
@@ -274,15 +292,14 @@ class Base:
 
     def build(self):
         """Compile what has changed, or uses a module that has."""
-        if (self.folder / "app").exists():
+        if (self.folder / REVISION).parent.exists():
             (self.folder / REVISION).write_text(REVISION_TEXT, encoding="utf-8")
-        call([self.python, "tools/pf2f90.py"], self.folder)
-        manifest = tomllib.loads((self.folder / "fpm.toml").read_text(encoding="utf-8"))
-        link = manifest.get("build", {}).get("link", [])
-        self.libraries = [f"-l{name}" for name in ([link] if isinstance(link, str) else link)]
-        paths = [path for place in ("src", "app") for kind in ("*.f90", "*.c")
-                 for path in (self.folder / place).rglob(kind)]
-        paths += (self.folder / "test").glob("*.f90")
+        generated = self.folder / RUNNER
+        generated.parent.mkdir(parents=True, exist_ok=True)
+        call([self.python, "tools/pf2f90.py", "--target", generated.parent], self.folder)
+        self.libraries = [f"-l{name}" for name in linked_libraries(self.folder, self.names)]
+        paths = [path for place in ("src", "app", "test", generated.parent)
+                 for suffix in ("f90", "c") for path in (self.folder / place).rglob(f"*.{suffix}")]
         levels = in_order([Source(self.folder, path.relative_to(self.folder).as_posix())
                            for path in sorted(paths)])
         self.sources = [source for level in levels for source in level]
@@ -296,8 +313,7 @@ class Base:
 
     def compiled(self, source, keys):
         """Compile a file if that is needed; its name and the hash of what it was made from."""
-        flags = C_FLAGS if source.name.endswith(".c") else f"{FLAGS} {TRAPS}"
-        digest = hashlib.sha256(f"{flags} {source.text}".encode())
+        digest = hashlib.sha256(f"{FLAGS} {TRAPS} {C_FLAGS} {source.text}".encode())
         for module in sorted(source.used):
             digest.update(module_text(self.objects / f"{module}.mod") or b"")
         key = digest.hexdigest()
@@ -338,10 +354,11 @@ class Job:
                 if module_text(self.scratch / made) != module_text(self.base.objects / made):
                     different.add(module)
 
-    def object_paths(self, *folders):
+    def object_paths(self, beginnings):
+        """Objects of the sources whose names begin so; those of the mutant where it has some."""
         return [(self.scratch if source.name in self.compiled else self.base.objects)
                 / source.object
-                for source in self.base.sources if source.name.split("/")[0] in folders]
+                for source in self.base.sources if source.name.startswith(beginnings)]
 
     def link(self, what, make):
         """Link a thing once per mutant."""
@@ -350,30 +367,30 @@ class Job:
             self.linked.add(what)
 
     def link_tests(self):
-        call(["gfortran", "-o", self.folder / "build" / "runner",
-              *self.object_paths("src", "test"), *self.base.libraries], self.folder)
+        call(["gfortran", "-o", self.folder / "build" / "runner", *self.object_paths(TESTS),
+              *self.base.libraries], self.folder)
 
-    def link_program(self):
+    def link_programs(self):
         (self.folder / "bin").mkdir(exist_ok=True)
-        call(["gfortran", "-o", self.folder / "bin" / "faststrip",
-              *self.object_paths("src", "app"), *self.base.libraries], self.folder)
+        for name, beginnings in PROGRAMS.items():
+            call(["gfortran", "-o", self.folder / "bin" / name, *self.object_paths(beginnings),
+                  *self.base.libraries], self.folder)
 
     def install(self):
         """Install as ./run install does, from the objects of the mutant."""
         stage = self.folder / "build" / "stage"
         shutil.rmtree(stage, ignore_errors=True)
         shutil.rmtree(self.prefix, ignore_errors=True)
-        for name in ("bin", "include", "lib"):
+        for name in ("include", "lib"):
             (stage / name).mkdir(parents=True)
-        shutil.copy(self.folder / "bin" / "faststrip", stage / "bin")
         made = self.scratch / "faststrip.mod"
         if not made.exists():
             made = self.base.objects / "faststrip.mod"
         shutil.copy(made, stage / "include")
-        call(["ar", "rcs", stage / "lib" / "libfaststrip.a", *self.object_paths("src")],
+        call(["ar", "rcs", stage / "lib" / "libfaststrip.a", *self.object_paths(LIBRARY)],
              self.folder)
-        call([self.base.python, "tools/install.py", "--stage", stage, "--prefix", self.prefix],
-             self.folder)
+        call([self.base.python, "tools/install.py", "--stage", stage, "--program",
+              self.folder / "bin" / "faststrip", "--prefix", self.prefix], self.folder)
 
     def prepare(self, kind):
         if not self.base.has_fortran:
@@ -381,7 +398,7 @@ class Job:
         if kind == "fortran":
             self.link("tests", self.link_tests)
         else:
-            self.link("program", self.link_program)
+            self.link("programs", self.link_programs)
         if kind == "installed":
             self.link("installation", self.install)
 

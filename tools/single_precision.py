@@ -16,7 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 OWN = ROOT / "tools" / "single_precision"
 PROGRAM = OWN / "kernels.f90"
-KINDS = ROOT / "src" / "faststrip" / "kinds.f90"
+KINDS = ROOT / "src" / "faststrip" / "base" / "kinds.f90"
 LAPACK = ("gtsv", "getrf", "getrs", "gecon", "geqrf", "ormqr", "trtrs", "gesvd", "posv", "potrf",
           "potrs", "sytrf", "sytrs")
 # Constants beyond the range of single precision become 0 or infinity.

@@ -333,7 +333,7 @@ class Contacts(HostTest):
     def test_limits_are_those_of_the_library(self):
         sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")
                           for name in ("contact/methods", "contact/solve", "tangential/types",
-                                       "profile/gap"))
+                                       "geometry/gap"))
         package = sys.modules["faststrip._contact"]
         for name, limit in (("most_strips", package.MOST_STRIPS),
                             ("most_points", package.MOST_POINTS),

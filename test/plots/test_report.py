@@ -158,7 +158,7 @@ class Documents(unittest.TestCase):
             self.assertIn(rule, paper)
 
     def test_no_letters_that_read_as_micronewton(self):
-        for path in [*(ROOT / "plots").rglob("*.py"), *(ROOT / "app").glob("*.f90"),
+        for path in [*(ROOT / "plots").rglob("*.py"), *(ROOT / "app").rglob("*.f90"),
                      *(ROOT / "reference").glob("*.csv"), ROOT / "README.md",
                      ROOT / "reference" / "README.md"]:
             for line in path.read_text(encoding="utf-8").splitlines():

@@ -177,7 +177,32 @@ class Lists(unittest.TestCase):
                 self.assertNotEqual(mutant.applied(source), source)
                 self.assertTrue(mutant.why.strip())
                 self.assertTrue(mutant.id.startswith(f"{mutant.room}-"))
+                self.assertRegex(mutant.file, rf"^((src/faststrip|src|app)/)?{mutant.room}/")
+                self.assertTrue(mutant.first is None or (ROOT / mutant.first).is_file())
                 self.assertNotEqual(mutant.equivalent, "")
+
+    def test_every_stage_has_tests(self):
+        """A filter that fits no room, or a file that is gone, would let every mutant live."""
+        stages = [stage for own in run_mutants.OWN_STAGES.values() for stage in own]
+        for kind, what in stages + run_mutants.ALL_STAGES:
+            with self.subTest(what):
+                if kind == "fortran":
+                    self.assertTrue(list((ROOT / "test" / "pf" / what).rglob("test_*.pf")))
+                else:
+                    self.assertEqual([name for name in what if not (ROOT / name).exists()], [])
+
+    def test_every_source_is_linked_somewhere(self):
+        """What a mutant's programs are linked of is what the packages hold."""
+        linked = sum(run_mutants.PROGRAMS.values(), run_mutants.TESTS + run_mutants.LIBRARY)
+        for begin in linked:
+            if not begin.startswith("build/"):
+                self.assertTrue((ROOT / begin).exists(), begin)
+        for name in run_mutants.files_of(ROOT):
+            if name.suffix in (".f90", ".c") and name.parts[0] in ("src", "app", "test"):
+                with self.subTest(name):
+                    self.assertTrue(name.as_posix().startswith(linked))
+        self.assertEqual(run_mutants.linked_libraries(ROOT, run_mutants.files_of(ROOT))[-1],
+                         "openblas")
 
     def test_no_change_stands_twice(self):
         changes = [(mutant.file, mutant.applied((ROOT / mutant.file).read_text(encoding="utf-8")))
