@@ -1,4 +1,4 @@
-"""The core built and installed by CMake, and hosts that find it there or take it as a subproject."""
+"""The core by CMake: installed, for hosts that find it, and as the subproject of a host."""
 
 import os
 import pathlib

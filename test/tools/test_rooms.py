@@ -143,8 +143,8 @@ class Rooms(unittest.TestCase):
             with self.subTest(path.relative_to(ROOT).as_posix()):
                 # Alone in its line or after an `if (...)`.
                 self.assertIsNone(re.search(
-                    r"^(?:\s*|\s*if\b.*\)\s*)(open|close|inquire|backspace|rewind|flush)\s*\(", text,
-                    re.M))
+                    r"^(?:\s*|\s*if\b.*\)\s*)(open|close|inquire|backspace|rewind|flush)\s*\(",
+                    text, re.M))
                 self.assertIsNone(re.search(r"^(?:\s*|\s*if\b.*\)\s*)(print\b|(error\s+)?stop\b)",
                                             text, re.M))
                 # From and to texts only.
