@@ -3,7 +3,6 @@ program faststrip_lab
     use faststrip_command_console, only: say, usage_error, version_text, name_program
     use faststrip_command_options, only: command_argument
     use faststrip_lab_fuzz, only: run_fuzz
-    use faststrip_lab_report, only: run_report
     use faststrip_lab_errata, only: run_errata
     use faststrip_lab_bench, only: run_bench
     use faststrip_lab_scenes_reference_scenes, only: run_scenes
@@ -16,7 +15,6 @@ program faststrip_lab
     case ('fuzz'); call run_fuzz()
     case ('scenes'); call run_scenes()
     case ('errata'); call run_errata()
-    case ('report'); call run_report()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -42,7 +40,6 @@ contains
         call say('Times, errors and trials of faststrip, for its developers; needs the checkout.')
         call say('')
         call say('  bench WHAT             times and errors of the methods')
-        call say('  report                 everything measured, judged and drawn, in one folder')
         call say('  errata                 the paper as printed and as it should be')
         call say('  fuzz                   random gaps, checked')
         call say('  scenes                 reference forces of many contacts')
