@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Try bin/faststrip with hostile inputs, made from a seed: files, options, paths, signals.
+"""Try both programs with hostile inputs, made from a seed: files, options, paths, signals.
 
     hostile.py [N] [--seed S] [--family NAME] [--seconds T]
 
 Each has to end in time with an exit code that fits (1 bad input, 2 usage, 3 no convergence, 128 + n
-signal n), with one line on stderr that begins with `faststrip: ` and holds no control character,
-and must leave every file as it was. Batches say one line more for each row that fails. What chance
-changed in a good file may turn out to be good still: then the exit code is 0. Prints a table of
-what went wrong and a summary; exit code 1 if anything did.
+signal n), with one line on stderr that begins with the name of the program and holds no control
+character, and must leave every file as it was. Batches say one line more for each row that fails.
+What chance changed in a good file may turn out to be good still: then the exit code is 0. Prints a
+table of what went wrong and a summary; exit code 1 if anything did.
 """
 
 import argparse
@@ -31,9 +31,12 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROGRAM = ROOT / "bin" / "faststrip"
+LAB = ROOT / "bin" / "faststrip-lab"
+# What the second program does.
+OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 
 # How far long work is; not counted as the one line.
-PROGRESS = re.compile(r"faststrip: .*, \d+ s")
+PROGRESS = re.compile(r"faststrip(-lab)?: .*, \d+ s")
 NEVER = ("Fortran runtime error", "Backtrace", "Error termination", "At line", "Segmentation",
          "Traceback", "core dumped", "terminate called")
 NOBODY = 65534
@@ -54,7 +57,8 @@ def text_of(lines):
 CASE = ["&contact", "  name = 'gap'", "  gap_file = 'gap.csv'", "  load_N = 1e5", "/",
         "&material", "  mu = 0.3", "/", "&motion", "  cksi = 0.001", "/"]
 PROFILES = ["&contact", "  load_N = 1e5", "  shift_mm = 0", "/", "&wheel", "  profile = 'w.txt'",
-            "/", "&rail", "  profile = 'uic60'", "/", "&material", "  mu = 0.3", "/", "&motion", "/"]
+            "/", "&rail", "  profile = 'uic60'", "/", "&material", "  mu = 0.3", "/", "&motion",
+            "/"]
 POINTS = [f"{y} {abs(y) ** 1.5 / 100.0}" for y in range(-30, 31)]
 GOOD = {"gap.csv": text_of(gap_lines()), "case.nml": text_of(CASE), "prof.nml": text_of(PROFILES),
         "w.txt": text_of(POINTS), "ok.csv": text_of([COLUMNS, ROW]), "kept.csv": "kept\n"}
@@ -82,6 +86,10 @@ class Try:
             signal.signal(number, signal.SIG_DFL)
         if self.setup:
             self.setup()
+
+    @property
+    def program(self):
+        return LAB if self.words and self.words[0] in OF_THE_LAB else PROGRAM
 
     def __str__(self):
         return " ".join(repr(word)[1:-1] if word.isprintable() else repr(word)
@@ -140,8 +148,8 @@ def mutated(rng, text):
         elif kind == 2:
             data[at] = rng.randrange(256)
         elif kind == 3:
-            data[at:at] = rng.choice([b"'", b"/", b"&", b"=", b"\0", b"\n", b",", b"\"", b"!", b"\r",
-                                      b"(", b"*", b"\x1b[2J", b"\xff\xfe", b"%", b";"])
+            data[at:at] = rng.choice([b"'", b"/", b"&", b"=", b"\0", b"\n", b",", b"\"", b"!",
+                                      b"\r", b"(", b"*", b"\x1b[2J", b"\xff\xfe", b"%", b";"])
         elif kind == 4:
             data = data[:at + 1]
         elif kind == 5:
@@ -182,7 +190,8 @@ def gap_files(rng, i):
     elif kind == 5:
         lines = lines[:rng.choice([0, 1, 2, 4])]
     elif kind == 6:
-        lines[0] = rng.choice(["y,h,r", "y_mm,h_mm", "y_mm,y_mm,h_mm", "", "\"y_mm,h_mm", "y_mm;h_mm"])
+        lines[0] = rng.choice(["y,h,r", "y_mm,h_mm", "y_mm,y_mm,h_mm", "", "\"y_mm,h_mm",
+                               "y_mm;h_mm"])
     elif kind == 7:
         lines[at] = f"\"{lines[at]}"
     elif kind == 8:
@@ -218,8 +227,8 @@ def profile_files(rng, i):
             "type = 1\npoint.begin\n1\npoint.end\n", "units.len.f = 0\n", "\x1b[1m = 2\n\x1b\n"])
         return Try("profile files", words, files={name: text, "prof.nml": case})
     if i % 3 == 1:
-        lines[at] = rng.choice(["NaN 1", "1 Inf", "1", "1 2 3", "one two", "-40 1", "1 1e12", "1,,2",
-                                "\x1b[1m 2", lines[at - 1], "1 2x", "\x00 1"])
+        lines[at] = rng.choice(["NaN 1", "1 Inf", "1", "1 2 3", "one two", "-40 1", "1 1e12",
+                                "1,,2", "\x1b[1m 2", lines[at - 1], "1 2x", "\x00 1"])
         return Try("profile files", words, files={"w.txt": text_of(lines)})
     text = rng.choice([b"", text_of(lines[:3]).encode(), rng.randbytes(300), b"\0" * 3000,
                        mutated(rng, GOOD["w.txt"])])
@@ -276,7 +285,7 @@ SUBCOMMANDS = {"integral": ["--n", "1", "--b", "0.1"], "contact": ["case.nml"],
 
 def options_of(subcommand):
     """Names and kinds of the options that take a value of a kind known above."""
-    done = subprocess.run([PROGRAM, subcommand, "--help"], capture_output=True, text=True,
+    done = subprocess.run([Try("options", [subcommand]).program, subcommand, "--help"], capture_output=True, text=True,
                           check=True)
     found = re.findall(r"^  (--[a-z-]+) ([A-Z][A-Za-z.:]*) ", done.stdout, re.MULTILINE)
     return [(name, kind) for name, kind in found if kind in BAD_VALUES]
@@ -348,8 +357,8 @@ def paths(rng, i):
         lambda: contact + ["-o", rng.choice(["dir", "dir/", "no/x.csv", "x" * 300, "", "loop.csv",
                                              "pipe", "case.nml/x.csv", "dirlink", "/", ".",
                                              "/proc/x.csv", "y" * 5000])],
-        lambda: ["contact", rng.choice(["dir", ".", "none.nml", "loop.csv", "case.nml/x", "\x1b[31m",
-                                        "pipe/x", "x" * 300])],
+        lambda: ["contact", rng.choice(["dir", ".", "none.nml", "loop.csv", "case.nml/x",
+                                        "\x1b[31m", "pipe/x", "x" * 300])],
     ][i % 15]
     return Try("paths", choice(), codes=(1, 2), prepare=links)
 
@@ -438,7 +447,8 @@ def special_files(rng, i):
         return Try("special files", [rng.choice(["contact", "batch"]), rng.choice(
             ["/dev/zero", "/dev/null", "/dev/urandom", "/dev", "/proc/self/mem"])])
     if i % 11 == 9:
-        return Try("special files", ["contact", "case.nml", rng.choice(["-o", "--gap"]), "/dev/full"])
+        return Try("special files", ["contact", "case.nml", rng.choice(["-o", "--gap"]),
+                                     "/dev/full"])
     return Try("special files", words, files=gap, prepare=prepare)
 
 
@@ -511,6 +521,7 @@ def judge(attempt, code, seconds, err, changes, limit):
     """What is wrong, in words; an empty list if nothing is."""
     wrong = []
     lines = [line for line in err.splitlines() if not PROGRESS.fullmatch(line)]
+    speaker = f"{attempt.program.name}: "
     if seconds > limit:
         wrong.append(f"took {seconds:.1f} s")
     if any(word in err for word in NEVER):
@@ -518,11 +529,11 @@ def judge(attempt, code, seconds, err, changes, limit):
     if changes and not (code == 0 and attempt.may_pass):
         wrong.append("changed: " + ", ".join(sorted(changes)))
     if code == 0 and attempt.may_pass:
-        wrong += ["an unclear note" for line in lines if not line.startswith("faststrip: ")]
+        wrong += ["an unclear note" for line in lines if not line.startswith(speaker)]
         return wrong
     if code not in attempt.codes:
         wrong.append(f"exit code {code}, not {' or '.join(map(str, attempt.codes))}")
-    if any(not line.startswith("faststrip: ") or not line.isprintable() for line in lines):
+    if any(not line.startswith(speaker) or not line.isprintable() for line in lines):
         wrong.append("an unclear line")
     if len(lines) != 1 and not (attempt.rows and 1 <= len(lines) <= 10):
         wrong.append(f"{len(lines)} lines")
@@ -543,8 +554,8 @@ def run(attempt, limit):
         words = [word.replace("{folder}", place) for word in attempt.words]
         start = time.monotonic()
         process = subprocess.Popen(
-            [PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, preexec_fn=attempt.in_the_child, user=attempt.user,
+            [attempt.program, *words], cwd=folder, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=attempt.in_the_child, user=attempt.user,
             env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
         if attempt.during:
             attempt.during(process, folder)
@@ -558,7 +569,8 @@ def run(attempt, limit):
         changes = {name for name in before.keys() | after.keys()
                    if before.get(name) != after.get(name)}
         err = err.decode("utf-8", "backslashreplace")
-        return judge(attempt, process.returncode, seconds, err, changes, limit), process.returncode, err
+        code = process.returncode
+        return judge(attempt, code, seconds, err, changes, limit), code, err
 
 
 def attempts(n, seed, family=""):
@@ -600,7 +612,8 @@ def main(words=None):
             print(f"{number:6}  {attempt.family:14}  {'; '.join(wrong)}\n"
                   f"{'':24}{str(attempt)[:200]}\n{'':24}{err[-400:]!r}", flush=True)
     ends = ", ".join(f"{count} x {code}" for code, count in sorted(codes.items()))
-    print(f"{arguments.n} hostile inputs with seed {arguments.seed}: {bad} wrong; exit codes {ends}")
+    print(f"{arguments.n} hostile inputs with seed {arguments.seed}: {bad} wrong;"
+          f" exit codes {ends}")
     return 1 if bad else 0
 
 

@@ -9,7 +9,7 @@ module faststrip_command_console
     use faststrip_base_text, only: integer_text, lower_case
     use faststrip_command_machine, only: compiler_name, compiler_flags
     use faststrip_command_revision, only: revision
-    use faststrip_command_system, only: set_progress, is_printed
+    use faststrip_command_system, only: set_progress, set_speaker, is_printed
     implicit none
     private
 
@@ -33,6 +33,7 @@ contains
         character(len=*), intent(in) :: name !! as typed
 
         speaker = name
+        call set_speaker(name)
     end subroutine name_program
 
     !> Name of the program.

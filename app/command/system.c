@@ -23,6 +23,7 @@ static char temporaries[most_temporaries][PATH_MAX];
 static volatile sig_atomic_t n_temporaries;
 
 /* Two texts of what is being done, so that one is whole while the other is written. */
+static char speaker[32] = "faststrip";
 static char doing[2][longest_text];
 static volatile sig_atomic_t doing_now;
 static volatile sig_atomic_t told, seconds;
@@ -213,10 +214,12 @@ enum { n_known = sizeof known / sizeof known[0], first_not_ignored = 6 };
 
 static void end_by_signal(int number)
 {
-    char line[longest_text] = "faststrip: ended by signal ";
+    char line[longest_text] = "";
     int i;
 
     remove_temporaries();
+    append(line, sizeof line, speaker);
+    append(line, sizeof line, ": ended by signal ");
     for (i = 0; i < n_known && known[i].number != number; i++)
         ;
     append(line, sizeof line, i < n_known ? known[i].name : "?");
@@ -232,12 +235,14 @@ static void end_by_signal(int number)
 /* Once a second: what is being done, if that is news; else ever more rarely. */
 static void tell_progress(int number)
 {
-    char line[longest_text + 20] = "faststrip: ";
+    char line[longest_text + 40] = "";
     int now = doing_now, saved = errno;
 
     (void)number;
     seconds++;
     if (now != told || (seconds & (seconds - 1)) == 0) {
+        append(line, sizeof line, speaker);
+        append(line, sizeof line, ": ");
         append(line, sizeof line, doing[now & 1]);
         append(line, sizeof line, ", ");
         append_number(line, sizeof line, seconds);
@@ -246,6 +251,12 @@ static void tell_progress(int number)
         told = now;
     }
     errno = saved;
+}
+
+/* Which of the programs speaks, at the start of each line on stderr. */
+void faststrip_set_speaker(const char *name)
+{
+    strncpy(speaker, name, sizeof speaker - 1);
 }
 
 /* What the lines on stderr say that long work is at. */

@@ -5,7 +5,7 @@ module faststrip_command_system
     private
 
     public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, remove_leftovers
-    public :: start_signals, set_progress, set_detail, is_printed
+    public :: start_signals, set_progress, set_detail, set_speaker, is_printed
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     ! Kinds of files, as `system.c` numbers them.
@@ -70,6 +70,11 @@ module faststrip_command_system
             character(kind=c_char), intent(in) :: line(*)
             integer(c_int) :: code
         end function c_print
+
+        subroutine c_set_speaker(name) bind(c, name='faststrip_set_speaker')
+            import :: c_char
+            character(kind=c_char), intent(in) :: name(*)
+        end subroutine c_set_speaker
 
         subroutine c_set_progress(text) bind(c, name='faststrip_set_progress')
             import :: c_char
@@ -153,6 +158,13 @@ contains
 
         is_printed = c_print(line // c_null_char) == 0
     end function is_printed
+
+    !> Say which of the programs speaks when a signal ends it or long work is told of.
+    subroutine set_speaker(name)
+        character(len=*), intent(in) :: name !! of the program
+
+        call c_set_speaker(name // c_null_char)
+    end subroutine set_speaker
 
     !> Say what is being done; it is told only if it takes long.
     subroutine set_progress(text)

@@ -1,4 +1,4 @@
-"""Run bin/faststrip from outside, in folders of its own, and read what it writes."""
+"""Run bin/faststrip or bin/faststrip-lab in folders of their own, and read what they write."""
 
 import csv
 import pathlib
@@ -12,13 +12,15 @@ PATIENCE = 600
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "bin" / "faststrip"
+LAB = ROOT / "bin" / "faststrip-lab"
 GAPS = ROOT / "reference" / "contact" / "gaps"
 
 BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 RESULT_COLUMNS = (
     "status,penetration_mm,area_mm2,pmax_MPa,ymin_mm,ymax_mm,xmax_mm,n_patches,Fx_N,Fy_N,"
     "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us,residual_inside,"
-    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,gap_change_um,choice,strips_across"
+    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,gap_change_um,choice,"
+    "strips_across"
 ).split(",")
 
 # What does not change from run to run and is no status.
@@ -28,7 +30,7 @@ FIGURES = RESULT_COLUMNS[1:RESULT_COLUMNS.index("normal_us")]
 def without_progress(said):
     """What was said on stderr, but for the lines that tell how far long work is."""
     return "".join(line for line in said.splitlines(keepends=True)
-                   if not re.fullmatch(r"faststrip: .*, \d+ s\n", line))
+                   if not re.fullmatch(r"faststrip(-lab)?: .*, \d+ s\n", line))
 
 
 def rows_of(text):
@@ -75,6 +77,8 @@ def profile_case(contact="load_N = 1e5", wheel="profile = 's1002'", rail="profil
 class ProgramTest(unittest.TestCase):
     """Tests that run the program in a folder that is gone afterwards."""
 
+    program = PROGRAM
+
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
@@ -92,7 +96,7 @@ class ProgramTest(unittest.TestCase):
     def run_program(self, *words):
         """Run the program; its stderr without the lines of progress."""
         done = subprocess.run(
-            [str(PROGRAM), *(str(word) for word in words)],
+            [str(self.program), *(str(word) for word in words)],
             cwd=self.folder,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -135,7 +139,7 @@ class ProgramTest(unittest.TestCase):
         done = self.run_program(*words)
         self.assertEqual(done.returncode, code, (words, done.stderr))
         self.assertEqual(done.stdout, "", words)
-        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]+\n\Z", words)
+        self.assertRegex(done.stderr, rf"\A{self.program.name}: [^\n]+\n\Z", words)
         for text in says:
             self.assertIn(text, done.stderr, words)
         return done.stderr
@@ -160,3 +164,9 @@ class ProgramTest(unittest.TestCase):
     def assert_close(self, value, wanted, relative=0.0, absolute=0.0, what=None):
         self.assertLessEqual(abs(value - wanted), relative * abs(wanted) + absolute,
                              (what, value, wanted))
+
+
+class LabTest(ProgramTest):
+    """The same with the program of the laboratory."""
+
+    program = LAB

@@ -1,12 +1,12 @@
 """`faststrip-lab bench integral`: the file it writes. Times are the machine's; errors are ours."""
 
-from cli_program import ProgramTest
+from cli_program import LabTest
 
 COLUMNS = ["method", "n", "b", "loop", "ns", "ratio", "rel_err", "flags", "compiler", "cpu"]
 METHODS = {"published", "refit 6", "refit 9", "refit 12", "closed", "gsl 1-D", "gsl 2-D"}
 
 
-class Bench(ProgramTest):
+class Bench(LabTest):
     @classmethod
     def setUpClass(cls):
         cls.rows = None

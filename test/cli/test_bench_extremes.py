@@ -1,8 +1,8 @@
-"""`faststrip-lab bench extremes`: every row a figure or a status, and figures within their bounds."""
+"""`faststrip-lab bench extremes`: each row a figure or a status, figures within bounds."""
 
 import math
 
-from cli_program import ROOT, ProgramTest
+from cli_program import ROOT, LabTest
 
 COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
 FOLDERS = ("--contacts", ROOT / "reference" / "contact",
@@ -17,7 +17,7 @@ PARTS = {
 }
 
 
-class Extremes(ProgramTest):
+class Extremes(LabTest):
     def extremes(self, *words):
         done = self.run_program("bench", "extremes", "--quick", "-o", "out.csv", *FOLDERS, *words)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)

@@ -1,12 +1,12 @@
-"""`faststrip-lab bench kalker`: Kalker's coefficients from TANG, extrapolated in the elements' size."""
+"""`faststrip-lab bench kalker`: Kalker's coefficients from TANG, extrapolated in size."""
 
-from cli_program import ROOT, ProgramTest
+from cli_program import ROOT, LabTest
 
 CONTACTS = ROOT / "reference" / "contact"
 NAMES = ("C11", "C22", "C23", "C32", "C33")
 
 
-class Kalker(ProgramTest):
+class Kalker(LabTest):
     def test_within_one_percent_of_the_table_and_contact(self):
         done = self.run_program("bench", "kalker", "--quick", "--contacts", str(CONTACTS), "-o",
                                 "out.csv")

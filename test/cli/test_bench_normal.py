@@ -1,14 +1,14 @@
-"""`faststrip-lab bench normal`, `accuracy` and `convergence`: the columns, and that they measure."""
+"""`faststrip-lab bench normal`, `accuracy`, `convergence`: the columns, and that they measure."""
 
 import math
 import statistics
 
-from cli_program import GAPS, ROOT, ProgramTest, numbers
+from cli_program import GAPS, ROOT, LabTest
 
 CONTACTS = ROOT / "reference" / "contact"
 
 
-class Bench(ProgramTest):
+class Bench(LabTest):
     def setUp(self):
         super().setUp()
         # Three of the twenty contacts.

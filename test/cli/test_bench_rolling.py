@@ -2,7 +2,7 @@
 
 import sys
 
-from cli_program import GAPS, ROOT, ProgramTest
+from cli_program import GAPS, ROOT, LabTest
 
 sys.path.insert(0, str(ROOT / "plots"))
 
@@ -11,7 +11,7 @@ from faststrip_plots.verdicts import judge, read_manifest  # noqa: E402
 CONTACTS = ROOT / "reference" / "contact"
 
 
-class Rolling(ProgramTest):
+class Rolling(LabTest):
     def test_every_comparison_of_the_manifest_finds_its_rows(self):
         for name, keeps in (("s1002_uic60_A", lambda cells: cells[0] == "2"),
                             ("s1002_uic60_B", lambda cells: cells[0] == "2"),

@@ -2,7 +2,7 @@
 
 import statistics
 
-from cli_program import GAPS, ROOT, ProgramTest
+from cli_program import GAPS, ROOT, LabTest
 
 CONTACTS = ROOT / "reference" / "contact"
 SCENES = ROOT / "reference" / "scenes" / "scenes.csv"
@@ -11,7 +11,7 @@ METHODS = ["faststrip", "faststrip-paper", "faststrip-corrected", "fastsim", "fa
 LAWS = METHODS[6:]
 
 
-class Bench(ProgramTest):
+class Bench(LabTest):
     def test_tangential(self):
         lines = (CONTACTS / "s1002_uic60_B.csv").read_text(encoding="utf-8").splitlines()
         rows = [line for line in lines if not line.startswith("#")]

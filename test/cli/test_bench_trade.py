@@ -1,6 +1,6 @@
-"""`faststrip-lab bench trade`: errors are against the references, times are there, bad lists refused."""
+"""`faststrip-lab bench trade`: errors against the references, times, bad lists refused."""
 
-from cli_program import ROOT, ProgramTest, numbers
+from cli_program import ROOT, LabTest, numbers
 
 CONTACTS = ROOT / "reference" / "contact"
 SCENES = ROOT / "reference" / "scenes" / "scenes.csv"
@@ -8,7 +8,7 @@ HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip
           "fastsim_ny,element_mm\n")
 
 
-class Trade(ProgramTest):
+class Trade(LabTest):
     def trade(self, methods):
         self.write("methods.csv", HEADER + methods)
         done = self.run_program("bench", "trade", "--quick", "--methods", "methods.csv",

@@ -1,13 +1,13 @@
 """`faststrip-lab errata`: literal and right readings side by side."""
 
-from cli_program import ProgramTest, rows_of
+from cli_program import PROGRAM, LabTest, rows_of
 
 COLUMNS = ["equation", "what", "literal", "right", "unit", "deviation", "note"]
 
 
-class Errata(ProgramTest):
+class Errata(LabTest):
     def test_every_erratum_has_its_figures(self):
-        rows = self.good("table", "--errata")
+        rows = self.good("errata")
         self.assertEqual(list(rows[0]), COLUMNS)
         text = " ".join(row["equation"] for row in rows)
         for equation in ("(6)", "(9)", "(12)", "Table 1", "(22)-(24)", "(30)", "(31)", "(32)",
@@ -20,7 +20,7 @@ class Errata(ProgramTest):
                                        delta=1e-9 * abs(ratio) + 1e-15)
 
     def test_the_figures_are_those_of_the_theory(self):
-        rows = {(row["equation"], row["what"]): row for row in self.good("table", "--errata")}
+        rows = {(row["equation"], row["what"]): row for row in self.good("errata")}
 
         def deviation(equation, start):
             found = [float(row["deviation"]) for key, row in rows.items()
@@ -35,11 +35,17 @@ class Errata(ProgramTest):
                                delta=1e-4)
 
     def test_a_file_leaves_lines_to_read(self):
-        done = self.run_program("table", "--errata", "-o", "errata.csv")
+        done = self.run_program("errata", "-o", "errata.csv")
         self.assertEqual(done.returncode, 0, msg=done.stderr)
         self.assertIn("literal", done.stdout)
         self.assertEqual(list(rows_of((self.folder / "errata.csv").read_text())[0]), COLUMNS)
 
     def test_other_options_are_refused(self):
         for words in (("--degree", "3"), ("--audit",), ("file.csv",)):
-            self.refused(2, "table", "--errata", *words)
+            self.refused(2, "errata", *words)
+
+    def test_the_installed_program_says_where_it_is_now(self):
+        self.program = PROGRAM
+        for words in ((), ("-o", "errata.csv"), ("--degree", "3")):
+            self.refused(2, "table", "--errata", *words, says=["faststrip-lab errata"])
+        self.assertFalse((self.folder / "errata.csv").exists())

@@ -3,8 +3,17 @@
 import os
 import threading
 
-from cli_program import (BATCH_COLUMNS, GAPS, ROOT, ProgramTest, gap_case, gap_text, parabola,
-                         profile_case)
+from cli_program import (
+    BATCH_COLUMNS,
+    GAPS,
+    LAB,
+    ROOT,
+    ProgramTest,
+    gap_case,
+    gap_text,
+    parabola,
+    profile_case,
+)
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
@@ -47,6 +56,7 @@ class Outputs(ProgramTest):
         self.untouched(2, "sweep", "prof.nml", "-o", "w.txt", says=["-o", "w.txt"])
         self.untouched(2, "table", "--audit", "ok.csv", "-o", "./ok.csv", says=["-o", "./ok.csv"])
         self.untouched(2, "integral", "--input", "ok.csv", "-o", "ok.csv", says=["-o", "ok.csv"])
+        self.program = LAB
         self.untouched(2, "fuzz", "--read", "ok.csv", "-o", "ok.csv", says=["-o"])
 
     def test_two_outputs_on_one_path(self):
@@ -80,6 +90,7 @@ class Outputs(ProgramTest):
         self.assertEqual(len(self.read(name)), 1)
 
     def test_folders_of_inputs(self):
+        self.program = LAB
         for name in ("gaps/shift_0.csv", "gaps/shift_1.csv", "s1002_uic60_B.csv"):
             self.write(f"contacts/{name}", (GAPS.parent / name).read_text(encoding="utf-8"))
         self.refused(2, "bench", "accuracy", "--contacts", "contacts", "-o",

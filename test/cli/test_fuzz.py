@@ -1,6 +1,6 @@
 """`faststrip-lab fuzz`: random gaps, a few of the cases of `./run fuzz`."""
 
-from cli_program import ProgramTest, rows_of
+from cli_program import LabTest, rows_of
 
 FAMILIES = {"hertz", "several", "merging", "small_second", "kinks", "flat_top", "wavy",
             "conformal", "concave", "varying_a", "negative_a", "measured", "edge", "mixed",
@@ -45,7 +45,7 @@ FAULTS = {
 }
 
 
-class Fuzz(ProgramTest):
+class Fuzz(LabTest):
     def test_no_case_of_a_plain_family_displeases_a_judge(self):
         for family in ("slender", "offset", "fine"):
             with self.subTest(family):

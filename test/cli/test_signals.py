@@ -6,8 +6,17 @@ import signal
 import subprocess
 import time
 
-from cli_program import (BATCH_COLUMNS, PATIENCE, PROGRAM, ProgramTest, gap_case, gap_text,
-                         parabola, without_progress)
+from cli_program import (
+    BATCH_COLUMNS,
+    LAB,
+    PATIENCE,
+    PROGRAM,
+    ProgramTest,
+    gap_case,
+    gap_text,
+    parabola,
+    without_progress,
+)
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
@@ -59,6 +68,16 @@ class Signals(ProgramTest):
             self.assertEqual(code, 128 + number)
             self.assertRegex(said, rf"\Afaststrip: [^\n]* {number.name[3:]} [^\n]*\n\Z")
             self.assertEqual(self.names(), names)
+
+    def test_the_laboratory_speaks_by_its_own_name(self):
+        process = subprocess.Popen([LAB, "fuzz", "--cases", "1000000", "-o", "out.csv"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   encoding="utf-8", preexec_fn=as_from_a_shell)
+        self.assertRegex(process.stderr.readline(), r"\Afaststrip-lab: [^\n]*, \d+ s\n\Z")
+        process.terminate()
+        code, said = self.ended(process)
+        self.assertEqual(code, 128 + signal.SIGTERM)
+        self.assertRegex(said, r"\Afaststrip-lab: ended by signal TERM [^\n]*\n\Z")
 
     def test_a_limit_of_file_sizes(self):
         names = self.names()

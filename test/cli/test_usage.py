@@ -1,8 +1,9 @@
 """Help, version and what the command line itself refuses."""
 
-from cli_program import ROOT, ProgramTest, gap_case, gap_text, parabola
+from cli_program import LAB, ROOT, ProgramTest, gap_case, gap_text, parabola
 
 SUBCOMMANDS = ("integral", "contact", "batch", "sweep")
+OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 
 
 class Help(ProgramTest):
@@ -38,6 +39,21 @@ class Help(ProgramTest):
             text = self.check(name, "--help")
             for option in options:
                 self.assertIn(f"\n  {option} ", text)
+
+    def test_the_laboratory_is_a_program_of_its_own(self):
+        text = self.check("--help")
+        for name in (*OF_THE_LAB, "report"):
+            self.assertNotRegex(text, rf"\b{name}\b")
+            self.refused(2, name, says=[f"unknown subcommand: {name}"])
+        self.program = LAB
+        text = self.check("--help")
+        self.assertTrue(text.startswith("usage: faststrip-lab "))
+        for name in OF_THE_LAB:
+            self.assertIn(f"\n  {name} ", text)
+            about = self.check(name, "--help", lines=4)
+            self.assertTrue(about.startswith(f"usage: faststrip-lab {name}"))
+        self.refused(2, "contact", says=["unknown subcommand: contact", "see faststrip-lab --help"])
+        self.assertRegex(self.check("--version"), r"\Afaststrip-lab \S+ rev \S+\n\Z")
 
     def test_version_is_that_of_the_manifest(self):
         manifest = (ROOT / "fpm.toml").read_text(encoding="utf-8")

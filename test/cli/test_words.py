@@ -3,7 +3,7 @@
 import re
 import subprocess
 
-from cli_program import BATCH_COLUMNS, PROGRAM, ProgramTest, gap_case, gap_text, parabola
+from cli_program import BATCH_COLUMNS, LAB, PROGRAM, ProgramTest, gap_case, gap_text, parabola
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
@@ -53,9 +53,12 @@ class Words(ProgramTest):
         self.refused(2, "table", "--format", "xml", says=["--format must be", "'xml'"])
         self.refused(2, "table", "--range", "1", says=["--range must be LOW:HIGH", "'1'"])
         self.refused(2, "table", "--n", "3:1", says=["--n must be", "'3:1'"])
-        self.refused(2, "bench", "integral", "--rounds", "0", says=["--rounds must be", "'0'"])
         self.refused(2, "integral", "--n", "1", "--b", "x", says=["--b must be", "'x'"])
         self.refused(2, "integral", "--n", "1", "--b", "1", "--method", "x", says=["--method must"])
+        self.program = LAB
+        said = self.refused(2, "bench", "integral", "--rounds", "0",
+                            says=["--rounds must be", "'0'"])
+        self.assertIn("see faststrip-lab bench --help", said)
 
     def test_the_gap_file_is_named(self):
         flat = gap_text(lambda y: 1.0 - 1e-3 * y * y, n=61, inv2r=-1.0)

@@ -32,7 +32,7 @@ contains
     !> Run the subcommand from the command line.
     subroutine run_bench()
         type(command_t) :: command
-        character(len=:), allocatable :: what, file, folder
+        character(len=:), allocatable :: what, file, folder, methods, references, scenes
         integer :: rounds, most_strips, most_elements
         real(wp) :: seconds
 
@@ -48,7 +48,7 @@ contains
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
             option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
-                     // ' elements (default 6)'), &
+                     // new_line('a') // 'elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)', reads=.true.), &
             option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
@@ -85,10 +85,9 @@ contains
             call bench_tangential(file, folder, rounds)
         case ('forces')
             call allow([character(len=name_length) :: '--contacts', '--scenes'])
-            call take_input(option_text(command, '--scenes', &
-                                        in_checkout('reference/scenes/scenes.csv')))
-            call bench_forces(file, folder, option_text(command, '--scenes', &
-                                                        in_checkout('reference/scenes/scenes.csv')))
+            scenes = option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv'))
+            call take_input(scenes)
+            call bench_forces(file, folder, scenes)
         case ('certificate')
             call allow([character(len=name_length) ::])
             call run_certificate_study(file)
@@ -110,31 +109,25 @@ contains
         case ('extremes')
             call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
                         '--references', '--scenes'])
-            call take_input(option_text(command, '--references', &
-                                        in_checkout('reference/influence')))
-            call take_input(option_text(command, '--scenes', in_checkout('example/scenes')))
+            references = option_text(command, '--references', in_checkout('reference/influence'))
+            scenes = option_text(command, '--scenes', in_checkout('example/scenes'))
+            call take_input(references)
+            call take_input(scenes)
             call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
-                                given(command, '--quick'), folder, &
-                                option_text(command, '--references', &
-                                            in_checkout('reference/influence')), &
-                                option_text(command, '--scenes', in_checkout('example/scenes')))
+                                given(command, '--quick'), folder, references, scenes)
         case ('scenes')
             call allow([character(len=name_length) :: '--scenes'])
-            call take_input(option_text(command, '--scenes', in_checkout('example/scenes')))
-            call bench_scenes(file, option_text(command, '--scenes', in_checkout('example/scenes')))
+            scenes = option_text(command, '--scenes', in_checkout('example/scenes'))
+            call take_input(scenes)
+            call bench_scenes(file, scenes)
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
-            call take_input(option_text(command, '--methods', &
-                                        in_checkout('reference/trade_methods.csv')))
-            call take_input(option_text(command, '--scenes', &
-                                        in_checkout('reference/scenes/scenes.csv')))
-            call bench_trade(file, option_text(command, '--methods', &
-                                               in_checkout('reference/trade_methods.csv')), &
-                                               folder, &
-                             option_text(command, '--scenes', &
-                                         in_checkout('reference/scenes/scenes.csv')), &
-                             given(command, '--quick'))
+            methods = option_text(command, '--methods', in_checkout('reference/trade_methods.csv'))
+            scenes = option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv'))
+            call take_input(methods)
+            call take_input(scenes)
+            call bench_trade(file, methods, folder, scenes, given(command, '--quick'))
         case default
             call usage_error('WHAT must be a bench of the list, got ''' // what // '''', &
                              command%name)
