@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Translate pFUnit test files (.pf) to Fortran, with a program that runs them.
 
-    pf2f90.py [--source test/pf] [--target test]
+    pf2f90.py [--source test/pf] [--target build/tests]
 
 Every SOURCE/<room>/test_<thing>.pf becomes TARGET/generated_<room>_test_<thing>.f90, and
 TARGET/generated_runner.f90 calls them all. A generated file is written only when its content
@@ -274,7 +274,7 @@ def write_all(files, target):
 def main():
     parser = argparse.ArgumentParser(description="Translate pFUnit tests to Fortran.")
     parser.add_argument("--source", type=pathlib.Path, default=pathlib.Path("test/pf"))
-    parser.add_argument("--target", type=pathlib.Path, default=pathlib.Path("test"))
+    parser.add_argument("--target", type=pathlib.Path, default=pathlib.Path("build/tests"))
     options = parser.parse_args()
     try:
         files = translate_all(options.source)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Build the kernels in single precision from the sources as they are, and compare them.
 
-src/faststrip/base/kinds.f90 is exchanged for tools/single_precision/kinds.f90, and the names of LAPACK's
-double precision routines in the objects for those of the single precision ones. The same program
-is built in double precision too; the relative differences of what both print are written as CSV.
+src/faststrip/base/kinds.f90 is exchanged for tools/single_precision/kinds.f90, and the names of
+LAPACK's double precision routines in the objects for those of the single precision ones. The same
+program is built in double precision too; the relative differences of what both print are written
+as CSV.
 """
 
 import argparse

@@ -1,0 +1,558 @@
+#!/usr/bin/env python3
+"""usage: ./run COMMAND
+
+  build         build the release; the programs are then bin/faststrip and bin/faststrip-lab
+  test [TEXT]   run all tests and lint, or those whose room/module::test contains TEXT
+  lint [TEXT]   check the form of the sources: ruff, shellcheck, line lengths
+  mutants [ROOM] [--only ID] [--jobs N] [--quick]
+                change one thing at a time in a copy and say which changes no test notices;
+                --quick asks the tests of the room only
+  hostile [N] [--seed S]
+                build, then try 500 (or N) hostile inputs: each must end with one clear line
+  fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and judge the answers
+  demo          build, then compute and draw the example; results in out/
+  strips        build, then time the strip solver and draw its convergence; in out/strips/
+  extremes      build, then measure accuracy and steadiness at the extremes, also in single
+                precision and in all rounding modes; in out/extremes/
+  forces        build, then judge, time and draw the tangential methods; in out/forces/
+  scenes        the first of the stored results: forces of 240 contacts; in reference/scenes/
+  stored [NAME] build, then make the stored results anew, all or one (listed in
+                reference/stored.csv); everything has to be committed before, some minutes
+  report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
+  install --prefix FOLDER
+                build, then install program, library, modules, header, man page there
+  docs          build the pages of the Fortran interface; in out/docs/
+  embed         build, then time calls from Fortran, F77, C and Python; in out/embed/
+  tables        build, then audit, remake, time and draw the coefficient tables; in out/tables/
+  compilers     try to build with gfortran 12 and the newest gfortran and flang of Debian
+  clean [all]   remove what was built; with `all` also .venv
+  help          this text
+
+What is missing is installed first: Debian packages as root or with sudo, Python packages into
+.venv. FASTSTRIP_FFLAGS adds compiler flags to the release build, for example -march=native.
+"""
+
+import filecmp
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+LOGS = pathlib.Path("build/logs")
+FPM = ".venv/bin/fpm"
+PROGRAMS = ("faststrip", "faststrip-lab")
+
+COMMON = "-frecursive -fimplicit-none -std=f2018"
+RELEASE_FLAGS = f"-O3 -fopenmp-simd -fPIC {COMMON} {os.environ.get('FASTSTRIP_FFLAGS', '')}"
+# Without the C library's vector functions, which know rounding to nearest only.
+SCALAR_FLAGS = f"-O3 -fno-tree-vectorize -fPIC {COMMON}"
+TEST_FLAGS = (f"-Og -g -fopenmp-simd {COMMON} -Wall -Wextra -pedantic -Werror -Wno-compare-reals"
+              " -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow -finit-real=snan")
+
+# The pipelines: `== ` before a heading; the other lines are commands, run from the checkout.
+DEMO = """
+== the paper, section 5: S1002 on UIC60 1:40, 20 lateral shifts
+faststrip sweep example/s1002_uic60.nml --normal norm --tangential tang -o out/sweep.csv
+"""
+DEMO_SHIFT = """
+faststrip contact example/s1002_uic60.nml --shift {shift} -o out/contact_shift_{shift}.csv \
+    --profiles out/profiles_shift_{shift}.csv --strips out/strips_shift_{shift}.csv \
+    --fields out/fields_shift_{shift}.csv
+faststrip contact example/s1002_uic60.nml --shift {shift} --normal norm --tangential tang \
+    -o /dev/null --fields out/norm_shift_{shift}.csv
+python plots/profiles.py --shift {shift}
+python plots/patches.py --shift {shift} --norm out/norm_shift_{shift}.csv
+"""
+DEMO_END = """
+python plots/sweep.py
+python plots/overview.py
+== accuracy
+python plots/accuracy.py
+== done: tables and pictures are in out/, the accuracy table in out/accuracy.md
+"""
+TABLES = """
+== the published table audited, and the paper as printed
+faststrip table --audit -o {out}/audit.csv
+faststrip-lab errata -o {out}/errata.csv >{out}/errata.txt
+== tables made anew
+faststrip table -o {out}/table_lsq.csv
+faststrip table --fit minimax -o {out}/table_minimax.csv
+faststrip table --fit author -o {out}/table_author.csv
+faststrip table --degree 16 --basis chebyshev --format fortran -o {out}/strip_table.inc
+== curves, degrees and times
+faststrip table --curves {out}/curves.csv
+faststrip table --degrees {out}/degrees.csv
+faststrip-lab bench integral -o {out}/bench_integral.csv
+python plots/integrals.py --curves {out}/curves.csv --folder {out}
+python plots/degrees.py --degrees {out}/degrees.csv -o {out}/degrees.png
+python plots/bench_integral.py --bench {out}/bench_integral.csv -o {out}/bench_integral.png
+== done: tables, errata and pictures are in {out}/
+"""
+STRIPS = """
+== errors against CONTACT, against many strips and against Hertz
+faststrip-lab bench accuracy -o {out}/accuracy.csv
+faststrip-lab bench convergence -o {out}/convergence.csv
+== times
+faststrip-lab bench normal -o {out}/bench_normal.csv
+python plots/convergence.py --convergence {out}/convergence.csv -o {out}/convergence.png
+python plots/bench_normal.py --bench {out}/bench_normal.csv -o {out}/bench_normal.png
+== done: tables and pictures are in {out}/
+"""
+EXTREMES = """
+== errors at the extremes
+faststrip-lab bench extremes -o {out}/extremes.csv
+== rounding modes without vector functions
+"""
+EXTREMES_END = """
+{scalar} bench extremes --only rounding -o {out}/rounding.csv
+== single precision
+python tools/single_precision.py -o {out}/single.csv
+python plots/extremes.py --extremes {out}/extremes.csv --rounding {out}/rounding.csv \
+    --single {out}/single.csv --folder {out}
+== done: tables and pictures are in {out}/
+"""
+FORCES = """
+== errors of all tangential methods against CONTACT and TANG
+faststrip-lab bench forces -o {out}/forces.csv
+== times
+faststrip-lab bench tangential -o {out}/bench_tangential.csv
+python plots/forces.py
+"""
+FORCES_SHIFT = """
+faststrip contact example/s1002_uic60.nml --shift {shift} --strips-per-patch 31 \
+    --points-per-strip 31 -o /dev/null --fields {out}/fields_shift_{shift}.csv
+python plots/tractions.py --shift {shift} --fields {out}/fields_shift_{shift}.csv \
+    -o {out}/tractions_shift_{shift}.png
+"""
+FORCES_END = """
+== done: tables and pictures are in {out}/
+"""
+
+
+class Trouble(Exception):
+    """Why a step cannot be done, in one line, and what there is to read about it."""
+
+    def __init__(self, why, log="", code=1):
+        super().__init__(why)
+        self.log = log
+        self.code = code
+
+
+# Running
+
+def heading(text):
+    print(f"\n== {text}", flush=True)
+
+
+def exit_code(code):
+    """An exit code as the shell has it: 128 + n after signal n."""
+    return 128 - code if code < 0 else code
+
+
+def do(*words, output=None):
+    """Run a command; one that fails ends the step with its exit code and has said why."""
+    code = exit_code(subprocess.run([str(word) for word in words], check=False,
+                                    stdout=output).returncode)
+    if code != 0:
+        sys.exit(code)
+
+
+def quietly(name, words, trouble):
+    """Run a command in silence; what it said is in its log, and told only if it fails."""
+    LOGS.mkdir(parents=True, exist_ok=True)
+    log = LOGS / f"{name}.log"
+    with open(log, "wb") as stream:
+        code = subprocess.run(words, stdout=stream, stderr=subprocess.STDOUT,
+                              check=False).returncode
+    if code != 0:
+        raise Trouble(trouble, log.read_text(encoding="utf-8", errors="replace"))
+
+
+def pipeline(text, **names):
+    """Do the lines of a pipeline, with {names} filled in."""
+    programs = {name: f"bin/{name}" for name in PROGRAMS} | {"python": sys.executable}
+    for line in filter(None, text.split("\n")):
+        line = line.format(**names)
+        if line.startswith("== "):
+            heading(line[3:])
+            continue
+        first, *words = shlex.split(line)
+        first = programs.get(first, first)
+        if words[-1].startswith(">"):
+            with open(words[-1][1:], "wb") as stream:
+                do(first, *words[:-1], output=stream)
+        else:
+            do(first, *words)
+
+
+def folder(name):
+    """A folder below out/, made."""
+    path = pathlib.Path("out", name)
+    path.mkdir(parents=True, exist_ok=True)
+    return path.as_posix()
+
+
+# Building
+
+def git(*words):
+    """What git says, or nothing if it fails or there is none."""
+    try:
+        return subprocess.run(["git", *words], capture_output=True, encoding="utf-8",
+                              check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def write_revision():
+    """The module that tells the programs what they were built from; untouched if it is right."""
+    revision = (os.path.exists(".git") and git("rev-parse", "--short", "HEAD")) or "unknown"
+    if revision != "unknown" and git("status", "--porcelain"):
+        revision += "-dirty"
+    text = f"""\
+!> Written by ./run: which revision the program was built from.
+module faststrip_command_revision
+    implicit none
+    private
+
+    character(len=*), parameter, public :: revision = '{revision}'
+end module faststrip_command_revision
+"""
+    path = pathlib.Path("app/command/revision.f90")
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def fpm_build(name, package, flags):
+    quietly(name, [FPM, "build", "-C", package, "--compiler", "gfortran", "--flag", flags],
+            "the build failed")
+
+
+def built(package, flags, target):
+    """Path of a program that fpm has built; fpm names it from the package's folder."""
+    said = subprocess.run([FPM, "run", "-C", package, "--target", target, "--compiler", "gfortran",
+                           "--flag", flags, "--runner", "echo"], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, encoding="utf-8", check=False).stdout
+    for line in said.splitlines():
+        path = pathlib.Path(package, line.strip())
+        if path.name == target and path.is_file():
+            return path.as_posix()
+    raise Trouble("the build failed", f"fpm names no program {target}\n")
+
+
+def build():
+    """Both programs in bin/, written only where they have changed."""
+    write_revision()
+    fpm_build("build", "app", RELEASE_FLAGS)
+    pathlib.Path("bin").mkdir(exist_ok=True)
+    for name in PROGRAMS:
+        made, target = built("app", RELEASE_FLAGS, name), f"bin/{name}"
+        if not os.path.exists(target) or not filecmp.cmp(made, target, shallow=False):
+            # One that is running at the moment can be replaced, not written over.
+            shutil.copy2(made, f"{target}.new")
+            os.replace(f"{target}.new", target)
+
+
+# Testing
+
+class Counts:
+    """What the stages of a test counted together."""
+
+    def __init__(self, text):
+        self.text = text  # only tests that hold it run
+        self.passed = self.failed = self.skipped = 0
+
+    def stage(self, name, title, work):
+        """Run one stage of tests and add what it counted.
+
+        One that ends badly without counting a failure is one failure itself; only with a filter
+        a stage may have nothing to run.
+        """
+        heading(title)
+        try:
+            code, said = work(self.text)
+        except Trouble as trouble:
+            print(trouble.log or trouble, flush=True)
+            code, said = 1, ""
+        LOGS.mkdir(parents=True, exist_ok=True)
+        (LOGS / f"{name}.log").write_text(said, encoding="utf-8")
+        # The words are: N passed, N failed[, N skipped].
+        lines = re.findall(r"^all modules together: *(.*)$", said, re.MULTILINE)
+        passed, failed, skipped = ([int(n) for n in re.findall(r"\d+", lines[-1])] + [0, 0, 0]
+                                   if lines else [0, 0, 0])[:3]
+        if code != 0 and failed == 0 and (not lines or not self.text):
+            print(f"the stage '{name}' did not end well: counted as one failure", flush=True)
+            failed = 1
+        self.passed += passed
+        self.failed += failed
+        self.skipped += skipped
+
+
+def told(*words):
+    """Run a command and pass on what it says line by line; its exit code and its words."""
+    said = []
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          encoding="utf-8", errors="replace") as process:
+        try:
+            for line in process.stdout:
+                said.append(line)
+                print(line, end="", flush=True)
+        except BaseException:
+            process.kill()
+            raise
+    return process.returncode, "".join(said)
+
+
+def fortran_tests(text):
+    pathlib.Path("build/tests").mkdir(parents=True, exist_ok=True)
+    code, said = told(sys.executable, "tools/pf2f90.py")
+    if code != 0:
+        return code, said
+    fpm_build("build-tests", "test", TEST_FLAGS)
+    return told(built("test", TEST_FLAGS, "run-tests"), text)
+
+
+def release_build(_):
+    build()
+    return 0, ""
+
+
+def python_tests(text):
+    folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
+               if os.path.isdir(name)]
+    return told(sys.executable, "tools/run_pytests.py", "--filter", text, *folders)
+
+
+def lint_checks(text):
+    return told(sys.executable, "tools/lint.py", "--filter", text)
+
+
+# The steps; each takes the words that follow its name.
+
+def build_step():
+    build()
+
+
+def test(text=""):
+    counts = Counts(text)
+    counts.stage("lint", "form of the sources", lint_checks)
+    counts.stage("fortran", "Fortran tests, warnings as errors and traps on", fortran_tests)
+    counts.stage("release", "release build", release_build)
+    counts.stage("python", "Python tests", python_tests)
+    if counts.passed + counts.failed == 0:
+        print("no test ran")
+        counts.failed = 1
+    if counts.skipped > 0:
+        print(f"\n{counts.skipped} skipped")
+    print(f"\n{counts.passed} passed, {counts.failed} failed", flush=True)
+    sys.exit(counts.failed > 0)
+
+
+def lint(text=""):
+    do(sys.executable, "tools/lint.py", "--install", "--filter", text)
+
+
+def mutants(*words):
+    do(sys.executable, "tools/run_mutants.py", *words)
+
+
+def hostile(*words):
+    build()
+    do(sys.executable, "tools/hostile.py", *words)
+
+
+def fuzz(cases="100000"):
+    """The cases are dealt to two processes; each prints the table of its half."""
+    if not re.fullmatch("[0-9]+", cases):
+        raise Trouble(f"not a number of cases: {cases}")
+    count = int(cases)
+    half = (count + 1) // 2
+    pathlib.Path("out").mkdir(exist_ok=True)
+    build()
+    heading(f"cases 1 to {half}, and from {half + 1} to {count}")
+    whole = pathlib.Path("out/fuzz.csv")
+    parts = [pathlib.Path("out/fuzz_1.csv"), pathlib.Path("out/fuzz_2.csv")]
+    for path in (whole, *parts):
+        path.unlink(missing_ok=True)
+    words = ["bin/faststrip-lab", "fuzz", "--cases"]
+    halves = [subprocess.Popen([*words, str(half), "-o", parts[0]], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)]
+    if count > half:
+        halves.append(subprocess.Popen([*words, str(count - half), "--first", str(half + 1), "-o",
+                                        parts[1]], stdout=subprocess.DEVNULL))
+    try:
+        codes = [process.wait() for process in halves]
+    finally:
+        for process in halves:
+            process.kill()
+    lines = []
+    for name, code, path in zip(("first", "second"), codes, parts, strict=False):
+        # An exit code of 1 is a failed check, which the tables tell again.
+        if code not in (0, 1) or not path.exists():
+            raise Trouble(f"the {name} half broke off")
+        rows = path.read_text(encoding="utf-8").splitlines(keepends=True)
+        lines += [row for row in rows if not row.startswith("#")][1:] if lines else rows
+        path.unlink()
+    whole.write_text("".join(lines), encoding="utf-8")
+    if subprocess.run(["bin/faststrip-lab", "fuzz", "--read", whole], check=False).returncode != 0:
+        raise Trouble("some cases failed a check")
+    print("no case failed a check; one row per case in out/fuzz.csv")
+
+
+def demo():
+    build()
+    pathlib.Path("out").mkdir(exist_ok=True)
+    pipeline(DEMO)
+    for shift in (-5, 0):
+        pipeline(DEMO_SHIFT, shift=shift)
+    pipeline(DEMO_END)
+    rows = pathlib.Path("out/accuracy.md").read_text(encoding="utf-8").splitlines()
+    print("\n".join([row for row in rows if row.startswith((
+        "| method", "| strips + FASTSTRIP", "| NORM + TANG"))][:3]))
+
+
+def tables():
+    build()
+    pipeline(TABLES, out=folder("tables"))
+
+
+def strips():
+    build()
+    pipeline(STRIPS, out=folder("strips"))
+
+
+def extremes():
+    build()
+    out = folder("extremes")
+    pipeline(EXTREMES, out=out)
+    fpm_build("build-scalar", "app", SCALAR_FLAGS)
+    pipeline(EXTREMES_END, out=out, scalar=built("app", SCALAR_FLAGS, "faststrip-lab"))
+
+
+def forces():
+    build()
+    out = folder("forces")
+    pipeline(FORCES, out=out)
+    for shift in (-5, 0):
+        pipeline(FORCES_SHIFT, shift=shift, out=out)
+    pipeline(FORCES_END, out=out)
+
+
+def scenes():
+    stored("scenes")
+
+
+def stored(*names):
+    """What the program itself has made and the repository holds; it carries the revision."""
+    build()
+    if subprocess.run([sys.executable, "tools/stored.py", *names], check=False).returncode != 0:
+        raise Trouble("the stored results are not all new")
+    heading("done: look at the changes and commit them")
+
+
+def report(*words):
+    if not {"-h", "--help"} & set(words):
+        build()
+    do(sys.executable, "tools/report_runs.py", *words)
+
+
+def install_below(prefix):
+    build()
+    shutil.rmtree("build/stage", ignore_errors=True)
+    quietly("stage", [FPM, "install", "--compiler", "gfortran", "--flag", RELEASE_FLAGS,
+                      "--prefix", "build/stage"], "fpm install failed")
+    if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
+                       "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
+        raise Trouble("the installation failed")
+
+
+def install(*words):
+    if len(words) != 2 or words[0] != "--prefix" or not words[1]:
+        raise Trouble("install takes --prefix FOLDER")
+    prefix = os.path.join(START, words[1])
+    install_below(prefix)
+    heading(f"installed below {prefix}")
+    print("Python: pip install ./python")
+
+
+def docs():
+    wanted, kept = "tools/requirements-docs.txt", ".venv/requirements-docs.txt"
+    if not os.path.exists(kept) or not filecmp.cmp(wanted, kept, shallow=False):
+        heading("installing FORD")
+        quietly("pip-docs", [sys.executable, "-m", "pip", "install", "--quiet", "-r", wanted],
+                f"cannot install FORD: .venv/bin/python -m pip install -r {wanted}")
+        shutil.copy(wanted, kept)
+    do(sys.executable, "tools/document.py")
+    heading("done: out/docs/index.html")
+
+
+def embed():
+    out = folder("embed")
+    install_below(ROOT / "build" / "embed")
+    do(sys.executable, "tools/bench_embed.py", "--prefix", "build/embed", "-o",
+       f"{out}/bench_embed.csv")
+    heading(f"done: the table is {out}/bench_embed.csv")
+
+
+def compilers():
+    write_revision()
+    do(sys.executable, "tools/compilers.py")
+
+
+def clean(what=""):
+    if what not in ("", "all"):
+        raise Trouble(f"clean takes nothing or 'all', not '{what}'")
+    rubbish = [*map(pathlib.Path, ("build", "bin", "out"))]
+    for place, folders, files in os.walk("."):
+        folders[:] = [name for name in folders if name not in (".git", ".venv")]
+        if "fpm.toml" in files:
+            rubbish.append(pathlib.Path(place, "build"))
+        if pathlib.Path(place).name == "__pycache__":
+            rubbish.append(pathlib.Path(place))
+    if what == "all":
+        rubbish.append(pathlib.Path(".venv"))
+    pathlib.Path("app/command/revision.f90").unlink(missing_ok=True)
+    for path in rubbish:
+        if path.exists():
+            shutil.rmtree(path)
+
+
+STEPS = {step.__name__.removesuffix("_step"): step for step in (
+    build_step, test, lint, mutants, hostile, fuzz, demo, strips, extremes, forces, scenes, stored,
+    report, install, docs, embed, tables, compilers, clean)}
+# Commands that take words, and how many at most.
+WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
+         "hostile": None, "stored": None, "report": None}
+
+
+def main(command="", *words):
+    if command not in STEPS:
+        print(__doc__, end="", file=sys.stderr)
+        return 2
+    most = WORDS.get(command, 0)
+    try:
+        if most is not None and len(words) > most:
+            raise Trouble(f"{command} takes at most {most} words, got {' '.join(words)}"
+                          if most else f"{command} takes nothing, got {' '.join(words)}", code=2)
+        STEPS[command](*words)
+    except Trouble as trouble:
+        print(f"{trouble.log}run: {trouble}", file=sys.stderr)
+        return trouble.code
+    except OSError as error:
+        print(f"run: {error.strerror}: {error.filename}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
+    return 0
+
+
+if __name__ == "__main__":
+    START = sys.argv[1]
+    os.chdir(ROOT)
+    # Ended by a signal, a step ends the command that it runs.
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    sys.exit(main(*sys.argv[2:]))
