@@ -85,7 +85,7 @@ def draw_dots(axes, dots):
         axes.plot(x[[1, 1]], y[[0, 2]], color=look["color"], linewidth=1.4, alpha=0.55, zorder=3)
         axes.plot(x[1], y[1], linestyle="none", markeredgecolor="white", zorder=4, **look)
         obstacles += [(x[0], y[1], x[2], y[1]), (x[1], y[0], x[1], y[2])]
-    for method, pair in by_method(dots):
+    for _, pair in by_method(dots):
         if len(pair) == 2:
             x, y = zip(*((x[1], y[1]) for _, _, x, y in pair))
             axes.plot(x, y, color="#999999", linewidth=1.0, zorder=2)

@@ -24,7 +24,8 @@ CHAPTER_TEXTS = {
     "paper": ("The paper, redone", "Ours as lines, CONTACT and the paper's tables as symbols."),
     "trade": ("The trade: accuracy against time", "What an error costs, method by method."),
     "scenes": ("Scenes", "The scenes of example/scenes, each by every method."),
-    "auto": ("Only what a scene requires", "Models chosen by the error they are predicted to have."),
+    "auto": ("Only what a scene requires",
+             "Models chosen by the error they are predicted to have."),
     "extremes": ("Extremes", "Where numbers hold, and where a status word says that they do not."),
 }
 
@@ -240,8 +241,8 @@ def add_stored(document, root="."):
     history = History(root)
     document.heading("Stored results")
     document.paragraph(
-        "Not made for this report but stored with the program, which made them (`./run stored`): the"
-        " revision that did, its date and how many commits have followed."
+        "Not made for this report but stored with the program, which made them (`./run stored`):"
+        " the revision that did, its date and how many commits have followed."
         + ("" if history.known else " There is no git history here: what the stamps say."))
     document.table(("file", "age"), [
         (file, history.age(stamp_of(os.path.join(root, file)))) for file in stored_files(path)

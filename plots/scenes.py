@@ -34,7 +34,8 @@ def main(arguments=None):
     rows = errors(table)
     os.makedirs(options.folder, exist_ok=True)
     draw(rows, os.path.join(options.folder, "scenes.png"), revision(table))
-    write_rows(options.folder, "scenes_table.csv", tuple(rows[0]), [tuple(r.values()) for r in rows])
+    write_rows(options.folder, "scenes_table.csv", tuple(rows[0]),
+               [tuple(r.values()) for r in rows])
     choices = [(s, c) for s, m, c in zip(*(table.words(n) for n in ("scene", "method", "choice")))
                if m.startswith("auto")]
     write_rows(options.folder, "scenes_choice.csv", ("scene", "choice"), choices)

@@ -67,11 +67,12 @@ def main(arguments=None):
     choice = choices(points)
     write_rows(os.path.join(options.folder, "trade_choice.csv"), tuple(choice[0]),
                [tuple(row.values()) for row in choice])
-    write_rows(os.path.join(options.folder, "tables.csv"), ("file", "title", "caption", "chapter"), [
+    columns = ("file", "title", "caption", "chapter")
+    write_rows(os.path.join(options.folder, "tables.csv"), columns, [
         ("trade_choice.csv", "Which method to take",
          "The fastest whose mean error, over all contacts and figures of its stage, is within the"
-         " target, with the median of its processor times; in brackets the same for the largest error."
-         " 95th percentile and worst of the times stand in trade_points.csv. Errors of"
+         " target, with the median of its processor times; in brackets the same for the largest"
+         " error. 95th percentile and worst of the times stand in trade_points.csv. Errors of"
          f" forces and moment: {FORCES}.", "trade"),
     ])
 

@@ -24,8 +24,8 @@ def compiled_rows(prefix):
         program = pathlib.Path(folder) / "bench"
         library = prefix / "lib"
         subprocess.run(["gfortran", "-O2", f"-I{prefix}/include/faststrip", f"-J{folder}",
-                        str(ROOT / "example" / "hosts" / "bench.f90"), f"-L{library}", "-lfaststrip",
-                        f"-Wl,-rpath,{library}", "-o", str(program)], check=True)
+                        str(ROOT / "example" / "hosts" / "bench.f90"), f"-L{library}",
+                        "-lfaststrip", f"-Wl,-rpath,{library}", "-o", str(program)], check=True)
         done = subprocess.run([str(program)], stdout=subprocess.PIPE, encoding="utf-8", check=True)
     return [(what, face, float(ns)) for what, face, ns in csv.reader(done.stdout.splitlines())]
 

@@ -3,7 +3,7 @@
 
     bin/faststrip-lab bench trade -o out/trade.csv
     tools/choice_table.py --take out/trade.csv   condense a measurement into reference/choice.csv
-    tools/choice_table.py                        write the module and reference/choice_validation.csv
+    tools/choice_table.py                        write module and reference/choice_validation.csv
     tools/choice_table.py --check                exit 1 if they are not what would be written
 
 Methods of the stages `both` (forces) and `normal` (largest pressure, penetration) that the list of

@@ -131,6 +131,7 @@ def module_text():
             slopes += spline_slopes(x, y, outer_slope(coefficient, Decimal(nu), x[0], y[0]),
                                     outer_slope(coefficient, Decimal(nu), x[-1], y[-1]))
     n, m, k = len(x), len(POISSON), len(COEFFICIENTS)
+    poisson = ", ".join(nu + "_wp" if "." in nu else nu + ".0_wp" for nu in POISSON)
     return f"""!> Kalker's creepage coefficients: the table. Written by tools/kalker_table.py from
 !> reference/kalker_table.csv; change those, not this.
 module faststrip_tangential_kalker_table
@@ -147,7 +148,7 @@ module faststrip_tangential_kalker_table
     integer, parameter :: n_poisson = {m}
 
     !> Poisson's ratios of the table.
-    real(wp), parameter :: table_poisson(n_poisson) = [{", ".join(nu + "_wp" if "." in nu else nu + ".0_wp" for nu in POISSON)}]
+    real(wp), parameter :: table_poisson(n_poisson) = [{poisson}]
 
     !> ln(a/b) of the nodes, increasing.
     real(wp), parameter :: table_log_ratio(n_ratios) = [ &

@@ -5,7 +5,7 @@ Columns, mm: x, y from the middle of the rectangle to the point, sides dx, dy, a
 x^2/r^3, y^2/r^3, xy/r^3, x/r^2 and y/r^2 over it: primitives at the corners in 40 digits.
 
     python3 tools/rectangle_reference.py           write the file
-    python3 tools/rectangle_reference.py --check   compare with the committed one; exit 1 if not equal
+    python3 tools/rectangle_reference.py --check   compare with the committed one; exit 1 if other
 """
 import argparse
 import pathlib

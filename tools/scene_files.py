@@ -77,8 +77,8 @@ def main():
     points, folder = read_s1002(sys.argv[1]), Path(sys.argv[2])
     origin = "# made by tools/scene_files.py: "
     columns = "y_mm,h_mm,inv2R_per_mm"
-    write(folder / "worn_wheel.txt", [origin + "S1002 worn hollow; y to the field side, z down, mm"],
-          worn_wheel(points), " ")
+    write(folder / "worn_wheel.txt",
+          [origin + "S1002 worn hollow; y to the field side, z down, mm"], worn_wheel(points), " ")
     write(folder / "near_conformal.csv", [origin + "radii 330 and 300 mm", columns],
           near_conformal(), ",")
     write(folder / "polymer_roller.csv", [origin + "roller of 100 mm, crown 150 mm", columns],

@@ -5,9 +5,9 @@
     tools/stored.py --check        exit 1 if a stamp is not that of a clean revision in the history
     tools/stored.py [NAME...]      make them anew, all or those named (`./run stored`)
 
-They are listed in reference/stored.csv, in the order in which they are made: the later ones rest on
-the earlier. A stored result carries the revision of the program that made it, so that everything has
-to be committed before; the new files are committed after.
+They are listed in reference/stored.csv, in the order in which they are made: the later ones rest
+on the earlier. A stored result carries the revision of the program that made it, so that everything
+has to be committed before; the new files are committed after.
 """
 
 from __future__ import annotations

@@ -18,7 +18,8 @@ static void *work(void *argument)
     int first = (int)(intptr_t)argument, status, i;
 
     if (workspace == NULL) return NULL;
-    for (i = first; i < contacts; i += THREADS) found[i] = solve_example(workspace, (uint64_t)i, &status);
+    for (i = first; i < contacts; i += THREADS)
+        found[i] = solve_example(workspace, (uint64_t)i, &status);
     faststrip_free(&workspace);
     return NULL;
 }

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from typing import Optional
 
 from .tables import InputError
 
@@ -36,7 +35,7 @@ def shift_file(kind: str, shift: float) -> str:
     return f"out/{kind}_shift_{shift:g}.csv"
 
 
-def contact_file(given: Optional[str], shift: float) -> Optional[str]:
+def contact_file(given: str | None, shift: float) -> str | None:
     """CONTACT's field: the file given, or the reference's for that shift if there is one."""
     default = f"reference/contact/fields/shift_{shift:g}_B.csv"
     return given or (default if os.path.exists(default) else None)

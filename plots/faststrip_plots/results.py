@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import dataclass
-from typing import Optional
 
 import numpy as np
 
@@ -51,7 +50,7 @@ _TIME_COLUMNS = ("normal_us", "tangential_us")
 _FIGURES = tuple(q.column for q in QUANTITIES.values()) + _PATCH_COLUMNS
 
 
-def revision(table: Table) -> Optional[str]:
+def revision(table: Table) -> str | None:
     """The metadata line that names the program's version and revision, if there is one."""
     for comment in table.comments:
         if comment.startswith("faststrip"):
@@ -76,7 +75,7 @@ class MethodSweep:
     def key(self):
         return self.normal, self.tangential
 
-    def row_at(self, shift: float) -> Optional[int]:
+    def row_at(self, shift: float) -> int | None:
         """Index of the row of a shift, none if it is absent or has failed."""
         found = np.flatnonzero((np.abs(self.yw - shift) < SHIFT_TOLERANCE) & self.ok)
         return int(found[0]) if found.size else None
@@ -310,7 +309,7 @@ class Field:
     y: np.ndarray
     x: list
     pressure: list
-    stamp: Optional[str]
+    stamp: str | None
 
     def nearest_row(self, y: float) -> int:
         return int(np.argmin(np.abs(self.y - y)))
@@ -345,7 +344,7 @@ class Profiles:
 
     wheel: np.ndarray
     rail: np.ndarray
-    stamp: Optional[str]
+    stamp: str | None
 
 
 def read_profiles(path: str) -> Profiles:
@@ -371,7 +370,7 @@ class Gap:
 
     y: np.ndarray
     h: np.ndarray
-    stamp: Optional[str]
+    stamp: str | None
 
 
 def read_gap(path: str) -> Gap:

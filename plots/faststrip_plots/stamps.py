@@ -6,7 +6,6 @@ import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
 
 from .tables import InputError, read_table
 
@@ -18,7 +17,7 @@ class Stamp:
     """What a file says of its making."""
 
     text: str  # `faststrip VERSION rev REVISION`, or why there is none
-    revision: Optional[str]
+    revision: str | None
 
 
 def stamp_of(path) -> Stamp:
@@ -64,7 +63,7 @@ class History:
         head = self._git("rev-parse", "HEAD") or ""
         return len(revision) >= 7 and head.startswith(revision)
 
-    def holds(self, revision) -> Optional[bool]:
+    def holds(self, revision) -> bool | None:
         """Is a revision among those that led here? None where that cannot be known."""
         if self.known and self._git("merge-base", "--is-ancestor", revision, "HEAD") is not None:
             return True

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Optional
 
 import numpy as np
 
@@ -41,7 +40,7 @@ class Limits:
     """What a figure must reach for `holds` and for `holds with a limit`."""
 
     holds: float
-    limited: Optional[float] = None
+    limited: float | None = None
     least: bool = False  # it must be at least that, not at most
 
     def words(self, unit: str) -> str:
@@ -71,7 +70,7 @@ class Statement:
     statement: str
     subject: str  # whose figure it is
     quantity: str
-    value: Optional[float]
+    value: float | None
     unit: str
     criterion: str
     verdict: str
@@ -93,7 +92,7 @@ class Data:
     contact: Table  # CONTACT's own times
     integral: Table  # bench integral
     normal: Table  # bench normal
-    reference: Optional[Table] = None  # bench reference
+    reference: Table | None = None  # bench reference
     strips: list = field(default_factory=list)
     mu: float = 0.3
 

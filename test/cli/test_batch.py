@@ -3,8 +3,18 @@
 import statistics
 
 from cli_program import (
-    BATCH_COLUMNS, FIGURES, GAPS, RESULT_COLUMNS, ROOT, ProgramTest, gap_case, gap_text, numbers,
-    parabola, profile_case, rows_of,
+    BATCH_COLUMNS,
+    FIGURES,
+    GAPS,
+    RESULT_COLUMNS,
+    ROOT,
+    ProgramTest,
+    gap_case,
+    gap_text,
+    numbers,
+    parabola,
+    profile_case,
+    rows_of,
 )
 
 CONTACT = ROOT / "reference" / "contact" / "s1002_uic60_B.csv"

@@ -4,10 +4,18 @@ import math
 import subprocess
 
 from cli_program import (
-    FIGURES, GAPS, PROGRAM, RESULT_COLUMNS, ProgramTest, gap_case, gap_text, numbers, parabola,
-    profile_case, rows_of,
+    FIGURES,
+    GAPS,
+    PROGRAM,
+    RESULT_COLUMNS,
+    ProgramTest,
+    gap_case,
+    gap_text,
+    numbers,
+    parabola,
+    profile_case,
+    rows_of,
 )
-
 
 
 def bumpy(y):

@@ -4,7 +4,7 @@ import math
 import subprocess
 import sys
 
-from cli_program import ROOT, ProgramTest, rows_of
+from cli_program import ROOT, ProgramTest
 
 SCENES = ROOT / "example" / "scenes"
 MADE = ["worn_wheel.txt", "near_conformal.csv", "polymer_roller.csv"]

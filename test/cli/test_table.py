@@ -147,7 +147,8 @@ class Made(unittest.TestCase):
             )
 
     def test_the_widest_ranges_are_carried(self):
-        rows = self.make("--range", "-8:8", "--degree", 40, "--basis", "chebyshev", "--n", "0,10000")
+        rows = self.make("--range", "-8:8", "--degree", 40, "--basis", "chebyshev", "--n",
+                         "0,10000")
         self.assertEqual(len(rows), 2)
         rows = self.make("--degree", 0, "--n", 10000, "--range", "0:1", "--fit", "minimax")
         self.assertLess(float(rows[0]["max_rel_err"]), 1e-7)

@@ -4,7 +4,14 @@ import os
 import unittest
 
 from plot_samples import (
-    FAST_COLUMNS, Folder, csv_text, failed_row, hertz_row, reference_text, sweep_row, sweep_text,
+    FAST_COLUMNS,
+    Folder,
+    csv_text,
+    failed_row,
+    hertz_row,
+    reference_text,
+    sweep_row,
+    sweep_text,
 )
 
 

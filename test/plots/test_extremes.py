@@ -5,9 +5,8 @@ import unittest
 import matplotlib.image
 import numpy as np
 
-from plot_samples import Folder, csv_text, load
-
 from faststrip_plots import style
+from plot_samples import Folder, csv_text, load
 
 COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
 EXTREMES = "out/extremes/extremes.csv"
@@ -129,7 +128,8 @@ class BadInput(unittest.TestCase):
         self.refused(good, "no such file: s.csv", "--single", "s.csv")
         self.refused(good.replace(",quantity", ",other", 1), "missing column: quantity")
         self.refused(csv_text(COLUMNS, [row("noise", "m", "x1", 1, "pmax", 1)]), "x1")
-        self.refused(csv_text(COLUMNS, [row("guess", "m", 1, 1, "pmax", 1)]), "none of the chapters")
+        self.refused(csv_text(COLUMNS, [row("guess", "m", 1, 1, "pmax", 1)]),
+                     "none of the chapters")
 
 
 class Drawn(unittest.TestCase):

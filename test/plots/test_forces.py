@@ -15,6 +15,7 @@ sys.path.insert(0, str(ROOT / "plots"))
 
 import forces  # noqa: E402
 import tractions  # noqa: E402
+
 from faststrip_plots import command  # noqa: E402
 from faststrip_plots.tables import read_table  # noqa: E402
 

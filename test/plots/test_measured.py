@@ -7,9 +7,8 @@ import unittest
 import matplotlib.image
 import numpy as np
 
-from plot_samples import Folder, csv_text, load
-
 from faststrip_plots import scales, style
+from plot_samples import Folder, csv_text, load
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVES = "out/curves.csv"

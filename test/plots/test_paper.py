@@ -7,14 +7,19 @@ import unittest
 
 import numpy as np
 
-from plot_samples import (
-    REFERENCE_COLUMNS, SWEEP_COLUMNS, AREA, Folder, csv_text, hertz_row, load, strips_text,
-    sweep_row,
-)
-
 from faststrip_plots import paper_figures, statements, style
 from faststrip_plots.results import read_reference, read_sweep
 from faststrip_plots.statements import FAILS, HOLDS, LIMITED, UNKNOWN, Limits
+from plot_samples import (
+    AREA,
+    REFERENCE_COLUMNS,
+    SWEEP_COLUMNS,
+    Folder,
+    csv_text,
+    hertz_row,
+    strips_text,
+    sweep_row,
+)
 
 SHIFTS = (-2.0, -1.0, 0.0, 1.0, 2.0)
 COMMANDS = ("paper", "paper_statements")

@@ -5,8 +5,18 @@ import sys
 import unittest
 
 from plot_samples import (
-    PLOTS, Folder, failed_row, fields_text, gap_text, grid_text, hertz_row, profiles_text,
-    reference_text, strips_text, sweep_row, sweep_text,
+    PLOTS,
+    Folder,
+    failed_row,
+    fields_text,
+    gap_text,
+    grid_text,
+    hertz_row,
+    profiles_text,
+    reference_text,
+    strips_text,
+    sweep_row,
+    sweep_text,
 )
 
 FILES = {

@@ -14,10 +14,15 @@ sys.path.insert(0, str(ROOT / "plots"))
 from faststrip_plots.document import Document  # noqa: E402
 from faststrip_plots.tables import InputError  # noqa: E402
 from faststrip_plots.verdicts import (  # noqa: E402
-    COLUMNS, judge, read_manifest, shown, shown_tolerance,
+    COLUMNS,
+    judge,
+    read_manifest,
+    shown,
+    shown_tolerance,
 )
 
-VALUES = "case,method,q,N_N,area_mm2\n1,a,1.0,10,3.141592653589793\n2,a,2.2,10,12.566370614359172\n3,b,,10,1\n"
+VALUES = ("case,method,q,N_N,area_mm2\n1,a,1.0,10,3.141592653589793\n"
+          "2,a,2.2,10,12.566370614359172\n3,b,,10,1\n")
 TRUTH = "case,r\n1.0,1.1\n2,2\n"
 
 

@@ -5,13 +5,20 @@ import unittest
 
 import numpy as np
 
-from plot_samples import (
-    Folder, failed_row, fields_text, grid_text, hertz_row, profiles_text, reference_text,
-    strips_text, sweep_row, sweep_text,
-)
-
 from faststrip_plots import panels, results, scales, style
 from faststrip_plots.tables import InputError, read_table
+from plot_samples import (
+    Folder,
+    failed_row,
+    fields_text,
+    grid_text,
+    hertz_row,
+    profiles_text,
+    reference_text,
+    strips_text,
+    sweep_row,
+    sweep_text,
+)
 
 
 class Styles(unittest.TestCase):

@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "plots"))
 
 import trade  # noqa: E402
+
 from faststrip_plots.tables import read_table  # noqa: E402
 
 HEADER = "set,case,stage,method,status,us,err_penetration,err_pmax,err_area,err_Fx,err_Fy,err_Mz\n"

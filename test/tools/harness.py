@@ -78,7 +78,7 @@ def compile_funit():
     """Compile funit once for all samples."""
     if Sample.compiled is None:
         Sample.compiled = tempfile.TemporaryDirectory()
-        sources = [ROOT / "test" / "funit" / "funit.f90", ROOT / "test" / "funit" / "funit_runner.f90"]
+        sources = [ROOT / "test" / "funit" / name for name in ("funit.f90", "funit_runner.f90")]
         compilation = run(["gfortran", *FLAGS, "-c", *sources], Sample.compiled.name)
         if compilation.returncode != 0:
             raise RuntimeError(compilation.stderr)

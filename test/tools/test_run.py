@@ -103,8 +103,8 @@ class Installing(Project):
                 self.assertEqual(result.returncode, 1)
                 self.assertRegex(
                     result.stderr,
-                    r"\n +sudo apt-get install -y gfortran g\+\+ pkg-config libopenblas-dev libgsl-dev"
-                    r" libfftw3-dev"
+                    r"\n +sudo apt-get install -y gfortran g\+\+ pkg-config libopenblas-dev"
+                    r" libgsl-dev libfftw3-dev"
                     r"( python3-venv)?\n",
                 )
                 self.assertFalse((self.folder / ".venv").exists())
