@@ -285,7 +285,8 @@ SUBCOMMANDS = {"integral": ["--n", "1", "--b", "0.1"], "contact": ["case.nml"],
 
 def options_of(subcommand):
     """Names and kinds of the options that take a value of a kind known above."""
-    done = subprocess.run([Try("options", [subcommand]).program, subcommand, "--help"], capture_output=True, text=True,
+    program = Try("options", [subcommand]).program
+    done = subprocess.run([program, subcommand, "--help"], capture_output=True, text=True,
                           check=True)
     found = re.findall(r"^  (--[a-z-]+) ([A-Z][A-Za-z.:]*) ", done.stdout, re.MULTILINE)
     return [(name, kind) for name, kind in found if kind in BAD_VALUES]
@@ -555,7 +556,8 @@ def run(attempt, limit):
         start = time.monotonic()
         process = subprocess.Popen(
             [attempt.program, *words], cwd=folder, stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=attempt.in_the_child, user=attempt.user,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, user=attempt.user,
+            preexec_fn=attempt.in_the_child,
             env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
         if attempt.during:
             attempt.during(process, folder)
