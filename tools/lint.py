@@ -150,7 +150,7 @@ def blanks(folder, names, _):
 
 def lines_of(path):
     """Lines without their ends, in characters."""
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = path.read_bytes().decode("utf-8", errors="replace")
     return text.removesuffix("\n").split("\n") if text else []
 
 

@@ -2,8 +2,10 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -16,6 +18,7 @@ program main
     print '(a)', 'revision ' // revision
 end program main
 """
+LAB = "program lab\n    implicit none\n    print '(a)', 'lab'\nend program lab\n"
 LIBRARY = """\
 module faststrip_base_kinds
     implicit none
@@ -35,12 +38,27 @@ class Good(unittest.TestCase):
     def test_good(self):
         pass
 """
+# Stands for tools/lint.py: one check.
+LINT = """\
+import sys
+
+found = sys.argv[-1] in "lint::form"
+print(f"all modules together: {int(found)} passed, 0 failed")
+"""
+# Stands for tools/install.py: says what it is asked for.
+INSTALL = """\
+import pathlib
+import sys
+
+print(*sys.argv[1:])
+print(pathlib.Path("build/stage/lib/libfaststrip.a").is_file())
+"""
 # What ./run needs of a machine before it can install anything.
 BASIC_TOOLS = "sh dirname cat cmp printf mkdir rm cp sed tr tail tee env".split()
 
 
 class Project(unittest.TestCase):
-    """A folder with ./run, a library of one file and a program."""
+    """A folder with ./run, a library of one file and two programs."""
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -48,14 +66,28 @@ class Project(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
         for name in ("run", "fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             self.copy(name)
-        for name in ("requirements.txt", "pf2f90.py", "run_pytests.py"):
+        for name in ("requirements.txt", "steps.py", "pf2f90.py", "run_pytests.py"):
             self.copy(f"tools/{name}")
+        self.manifest("app", 'faststrip-command.path = "command"')
+        self.manifest("app/command", 'faststrip.path = "../.."')
+        self.manifest("test", 'faststrip.path = ".."')
+        self.write("tools/lint.py", LINT)
+        self.write("tools/install.py", INSTALL)
         self.write("app/programs/faststrip.f90", MAIN)
+        self.write("app/programs/faststrip_lab.f90", LAB)
         self.write("src/faststrip/base/kinds.f90", LIBRARY)
 
     def copy(self, name):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, self.folder / name)
+
+    def manifest(self, package, needs):
+        """The manifest of a package, which here needs less."""
+        text = (ROOT / package / "fpm.toml").read_text(encoding="utf-8")
+        text, count = re.subn(r"(?m)^\[dependencies\]\n(.+\n)*", f"[dependencies]\n{needs}\n",
+                              text)
+        self.assertEqual(count, 1)
+        self.write(f"{package}/fpm.toml", text)
 
     def write(self, name, text):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -86,6 +118,45 @@ class Usage(Project):
         self.assertEqual(result.returncode, 2)
         self.assertIn("usage: ./run", result.stderr)
         self.assertEqual(result.stdout, "")
+        self.assertFalse((self.folder / "build").exists())
+        self.assertEqual(self.run_it("").returncode, 2)
+
+    def test_the_help_lists_every_step(self):
+        sys.path.insert(0, str(ROOT / "tools"))
+        try:
+            import steps
+        finally:
+            sys.path.remove(str(ROOT / "tools"))
+        listed = re.findall(r"^  (\w+) ", self.run_it("help").stdout, re.MULTILINE)
+        self.assertEqual(sorted(listed), sorted([*steps.STEPS, "help"]))
+        self.assertLessEqual(set(steps.WORDS), set(steps.STEPS))
+        for word in ("-h", "--help", "help"):
+            self.assertEqual(self.run_it(word).stdout, steps.__doc__)
+        self.assertEqual(self.run_it().stdout, steps.__doc__)
+
+    def test_the_bootstrap_stays_short(self):
+        text = (ROOT / "run").read_text(encoding="utf-8")
+        self.assertLessEqual(len(text.splitlines()), 150)
+
+
+class Cleaning(Project):
+    def test_what_was_built_goes_and_nothing_else(self):
+        kept = ("app/command/x.f90", "src/faststrip/base/kinds.f90", "reference/build.csv")
+        built = ("build/a/b", "bin/faststrip", "out/x.csv", "app/build/x", "app/command/build/x",
+                 "test/build/x", "tools/__pycache__/x.pyc", "app/command/revision.f90")
+        for name in (*kept, *built, ".venv/x/__pycache__/y", "reference/build/x.csv"):
+            self.write(name, "text\n")
+        self.assertEqual(self.run_it("clean", "more").returncode, 1)
+        self.assertEqual(self.run_it("clean", "all", "more").returncode, 2)
+        self.assertTrue((self.folder / "build/a/b").exists())
+        self.assertEqual(self.run_it("clean").returncode, 0)
+        for name in built:
+            self.assertFalse((self.folder / name).exists(), name)
+        for name in (*kept, ".venv/x/__pycache__/y", "reference/build/x.csv"):
+            self.assertTrue((self.folder / name).exists(), name)
+        self.assertEqual(self.run_it("clean", "all").returncode, 0)
+        self.assertFalse((self.folder / ".venv").exists())
+        self.assertEqual(self.run_it("clean").returncode, 0)
 
 
 class Installing(Project):
@@ -163,33 +234,77 @@ class Testing(Project):
         self.assertEqual(result.returncode, code)
         return result
 
+    def test_words_that_no_step_takes_are_refused(self):
+        for words in (("build", "--quick"), ("test", "a", "b"), ("demo", "x"), ("fuzz", "1", "2")):
+            result = self.run_it(*words)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertRegex(result.stderr, rf"\Arun: {words[0]} takes [^\n]*{words[-1]}\n\Z")
+        for words, says in ((("fuzz", "many"), "not a number of cases: many"),
+                            (("install",), "install takes --prefix FOLDER"),
+                            (("install", "--prefix", ""), "install takes --prefix FOLDER")):
+            result = self.run_it(*words)
+            self.assertEqual((result.returncode, result.stderr), (1, f"run: {says}\n"))
+
+    def test_the_core_is_staged_and_the_prefix_seen_from_the_caller(self):
+        place = self.folder / "else where"
+        place.mkdir()
+        for prefix, seen in (("be low", place / "be low"), (self.folder / "p", self.folder / "p")):
+            result = subprocess.run([self.folder / "run", "install", "--prefix", prefix],
+                                    cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                    text=True, timeout=3000, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"--stage build/stage --program bin/faststrip --prefix {seen}\nTrue\n",
+                          result.stdout)
+            self.assertIn(f"== installed below {seen}\n", result.stdout)
+
+    def test_a_build_that_fails_says_so(self):
+        self.write("app/programs/faststrip.f90", MAIN.replace("print", "prnt"))
+        result = self.run_it("build")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertEqual(result.stderr.splitlines()[-1], "run: the build failed")
+        self.assertIn("prnt", result.stderr)
+
+    def test_lint_counts(self):
+        self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
+                                    "raise SystemExit(1)\n")
+        result = self.check(PASSING, 1, "6 passed, 2 failed")
+        self.assertIn("\n3 skipped\n", result.stdout)
+        self.write("tools/lint.py", "raise SystemExit(1)\n")
+        self.check(PASSING, 1, "2 passed, 1 failed")
+
     def test_all_stages_are_counted(self):
         disabled = PASSING.replace("@test", "@test\n@disable").replace("passes", "waits")
-        result = self.check(PASSING + disabled, 0, "2 passed, 0 failed")
+        result = self.check(PASSING + disabled, 0, "3 passed, 0 failed")
         self.assertIn("\n1 skipped\n", result.stdout)
         program = subprocess.run([self.folder / "bin/faststrip"], stdout=subprocess.PIPE, text=True)
         self.assertEqual(program.stdout, "revision unknown\n")
+        program = subprocess.run([self.folder / "bin/faststrip-lab"], stdout=subprocess.PIPE,
+                                 text=True)
+        self.assertEqual(program.stdout, "lab\n")
+        self.assertEqual(sorted(path.name for path in self.folder.joinpath("test").iterdir()),
+                         ["build", "fpm.toml", "funit", "pf", "tools"])
 
     def test_a_failing_test_fails_the_run(self):
-        self.check(PASSING + FAILING, 1, "2 passed, 1 failed")
+        self.check(PASSING + FAILING, 1, "3 passed, 1 failed")
 
     def test_a_crash_counts_as_one_failure(self):
-        self.check(PASSING + STOPPING, 1, "1 passed, 1 failed")
+        self.check(PASSING + STOPPING, 1, "2 passed, 1 failed")
 
     def test_what_does_not_compile_counts_as_one_failure(self):
-        result = self.check(PASSING + test("wrong", "call ("), 1, "1 passed, 1 failed")
+        result = self.check(PASSING + test("wrong", "call ("), 1, "2 passed, 1 failed")
         self.assertIn("test/pf/test_x.pf:13", result.stdout)
 
     def test_a_warning_counts_as_one_failure(self):
-        self.check(PASSING + test("untidy", "integer :: unused"), 1, "1 passed, 1 failed")
+        self.check(PASSING + test("untidy", "integer :: unused"), 1, "2 passed, 1 failed")
 
     def test_a_release_that_does_not_build_counts_as_one_failure(self):
         self.write("app/programs/faststrip.f90", MAIN.replace("print", "prnt"))
-        self.check(PASSING, 1, "1 passed, 2 failed")
+        self.check(PASSING, 1, "3 passed, 1 failed")
 
     def test_a_filter(self):
         self.check(PASSING + FAILING, 0, "1 passed, 0 failed", "::passes")
         self.check(PASSING, 0, "1 passed, 0 failed", "tools/test_good")
+        self.check(PASSING, 0, "1 passed, 0 failed", "lint::")
         self.check(PASSING, 1, "0 passed, 1 failed", "unknown")
 
 
