@@ -183,7 +183,7 @@ class Runs(unittest.TestCase):
                     continue
                 words = row["words"].split()
                 outputs = {words[k + 1] for k, word in enumerate(words)
-                           if word in ("-o", "--strips") and row["program"] == "faststrip"
+                           if word in ("-o", "--strips") and row["program"] != "python"
                            or word in ("-o", "--curves") and words[0] in ("table", "tools/single")}
                 for word in words:
                     if word.startswith("{data}/") and word not in outputs and "*" not in word:
