@@ -121,7 +121,7 @@ def dictionaries(methods):
     lines = []
     for part in methods:
         rows = in_order(methods[part])
-        width = max(len(m.name) for m in rows) + len(str(rows[-1].number)) + 5
+        width = max(len(m.name) for m in rows) + len('"": 99,')
         lines.append(f"{part.upper()} = {{")
         for method in rows:
             entry = f'"{method.name}": {method.number},'

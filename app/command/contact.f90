@@ -51,7 +51,7 @@ contains
                      writes=.true.), &
             option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
             method_options]
-        command%notes = method_notes()
+        command%about = command%about // method_notes()
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)
         call take_method_options(command, case%numerics, case)

@@ -36,7 +36,6 @@ module faststrip_command_options
         type(option_t), allocatable :: options(:)       !! what it knows
         type(argument_t), allocatable :: arguments(:)   !! what it was given besides
         logical :: reads = .true.                       !! are these files to read?
-        character(len=:), allocatable :: notes !! lines of the help after the options, if any
     end type command_t
 
 contains
@@ -194,14 +193,6 @@ contains
         end do
         left = '--help'
         call say('  ' // left(:34) // 'this text')
-        if (.not. allocated(command%notes)) return
-        from = 1
-        do
-            cut = index(command%notes(from:), new_line('a'))
-            if (cut == 0) exit
-            call say(command%notes(from:from + cut - 2))
-            from = from + cut
-        end do
     end subroutine print_help
 
     !> Was the option on the command line?

@@ -4,6 +4,7 @@ module faststrip_command_solver
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, st_ok
     use faststrip_base_material, only: check_material
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
@@ -183,6 +184,7 @@ contains
         type(status_t), intent(out) :: status
 
         type(gap_t) :: smooth
+        type(environment_t) :: environment
         integer(int64) :: before, after
         real(wp) :: change, cpu ! mm, us
 
@@ -202,7 +204,10 @@ contains
         if (is_error(status)) return
         cpu = cpu_microseconds()
         call system_clock(before)
+        ! As the library does: in its own rounding mode, without the host's traps.
+        call hold_environment(environment)
         call set_gap_curve(solver%curve, solver%contact%gap, status)
+        call restore_environment(environment)
         call system_clock(after)
         outcome%normal_us = microseconds(before, after)
         outcome%normal_cpu_us = cpu_microseconds() - cpu

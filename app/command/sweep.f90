@@ -49,7 +49,7 @@ contains
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.), &
                            method_options]
-        command%notes = method_notes()
+        command%about = command%about // method_notes()
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)
         call take_method_options(command, case%numerics, case)

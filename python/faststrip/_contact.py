@@ -42,22 +42,22 @@ Array = npt.NDArray[np.float64]
 
 # BEGIN methods, written by tools/methods.py
 NORMAL = {
-    "strip": 1,          # strips: any patch, any number of patches
-    "hertz": 2,          # the Hertz ellipse where the gap is lowest
-    "equal_area": 3,     # patches as ellipses of equal area, proportions of Hertz
-    "equal_moments": 4,  # the same, proportions of the second moments
+    "strip": 1,           # strips: any patch, any number of patches
+    "hertz": 2,           # the Hertz ellipse where the gap is lowest
+    "equal_area": 3,      # patches as ellipses of equal area, proportions of Hertz
+    "equal_moments": 4,   # the same, proportions of the second moments
 }
 TANGENTIAL = {
-    "none": 0,                 # no forces
-    "faststrip": 1,            # marching in the strips: the best fast one
-    "fastsim": 2,              # Kalker's FASTSIM on the patches' ellipses
-    "faststrip-paper": 3,      # TFASTSTRIP as printed
-    "faststrip-corrected": 4,  # TFASTSTRIP as corrected
-    "fastsim-elliptic": 5,     # FASTSIM with the elliptic traction bound
-    "fastsim-weighted": 6,     # FASTSIM with a single flexibility
-    "linear": 7,               # Kalker's linear theory; no elements
-    "she": 8,                  # Shen, Hedrick and Elkins; no elements
-    "polach": 9,               # Polach; no elements
+    "none": 0,                  # no forces
+    "faststrip": 1,             # marching in the strips: the best fast one
+    "fastsim": 2,               # Kalker's FASTSIM on the patches' ellipses
+    "faststrip-paper": 3,       # TFASTSTRIP as printed
+    "faststrip-corrected": 4,   # TFASTSTRIP as corrected
+    "fastsim-elliptic": 5,      # FASTSIM with the elliptic traction bound
+    "fastsim-weighted": 6,      # FASTSIM with a single flexibility
+    "linear": 7,                # Kalker's linear theory; no elements
+    "she": 8,                   # Shen, Hedrick and Elkins; no elements
+    "polach": 9,                # Polach; no elements
 }
 # END methods
 

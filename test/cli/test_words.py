@@ -1,9 +1,14 @@
 """What is said of bad input names the thing, the value and the place, in one line."""
 
+import pathlib
 import re
 import subprocess
+import sys
 
 from cli_program import BATCH_COLUMNS, LAB, PROGRAM, ProgramTest, gap_case, gap_text, parabola
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import methods  # noqa: E402
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
@@ -91,6 +96,13 @@ class Words(ProgramTest):
             lines = done.stdout.split("options:\n")[1].splitlines()
             for line in lines:
                 self.assertTrue(line.startswith("  "), line)
+
+    def test_the_help_tells_every_method_in_a_line(self):
+        listed = methods.read_methods((methods.ROOT / methods.LIST).read_text(encoding="utf-8"))
+        for name in ("contact", "batch", "sweep"):
+            text = self.run_program(name, "--help").stdout
+            for method in [*listed["normal"], *listed["tangential"]]:
+                self.assertRegex(text, rf"(?m)^  {method.name} +{re.escape(methods.told(method))}$")
 
     def test_a_full_standard_output(self):
         for words in (("--help",), ("contact", "--help"), ("contact", "case.nml")):

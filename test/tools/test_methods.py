@@ -70,7 +70,8 @@ class Methods(unittest.TestCase):
         self.assertEqual(outside, ["norm", "auto", "tang"])
         for name in outside:
             self.assertNotIn(f'"{name}":', self.read("python/faststrip/_contact.py"))
-            self.assertNotRegex(self.read("include/faststrip.h"), f"FASTSTRIP_[A-Z]+_{name.upper()}")
+            self.assertNotRegex(self.read("include/faststrip.h"),
+                                f"FASTSTRIP_[A-Z]+_{name.upper()}")
 
     def test_a_list_that_makes_no_sense_is_refused(self):
         for old, new, says in (

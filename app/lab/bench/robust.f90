@@ -93,8 +93,7 @@ contains
             do i = 1, size(cases)
                 call try_lattice(bench, 'contact', cases(i)%name, cases(i)%gap, cases(i)%load, &
                                  lattice_strips(k), cases(i)%truth%penetration, &
-                                 cases(i)%truth%pmax, &
-                                 errors(:, i))
+                                 cases(i)%truth%pmax, errors(:, i))
             end do
             call tell('lattice, contacts', integer_text(lattice_strips(k)), errors)
         end do

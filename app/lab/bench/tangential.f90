@@ -15,7 +15,7 @@ module faststrip_lab_bench_tangential
     use faststrip_command_console, only: fail_on_error, note, put_origin
     use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: method_t, method_name_length
+    use faststrip_contact_methods, only: method_name_length
     use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
                                        solve_contact_tangential
     use faststrip_command_force_laws, only: tangential_methods => force_laws

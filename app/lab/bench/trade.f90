@@ -96,9 +96,10 @@ contains
             integer, intent(in) :: in_quick
 
             thinning = 1
-            if (entry%numerics%normal == normal_norm &
-                .or. entry%numerics%tangential == tangential_tang .or. &
-                entry%numerics%strips_per_patch > many_strips) thinning = 7
+            associate (numerics => entry%numerics)
+                if (numerics%normal == normal_norm .or. numerics%tangential == tangential_tang &
+                    .or. numerics%strips_per_patch > many_strips) thinning = 7
+            end associate
             if (in_quick == 20 .and. entry%stage == 'normal') thinning = 20
             if (quick) thinning = in_quick
         end function thinning
