@@ -75,10 +75,15 @@ def wrapped(words, indent, first, end=""):
 
 
 def numbers(methods):
+    """Those of the core, then those outside of it."""
     lines = []
     for part in methods:
-        for method in in_order(methods[part], core_only=False):
-            lines += [f"    integer, parameter, public :: {method.constant()} = {method.number}",
+        rows = in_order(methods[part], core_only=False)
+        words = [f"{m.constant()}," for m in rows if m.in_core]
+        lines += wrapped([*words[:-1], words[-1].rstrip(",")], " " * 14, "    public ::", " &")
+        for method in sorted(rows, key=lambda m: not m.in_core):
+            public = "" if method.in_core else ", public"
+            lines += [f"    integer, parameter{public} :: {method.constant()} = {method.number}",
                       f"        !! {told(method)}"]
     return lines
 

@@ -19,7 +19,8 @@ module faststrip_command_method_options
     !> For the table of a subcommand; the names are told by `method_notes`.
     type(option_t), parameter :: method_options(15) = [ &
         option_t('--normal', 'NAME', 'normal method, one of the above (default strip)'), &
-        option_t('--tangential', 'NAME', 'tangential method, one of the above (default faststrip)'), &
+        option_t('--tangential', 'NAME', &
+                 'tangential method, one of the above (default faststrip)'), &
         option_t('--strips-per-patch', 'N', 'across the largest patch (default 15), or auto'), &
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &

@@ -42,7 +42,7 @@ Array = npt.NDArray[np.float64]
 
 # BEGIN methods, written by tools/methods.py
 NORMAL = {
-    "strip": 1,           # strips: any patch, any number of patches
+    "strip": 1,           # strips, for any patch and any number of patches
     "hertz": 2,           # the Hertz ellipse where the gap is lowest
     "equal_area": 3,      # patches as ellipses of equal area, proportions of Hertz
     "equal_moments": 4,   # the same, proportions of the second moments

@@ -55,7 +55,7 @@ class Methods(unittest.TestCase):
         self.assertEqual(self.run_tool().returncode, 0)
         self.assertEqual(self.run_tool("--check").returncode, 0)
         for path, words in (
-            (methods.LIST, "public :: tangential_new_one = 11"),
+            (methods.LIST, "parameter :: tangential_new_one = 11"),
             ("src/faststrip/faststrip.f90", " tangential_new_one"),
             ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 11"),
             ("src/faststrip/interop/f77.f90", "11 new-one"),

@@ -29,37 +29,42 @@ module faststrip_contact_methods
 
     ! Numbers of the methods, from the tables below; written by tools/methods.py.
     ! BEGIN methods
-    integer, parameter, public :: normal_strip = 1
-        !! strips: any patch, any number of patches
-    integer, parameter, public :: normal_hertz = 2
+    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments
+    integer, parameter :: normal_strip = 1
+        !! strips, for any patch and any number of patches
+    integer, parameter :: normal_hertz = 2
         !! the Hertz ellipse where the gap is lowest
-    integer, parameter, public :: normal_equal_area = 3
+    integer, parameter :: normal_equal_area = 3
         !! patches as ellipses of equal area, proportions of Hertz
-    integer, parameter, public :: normal_equal_moments = 4
+    integer, parameter :: normal_equal_moments = 4
         !! the same, proportions of the second moments
     integer, parameter, public :: normal_norm = 5
         !! NORM, Kalker's variational method: the reference
     integer, parameter, public :: normal_auto = 6
         !! both methods, the cheapest expected to do
-    integer, parameter, public :: tangential_none = 0
+    public :: tangential_none, tangential_faststrip, tangential_fastsim, &
+              tangential_faststrip_paper, tangential_faststrip_corrected, &
+              tangential_fastsim_elliptic, tangential_fastsim_weighted, tangential_linear, &
+              tangential_she, tangential_polach
+    integer, parameter :: tangential_none = 0
         !! no forces
-    integer, parameter, public :: tangential_faststrip = 1
+    integer, parameter :: tangential_faststrip = 1
         !! marching in the strips: the best fast one
-    integer, parameter, public :: tangential_fastsim = 2
+    integer, parameter :: tangential_fastsim = 2
         !! Kalker's FASTSIM on the patches' ellipses
-    integer, parameter, public :: tangential_faststrip_paper = 3
+    integer, parameter :: tangential_faststrip_paper = 3
         !! TFASTSTRIP as printed
-    integer, parameter, public :: tangential_faststrip_corrected = 4
+    integer, parameter :: tangential_faststrip_corrected = 4
         !! TFASTSTRIP as corrected
-    integer, parameter, public :: tangential_fastsim_elliptic = 5
+    integer, parameter :: tangential_fastsim_elliptic = 5
         !! FASTSIM with the elliptic traction bound
-    integer, parameter, public :: tangential_fastsim_weighted = 6
+    integer, parameter :: tangential_fastsim_weighted = 6
         !! FASTSIM with a single flexibility
-    integer, parameter, public :: tangential_linear = 7
+    integer, parameter :: tangential_linear = 7
         !! Kalker's linear theory; no elements
-    integer, parameter, public :: tangential_she = 8
+    integer, parameter :: tangential_she = 8
         !! Shen, Hedrick and Elkins; no elements
-    integer, parameter, public :: tangential_polach = 9
+    integer, parameter :: tangential_polach = 9
         !! Polach; no elements
     integer, parameter, public :: tangential_tang = 10
         !! TANG, Kalker's variational method: the reference
@@ -73,7 +78,7 @@ module faststrip_contact_methods
     !> The normal methods, in the order that people see.
     type(method_t), parameter :: normal_table(*) = [ &
         method_t(1, 'strip', needs='LAPACK', &
-                 help='strips: any patch, any number of patches'), &
+                 help='strips, for any patch and any number of patches'), &
         method_t(2, 'hertz', needs='an ellipse', &
                  help='the Hertz ellipse where the gap is lowest'), &
         method_t(3, 'equal_area', needs='LAPACK', &
