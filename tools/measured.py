@@ -18,7 +18,11 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "plots"))
 
 from faststrip_plots.results import (  # noqa: E402
-    QUANTITIES, compare, percent_errors, read_reference, read_sweep,
+    QUANTITIES,
+    compare,
+    percent_errors,
+    read_reference,
+    read_sweep,
 )
 from faststrip_plots.tables import InputError, read_table  # noqa: E402
 

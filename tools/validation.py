@@ -26,7 +26,11 @@ from pages import FENCE
 
 from faststrip_plots.tables import InputError, read_table
 from faststrip_plots.verdicts import (
-    CHAPTERS, accepts, read_manifest, shown, shown_tolerance,
+    CHAPTERS,
+    accepts,
+    read_manifest,
+    shown,
+    shown_tolerance,
 )
 
 MEASURED = "reference/measured.csv"

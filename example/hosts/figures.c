@@ -233,7 +233,8 @@ int main(void)
             inclination[i] = number();
         }
         if (faststrip_new(&c, n, &workspace) != 0 || faststrip_new(&c, n, &copy) != 0) exit(10);
-        if (faststrip_set_gap(workspace, n, y, h, inv2r, has_inclination ? inclination : NULL) != 0) exit(11);
+        if (faststrip_set_gap(workspace, n, y, h, inv2r,
+                              has_inclination ? inclination : NULL) != 0) exit(11);
         solve(workspace, &c, demand[0], 1);
         if (faststrip_copy(workspace, copy) != 0) exit(12);
         show_arrays(copy, 2);

@@ -117,7 +117,8 @@ class Installed(HostTest):
             self.assertIn(name.split("_MOD_")[1], umbrella)
         self.assertIn("__faststrip_contact_solve_MOD_solve_contact", fortran)
         static = {line.split()[2] for line in
-                  command("nm", "--defined-only", "--extern-only", self.installed.archive).splitlines()
+                  command("nm", "--defined-only", "--extern-only",
+                           self.installed.archive).splitlines()
                   if len(line.split()) == 3}
         self.assertEqual(static, set(names))
 
@@ -213,7 +214,8 @@ class Installed(HostTest):
             self.assertRegex(umbrella, rf"\bst_{name}\b")
 
     def test_methods_are_the_same_in_every_face(self):
-        source = (ROOT / "src" / "faststrip" / "contact" / "methods.f90").read_text(encoding="utf-8")
+        path = ROOT / "src" / "faststrip" / "contact" / "methods.f90"
+        source = path.read_text(encoding="utf-8")
         header = self.installed.header.read_text(encoding="utf-8")
         package = (ROOT / "python" / "faststrip" / "_contact.py").read_text(encoding="utf-8")
         f77 = (ROOT / "src" / "faststrip" / "interop" / "f77.f90").read_text(encoding="utf-8")

@@ -337,7 +337,12 @@ contains
             inv2r%before = samples%inv2r(i - 1)
             inv2r%left = samples%inv2r_right(i - 1)
         end if
-        if (k < last_of_patch(strips, k)) inv2r%behind = samples%inv2r(i + 1)
+        if (k < last_of_patch(strips, k)) then
+            inv2r%behind = samples%inv2r(i + 1)
+        else
+            ! Nothing presses at the end of a patch: A there is of no matter, left or right.
+            inv2r%right = inv2r%middle
+        end if
     end function inv2r_about
 
     !> Second difference of the pressures at a strip, MPa; at an end of the patch nothing.

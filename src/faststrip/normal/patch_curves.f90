@@ -53,6 +53,9 @@ contains
     !>
     !> From one middle to the next the square goes over from the parabola of the one strip to that
     !> of the other, so that the peak does not jump where another strip becomes the largest.
+    !>
+    !> A parabola through strips of one width rises above the largest by an eighth of its fall to a
+    !> neighbour; where widths or falls are unlike it is held to four times that.
     pure real(wp) function curve_peak(left, right, value) result(peak)
         real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
         real(wp), intent(in) :: right(:) !! right edges, (n), mm
@@ -80,8 +83,29 @@ contains
             s = min(-0.5_wp*slope/bend, right(n) - 0.5_wp*(left(n) + right(n)))
             largest = max(largest, q0 + s*(slope + s*bend))
         end if
-        peak = sqrt(largest)
+        peak = sqrt(min(largest, maxval(value)**2 + 0.5_wp*largest_fall(value)))
     end function curve_peak
+
+    !> The largest fall of the squares from a strip near the largest to a neighbour; zero beyond.
+    pure real(wp) function largest_fall(value) result(fall)
+        real(wp), intent(in) :: value(:)
+
+        ! Strips with less than this of the largest have no peak beside them.
+        real(wp), parameter :: near_largest = 0.9_wp
+        real(wp) :: least
+        integer :: k
+
+        least = near_largest*maxval(value)
+        fall = 0.0_wp
+        do k = 1, size(value)
+            if (value(k) < least) cycle
+            if (k == 1 .or. k == size(value)) then
+                fall = max(fall, value(k)**2)
+            end if
+            if (k > 1) fall = max(fall, value(k)**2 - value(k - 1)**2)
+            if (k < size(value)) fall = max(fall, value(k)**2 - value(k + 1)**2)
+        end do
+    end function largest_fall
 
     !> Largest value on 0 <= t <= 1 of `q0 + (q1 - q0) t + t (t - 1) (b0 + (b1 - b0) t)`.
     pure real(wp) function peak_between(q0, q1, b0, b1) result(peak)
