@@ -130,6 +130,7 @@ contains
         to%y_lowest = from%y_lowest
         to%h_lowest = from%h_lowest
         to%least_inv2r = from%least_inv2r
+        to%is_image = from%is_image
         to%inclination_is_known = from%inclination_is_known
         if (n == 0) return
         to%y(:n) = from%y(:n)

@@ -92,18 +92,17 @@ contains
 
         ! Strips with less than this of the largest have no peak beside them.
         real(wp), parameter :: near_largest = 0.9_wp
-        real(wp) :: least
-        integer :: k
+        real(wp) :: least, lower
+        integer :: k, n
 
+        n = size(value)
         least = near_largest*maxval(value)
         fall = 0.0_wp
-        do k = 1, size(value)
+        do k = 1, n
             if (value(k) < least) cycle
-            if (k == 1 .or. k == size(value)) then
-                fall = max(fall, value(k)**2)
-            end if
-            if (k > 1) fall = max(fall, value(k)**2 - value(k - 1)**2)
-            if (k < size(value)) fall = max(fall, value(k)**2 - value(k + 1)**2)
+            lower = 0.0_wp
+            if (k > 1 .and. k < n) lower = min(value(max(k - 1, 1)), value(min(k + 1, n)))
+            fall = max(fall, value(k)**2 - lower**2)
         end do
     end function largest_fall
 
