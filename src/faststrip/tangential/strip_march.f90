@@ -1,0 +1,352 @@
+!> The march in the strips of a patch, from the leading edge to the trailing one: several strips
+!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6, S7 and S8 are those of
+!> `faststrip_tangential_faststrip`.
+module faststrip_tangential_strip_march
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_tangential_patch_law, only: patch_law_t, smallest_force
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
+                                          put_element, most_points, state_adhesion, state_slip
+    implicit none
+    private
+
+    public :: rolling_t, march_sums_t, march_strips
+
+    ! Tuned; how, says `faststrip_tangential_faststrip`.
+    real(wp), parameter :: slip_onset = 2.0_wp      ! S4
+
+    !> What all strips of a contact share.
+    type :: rolling_t
+        real(wp) :: mu = 0.0_wp      !! coefficient of friction
+        type(creepage_t) :: creepage !! about the reference point
+        integer :: points = 0        !! along each strip, at most `most_points`
+    end type rolling_t
+
+    !> Sums over the strips that were marched.
+    type :: march_sums_t
+        type(tangential_result_t) :: result !! forces, N, and their friction power
+        real(wp) :: stuck = 0.0_wp   !! area that sticks, mm^2
+        real(wp) :: covered = 0.0_wp !! area, mm^2
+    end type march_sums_t
+
+    ! Strips marched side by side, and what their number is rounded up to.
+    integer, parameter :: most_lanes = 16, lane_step = 2
+
+    ! Added to what is divided by where it may be nothing.
+    real(wp), parameter :: least = 1.0e-280_wp
+
+    !> Strips side by side.
+    type :: block_t
+        integer :: n = 0                  !! strips
+        integer :: lanes = 0              !! the same, with idle lanes
+        integer :: strip(most_lanes) = 0  !! their numbers
+        real(wp), dimension(most_lanes) :: y, half_length !! mm
+        real(wp), dimension(most_lanes) :: cell           !! area of an element, mm^2
+        real(wp), dimension(most_lanes) :: peak_bound, inverse_peak_bound !! mu p0, MPa
+        real(wp), dimension(most_lanes) :: slope_x, slope_y0, slope_y1 !! of adhesion, MPa/mm
+        real(wp), dimension(most_lanes) :: rigid_x        !! longitudinal rigid slip
+        real(wp), dimension(most_lanes) :: k1, k2         !! flexibilities in slip, mm/MPa
+        real(wp), dimension(most_lanes) :: onset          !! scale of 1/lambda, MPa
+        real(wp), dimension(most_lanes) :: px, py         !! of the last element, MPa
+        real(wp), dimension(most_lanes) :: f, step         !! lambda times step, mm/MPa; step, mm
+        real(wp), dimension(most_lanes) :: excess         !! |p|^2 over the squared bound, MPa^2
+        real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
+        real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, held !! over the elements
+    end type block_t
+
+contains
+
+    !> March strips under one law and add their forces.
+    pure subroutine march_strips(law, strips, first, last, rolling, sums, field, per_strip)
+        type(patch_law_t), intent(in) :: law         !! of the patch
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: first, last           !! of its strips
+        type(rolling_t), intent(in) :: rolling       !! what all strips share
+        type(march_sums_t), intent(inout) :: sums    !! are added to
+        type(tangential_field_t), intent(inout), optional :: field !! gets the elements
+        type(strip_forces_t), intent(inout), optional :: per_strip !! gets the strips' sums
+
+        type(block_t) :: block
+        real(wp) :: bound(most_points), t, thickness
+        integer :: i, points
+
+        if (law%weight <= 0.0_wp) return
+        points = rolling%points
+        do i = 1, (points + 1)/2
+            t = real(points - 2*i + 1, wp)/points
+            thickness = (1.0_wp - t*t)**law%exponent
+            bound(i) = thickness*(1.0_wp - law%alpha*t)
+            bound(points + 1 - i) = thickness*(1.0_wp + law%alpha*t)
+        end do
+        bound(:points) = bound(:points)*(0.25_wp*pi*points/sum(bound(:points)))
+        do i = first, last, most_lanes
+            call fill_block(law, strips, i, min(i + most_lanes - 1, last), rolling, block)
+            call march(block, bound(:points), strips, rolling%creepage, field)
+            call add_block(law, block, rolling, sums, per_strip)
+        end do
+    end subroutine march_strips
+
+    !> March all strips of a block side by side, and note the elements if they are wanted.
+    pure subroutine march(block, bound, strips, creepage, field)
+        type(block_t), intent(inout) :: block
+        real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
+        type(contact_strips_t), intent(in) :: strips
+        type(creepage_t), intent(in) :: creepage
+        type(tangential_field_t), intent(inout), optional :: field
+
+        real(wp), dimension(most_lanes) :: ahead_x, ahead_y
+        real(wp) :: t, step
+        integer :: i, n
+
+        n = size(bound)
+        do i = 1, n
+            t = real(n - 2*i + 1, wp)/n
+            ! Half a step from the edge to the middle of the first element.
+            step = merge(1.0_wp, 2.0_wp, i == 1)/n
+            if (present(field)) then
+                ahead_x = block%px
+                ahead_y = block%py
+            end if
+            call advance(block, t, step, bound(i), creepage%ceta, creepage%cphi)
+            if (present(field)) call note_elements(block, strips, creepage, ahead_x, ahead_y, i, &
+                                                   n, field)
+        end do
+        if (present(field)) field%n = field%n + n*block%n
+    end subroutine march
+
+    !> Put element `i` of every strip of a block into the field.
+    !>
+    !> The slip of the implicit step is that of the step from the element ahead, where the traction
+    !> is the mean of both; what goes into the field at the element itself gives the same heat
+    !> (S8). The last element has also the half step to the trailing edge, on which the
+    !> traction falls to nothing.
+    pure subroutine note_elements(block, strips, creepage, ahead_x, ahead_y, i, n, field)
+        type(block_t), intent(in) :: block
+        type(contact_strips_t), intent(in) :: strips
+        type(creepage_t), intent(in) :: creepage
+        real(wp), intent(in) :: ahead_x(:), ahead_y(:) !! traction of the element ahead, MPa
+        integer, intent(in) :: i, n                    !! element, elements of a strip
+        type(tangential_field_t), intent(inout) :: field
+
+        real(wp) :: t, x, length, heat, lambda
+        integer :: k, state
+
+        t = real(n - 2*i + 1, wp)/n
+        do k = 1, block%n
+            associate (px => block%px(k), py => block%py(k))
+                x = block%half_length(k)*t
+                length = 2.0_wp*block%half_length(k)/n
+                state = state_adhesion
+                lambda = 0.0_wp
+                if (block%excess(k) > 0.0_wp) then
+                    state = state_slip
+                    heat = 0.5_wp*block%f(k)*(px*(px + ahead_x(k)) + py*(py + ahead_y(k)))
+                    if (i == n) heat = heat + 0.5_wp*(block%k1(k)*px**2 + block%k2(k)*py**2) &
+                                       - 0.25_wp*length*(block%rigid_x(k)*px &
+                                                         + (creepage%ceta + x*creepage%cphi)*py)
+                    lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
+                end if
+                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), block%cell(k), &
+                                 strips%p0(block%strip(k))*sqrt(1.0_wp - t*t), px, py, &
+                                 -lambda*px, -lambda*py, state)
+            end associate
+        end do
+    end subroutine note_elements
+
+    !> Add the sums of a block.
+    pure subroutine add_block(law, block, rolling, sums, per_strip)
+        type(patch_law_t), intent(in) :: law
+        type(block_t), intent(in) :: block
+        type(rolling_t), intent(in) :: rolling
+        type(march_sums_t), intent(inout) :: sums
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        real(wp) :: used, area, fx, fy, mz
+        integer :: k
+
+        associate (result => sums%result, creepage => rolling%creepage, points => rolling%points)
+            do k = 1, block%n
+                used = min(sqrt(block%sum_x(k)**2 + block%sum_y(k)**2) &
+                           /(0.25_wp*pi*points*block%peak_bound(k)), 1.0_wp)
+                fx = block%cell(k)*block%sum_x(k)
+                fy = block%cell(k)*block%sum_y(k)
+                mz = block%cell(k)*(1.0_wp + law%stretch_x*(1.0_wp - used))*block%arm_x(k) &
+                     - (block%y(k) + law%stretch_y*(1.0_wp - used)*(block%y(k) - law%y))*fx
+                result%fx = result%fx + fx
+                result%fy = result%fy + fy
+                result%mz = result%mz + mz
+                area = points*block%cell(k)
+                sums%covered = sums%covered + area
+                sums%stuck = sums%stuck + area*(block%held(k)/points)**2
+                if (.not. present(per_strip)) cycle
+                associate (i => block%strip(k))
+                    per_strip%fx(i) = fx
+                    per_strip%fy(i) = fy
+                    per_strip%friction_power(i) = max(-(fx*creepage%cksi + fy*creepage%ceta &
+                                                        + mz*creepage%cphi), 0.0_wp)
+                end associate
+            end do
+        end associate
+    end subroutine add_block
+
+    !> The strip numbers `first` to `last` as lanes; those without load or capacity are left out.
+    pure subroutine fill_block(law, strips, first, last, rolling, block)
+        type(patch_law_t), intent(in) :: law
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(rolling_t), intent(in) :: rolling
+        type(block_t), intent(out) :: block
+
+        real(wp) :: softness, hardness, offset, cksi
+        integer :: i, k
+
+        ! At the centroid.
+        cksi = rolling%creepage%cksi - law%y*rolling%creepage%cphi
+        block%n = 0
+        do i = first, last
+            associate (p0 => strips%p0(i), xd => strips%half_length(i), &
+                       width => strips%y_right(i) - strips%y_left(i))
+                if (rolling%mu*strip_load(p0, xd, width) <= smallest_force) cycle
+                k = block%n + 1
+                block%n = k
+                block%strip(k) = i
+                block%half_length(k) = xd
+                block%y(k) = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
+                block%peak_bound(k) = rolling%mu*p0
+                block%cell(k) = 2.0_wp*xd/rolling%points*width
+            end associate
+        end do
+        ! Idle lanes repeat the last one and are not counted.
+        block%lanes = min(lane_step*((block%n + lane_step - 1)/lane_step), most_lanes)
+        do k = block%n + 1, block%lanes
+            block%half_length(k) = block%half_length(block%n)
+            block%y(k) = block%y(block%n)
+            block%peak_bound(k) = block%peak_bound(block%n)
+        end do
+        !$omp simd private(softness, hardness, offset)
+        do k = 1, block%lanes
+            ! To the power of gamma_length.
+            softness = sqrt(sqrt(block%half_length(k)/law%a))
+            softness = softness*sqrt(softness)
+            hardness = 1.0_wp/softness
+            offset = block%y(k) - law%y
+            block%slope_x(k) = (cksi/law%l1 - offset*rolling%creepage%cphi*law%spin_slope) &
+                               *hardness
+            block%slope_y0(k) = rolling%creepage%ceta/law%l2*hardness
+            block%slope_y1(k) = rolling%creepage%cphi/law%l3*hardness
+            block%rigid_x(k) = rolling%creepage%cksi - block%y(k)*rolling%creepage%cphi
+            block%k1(k) = law%k1*softness
+            block%k2(k) = law%k2*softness
+            block%onset(k) = slip_onset/sqrt(law%k1*law%k2)*block%half_length(k)*hardness
+            block%inverse_peak_bound(k) = 1.0_wp/block%peak_bound(k)
+            block%px(k) = 0.0_wp
+            block%py(k) = 0.0_wp
+            block%f(k) = 0.0_wp
+            block%sum_x(k) = 0.0_wp
+            block%sum_y(k) = 0.0_wp
+            block%arm_x(k) = 0.0_wp
+            block%held(k) = 0.0_wp
+        end do
+    end subroutine fill_block
+
+    !> One element further in all lanes, from the leading edge to the trailing one: in adhesion the
+    !> traction grows by the slope of adhesion; where that leaves the bound, it slides.
+    pure subroutine advance(block, t, step_per_length, bound, ceta, cphi)
+        type(block_t), intent(inout) :: block
+        real(wp), intent(in) :: t              !! place of the element over half-length
+        real(wp), intent(in) :: step_per_length !! from the last point on, over half-length
+        real(wp), intent(in) :: bound          !! bound over mu p0
+        real(wp), intent(in) :: ceta, cphi     !! creepages
+
+        real(wp) :: slope_y, mean_x
+        integer :: k, first
+
+        mean_x = t + 0.5_wp*step_per_length
+        !$omp simd private(slope_y)
+        do k = 1, block%lanes
+            block%step(k) = block%half_length(k)*step_per_length
+            slope_y = block%slope_y0(k) + block%half_length(k)*mean_x*block%slope_y1(k)
+            block%extra_y(k) = block%step(k)*(block%k2(k)*slope_y &
+                                             - (ceta + block%half_length(k)*t*cphi))
+            block%px(k) = block%px(k) - block%step(k)*block%slope_x(k)
+            block%py(k) = block%py(k) - block%step(k)*slope_y
+            block%excess(k) = block%px(k)*block%px(k) + block%py(k)*block%py(k) &
+                              - (block%peak_bound(k)*bound)**2
+        end do
+        do first = 1, block%lanes, lane_step
+            if (any(block%excess(first:first + lane_step - 1) > 0.0_wp)) then
+                call slide(block, first, bound)
+            else
+                block%f(first:first + lane_step - 1) = 0.0_wp
+            end if
+        end do
+        !$omp simd
+        do k = 1, block%lanes
+            block%sum_x(k) = block%sum_x(k) + block%px(k)
+            block%sum_y(k) = block%sum_y(k) + block%py(k)
+            block%arm_x(k) = block%arm_x(k) + block%half_length(k)*t*block%py(k)
+            block%held(k) = block%held(k) + (0.5_wp - sign(0.5_wp, block%excess(k)))
+        end do
+    end subroutine advance
+
+    !> Bring those of a few lanes that left the bound back to it.
+    !>
+    !> The step is implicit in the slip (S4): with f = lambda times the step,
+    !>
+    !>     p_i = (K_i q_i - step e_i)/(K_i + f),   |p| = bound.
+    !>
+    !> What e_i has of adhesion comes from the lambda of the element ahead and, once more, from the
+    !> estimate of f that follows, exact for K1 = K2; then one step of Newton's method on 1/|p|,
+    !> which is nearly linear in f. The traction is scaled onto the bound at the end, so that what
+    !> is left of the residual costs no force. No tests of convergence: all lanes do the same.
+    pure subroutine slide(block, first, bound)
+        type(block_t), intent(inout) :: block
+        integer, intent(in) :: first  !! first of the lanes
+        real(wp), intent(in) :: bound !! bound over mu p0
+
+        real(wp) :: k1, k2, extra_x, push_x, push_y, fade, ax, ay, squared, f, u, v, px, py, r
+        real(wp) :: inverse_bound, inverse_limit, slides, grip
+        integer :: k
+
+        inverse_bound = 1.0_wp/bound
+        !$omp simd private(k1, k2, extra_x, push_x, push_y, fade, ax, ay, squared, f, u, v, px, &
+        !$omp& py, r, inverse_limit, slides, grip)
+        do k = first, first + lane_step - 1
+            k1 = block%k1(k)
+            k2 = block%k2(k)
+            grip = block%onset(k)/block%step(k)
+            inverse_limit = block%inverse_peak_bound(k)*inverse_bound
+            extra_x = block%step(k)*(k1*block%slope_x(k) - block%rigid_x(k))
+            push_x = k1*block%px(k) + extra_x
+            push_y = k2*block%py(k) + block%extra_y(k)
+            fade = 1.0_wp/(1.0_wp + grip*block%f(k))
+            ax = push_x - extra_x*fade
+            ay = push_y - block%extra_y(k)*fade
+            r = 1.0_wp/sqrt(ax*ax + ay*ay + least)
+            ax = ax*r
+            ay = ay*r
+            f = inverse_limit/r - (k1*ax*ax + k2*ay*ay)
+            f = 0.5_wp*(f + abs(f))
+
+            fade = 1.0_wp/(1.0_wp + grip*f)
+            ax = push_x - extra_x*fade
+            ay = push_y - block%extra_y(k)*fade
+            u = k1 + f
+            v = k2 + f
+            px = ax*v
+            py = ay*u
+            squared = px*px + py*py + least
+            f = f + (sqrt(squared)*inverse_limit - u*v)*squared/(px*px*v + py*py*u + least)
+            f = 0.5_wp*(f + abs(f))
+
+            px = ax*(k2 + f)
+            py = ay*(k1 + f)
+            r = 1.0_wp/(sqrt(px*px + py*py + least)*inverse_limit)
+            slides = 0.5_wp + sign(0.5_wp, block%excess(k))
+            block%f(k) = slides*f
+            block%px(k) = slides*(px*r) + (1.0_wp - slides)*block%px(k)
+            block%py(k) = slides*(py*r) + (1.0_wp - slides)*block%py(k)
+        end do
+    end subroutine slide
+end module faststrip_tangential_strip_march
