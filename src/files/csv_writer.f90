@@ -1,0 +1,322 @@
+!> Tables of comma-separated values as they are written: either the whole new file is left or the
+!> old one. The dialect stands in `faststrip_files_csv`.
+module faststrip_files_csv_writer
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, &
+                                           c_null_ptr, c_ptr, c_size_t
+    use, intrinsic :: iso_fortran_env, only: output_unit
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, st_file_write
+    use faststrip_base_text, only: trim_blanks, integer_text
+    use faststrip_files_lines, only: is_folder
+    use faststrip_files_temporary, only: most_temporaries, temporary_name, final_path
+    implicit none
+    private
+
+    public :: csv_writer_t
+    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
+    public :: real_text
+
+    !> A file being written; its parts are the writer's own business.
+    type :: csv_writer_t
+        private
+        character(len=:), allocatable :: path
+        character(len=:), allocatable :: final
+        character(len=:), allocatable :: temporary
+        character(len=:), allocatable :: row
+        type(status_t) :: status
+        type(c_ptr) :: stream = c_null_ptr
+        integer :: n_cells = 0
+    end type csv_writer_t
+
+    !> Add one cell to the row: text (quoted where needed), a whole number, or a real number so
+    !> that it reads back as the same double; a number that is not finite leaves the cell empty.
+    interface put_cell
+        module procedure put_text_cell, put_integer_cell, put_real_cell
+    end interface put_cell
+
+    ! Files are written through the C library: its streams report every failed write, also one
+    ! that shows only when the buffer is emptied, where FLUSH and CLOSE may stay silent.
+    interface
+        function c_fopen(path, mode) bind(c, name='fopen') result(stream)
+            import :: c_char, c_ptr
+            character(kind=c_char), intent(in) :: path(*), mode(*)
+            type(c_ptr) :: stream
+        end function c_fopen
+
+        function c_fdopen(descriptor, mode) bind(c, name='fdopen') result(stream)
+            import :: c_char, c_int, c_ptr
+            integer(c_int), value :: descriptor
+            character(kind=c_char), intent(in) :: mode(*)
+            type(c_ptr) :: stream
+        end function c_fdopen
+
+        function c_dup(descriptor) bind(c, name='dup') result(copy)
+            import :: c_int
+            integer(c_int), value :: descriptor
+            integer(c_int) :: copy
+        end function c_dup
+
+        function c_fputs(text, stream) bind(c, name='fputs') result(code)
+            import :: c_char, c_int, c_ptr
+            character(kind=c_char), intent(in) :: text(*)
+            type(c_ptr), value :: stream
+            integer(c_int) :: code
+        end function c_fputs
+
+        function c_fclose(stream) bind(c, name='fclose') result(code)
+            import :: c_int, c_ptr
+            type(c_ptr), value :: stream
+            integer(c_int) :: code
+        end function c_fclose
+
+        function c_rename(old, new) bind(c, name='rename') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: old(*), new(*)
+            integer(c_int) :: code
+        end function c_rename
+
+        function c_remove(path) bind(c, name='remove') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int) :: code
+        end function c_remove
+
+        ! The number of the C library's last error, by gfortran's own library.
+        function last_error() bind(c, name='_gfortran_ierrno_i4') result(number)
+            import :: c_int
+            integer(c_int) :: number
+        end function last_error
+
+        function c_strerror(number) bind(c, name='strerror') result(text)
+            import :: c_int, c_ptr
+            integer(c_int), value :: number
+            type(c_ptr) :: text
+        end function c_strerror
+
+        function c_strlen(text) bind(c, name='strlen') result(length)
+            import :: c_ptr, c_size_t
+            type(c_ptr), value :: text
+            integer(c_size_t) :: length
+        end function c_strlen
+    end interface
+
+contains
+
+    !> Start a file. What is written goes to a file of another name in the same folder until
+    !> `close_csv` renames it: a run that fails leaves an older file as it was. `-` means the
+    !> standard output; what is no ordinary file (`/dev/...`) is written directly. A symbolic link
+    !> is followed.
+    subroutine open_csv(writer, path, status)
+        type(csv_writer_t), intent(out) :: writer !! to be closed by `close_csv` or `abort_csv`
+        character(len=*), intent(in) :: path      !! name of the file, or `-`
+        type(status_t), intent(out) :: status     !! `st_file_write`
+        integer :: number
+
+        call clear_status(status)
+        writer%path = path
+        writer%final = path
+        if (index(path, '/dev/') /= 1) writer%final = final_path(path)
+        writer%temporary = ''
+        writer%row = ''
+        if (path == '-') then
+            flush (output_unit)
+            writer%stream = c_fdopen(c_dup(1_c_int), 'w' // c_null_char)
+        else if (index(writer%final, '/dev/') == 1) then
+            writer%stream = c_fopen(writer%final // c_null_char, 'w' // c_null_char)
+        else if (len_trim(path) == 0) then
+            call set_status(writer%status, st_file_write, 'cannot write a file without a name')
+        else if (is_folder(path)) then
+            call set_status(writer%status, st_file_write, 'cannot write the file: ' // path &
+                            // ': Is a directory')
+        else
+            do number = 1, most_temporaries
+                writer%temporary = temporary_name(path, number)
+                writer%stream = c_fopen(writer%temporary // c_null_char, 'wx' // c_null_char)
+                if (c_associated(writer%stream)) exit
+            end do
+        end if
+        if (.not. c_associated(writer%stream)) call note_failure(writer)
+        status = writer%status
+    end subroutine open_csv
+
+    !> Add a comment line, above the header.
+    subroutine put_comment(writer, text)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: text        !! one line; `# ` goes in front
+
+        if (scan(text, achar(10) // achar(13)) > 0) call note_line_break(writer)
+        call put_line(writer, '# ' // trim(text))
+    end subroutine put_comment
+
+    !> Add the row of column names.
+    subroutine put_header(writer, names)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file
+        character(len=*), intent(in) :: names(:)     !! the names; trailing blanks do not count
+        integer :: i
+
+        do i = 1, size(names)
+            call put_text_cell(writer, trim(names(i)))
+        end do
+        call end_row(writer)
+    end subroutine put_header
+
+    subroutine put_text_cell(writer, value)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: value       !! one line of text, kept as it is
+
+        if (scan(value, achar(10) // achar(13)) > 0) call note_line_break(writer)
+        call append_cell(writer, quoted(value))
+    end subroutine put_text_cell
+
+    subroutine put_integer_cell(writer, value)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        integer, intent(in) :: value                !! any
+
+        call append_cell(writer, integer_text(value))
+    end subroutine put_integer_cell
+
+    subroutine put_real_cell(writer, value)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        real(wp), intent(in) :: value               !! any; not finite: an empty cell
+
+        call append_cell(writer, real_text(value))
+    end subroutine put_real_cell
+
+    !> A double as text with 17 significant digits, which read back as the same double; empty
+    !> if it is not finite.
+    pure function real_text(value) result(text)
+        real(wp), intent(in) :: value         !! any
+        character(len=:), allocatable :: text !! as `1.2345678901234567E+002`, no blanks
+        character(len=24) :: buffer
+
+        text = ''
+        if (.not. ieee_is_finite(value)) return
+        write (buffer, '(es24.16e3)') value
+        text = trim(adjustl(buffer))
+    end function real_text
+
+    pure function quoted(value) result(text)
+        character(len=*), intent(in) :: value
+        character(len=:), allocatable :: text
+        integer :: i
+        logical :: needed
+
+        needed = scan(value, ',"') > 0
+        if (len(value) > 0) needed = needed .or. len(trim_blanks(value)) < len(value) &
+                                     .or. value(1:1) == '#'
+        if (.not. needed) then
+            text = value
+            return
+        end if
+        text = '"'
+        do i = 1, len(value)
+            if (value(i:i) == '"') text = text // '"'
+            text = text // value(i:i)
+        end do
+        text = text // '"'
+    end function quoted
+
+    subroutine append_cell(writer, text)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: text
+
+        if (writer%n_cells > 0) writer%row = writer%row // ','
+        writer%row = writer%row // text
+        writer%n_cells = writer%n_cells + 1
+    end subroutine append_cell
+
+    !> End the row and write it.
+    subroutine end_row(writer)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+
+        call put_line(writer, writer%row)
+        writer%row = ''
+        writer%n_cells = 0
+    end subroutine end_row
+
+    !> Write one line as it is, for files that are no tables.
+    subroutine put_line(writer, text)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, not in the middle of a row
+        character(len=*), intent(in) :: text        !! the line, without its end
+        integer(c_int) :: code
+
+        if (.not. c_associated(writer%stream) .or. writer%status%code /= 0) return
+        code = c_fputs(text // new_line('a') // c_null_char, writer%stream)
+        if (code < 0) call note_failure(writer)
+    end subroutine put_line
+
+    subroutine note_failure(writer)
+        type(csv_writer_t), intent(inout) :: writer
+
+        character(len=:), allocatable :: name
+        integer(c_int) :: number
+
+        number = last_error()
+        if (writer%status%code /= 0) return
+        name = writer%path
+        if (name == '-') name = 'standard output'
+        call set_status(writer%status, st_file_write, 'cannot write the file: ' // name // ': ' &
+                        // cause(number))
+    end subroutine note_failure
+
+    ! The C library's words for an error.
+    function cause(number) result(words)
+        integer(c_int), intent(in) :: number
+        character(len=:), allocatable :: words
+        character(kind=c_char), pointer :: text(:)
+        type(c_ptr) :: place
+        integer :: i
+
+        place = c_strerror(number)
+        call c_f_pointer(place, text, [int(c_strlen(place))])
+        allocate (character(len=size(text)) :: words)
+        do i = 1, size(text)
+            words(i:i) = text(i)
+        end do
+    end function cause
+
+    subroutine note_line_break(writer)
+        type(csv_writer_t), intent(inout) :: writer
+
+        call set_status(writer%status, st_file_write, &
+                        'a line break inside a cell of the file: ' // writer%path)
+    end subroutine note_line_break
+
+    !> Finish the file and give it its name. If anything failed since `open_csv`, or fails now,
+    !> the file that was there before stays and the status says so.
+    subroutine close_csv(writer, status)
+        type(csv_writer_t), intent(inout) :: writer !! closed afterwards
+        type(status_t), intent(out) :: status       !! `st_file_write`
+        integer(c_int) :: code
+
+        call clear_status(status)
+        if (.not. c_associated(writer%stream)) then
+            call set_status(status, st_file_write, 'the file is not open')
+            return
+        end if
+        if (writer%n_cells > 0) call end_row(writer)
+        code = c_fclose(writer%stream)
+        writer%stream = c_null_ptr
+        if (code /= 0) call note_failure(writer)
+        if (len(writer%temporary) > 0) then
+            if (writer%status%code == 0) then
+                code = c_rename(writer%temporary // c_null_char, writer%final // c_null_char)
+                if (code /= 0) call note_failure(writer)
+            end if
+            if (writer%status%code /= 0) code = c_remove(writer%temporary // c_null_char)
+        end if
+        status = writer%status
+    end subroutine close_csv
+
+    !> Drop the file: what was there before stays. Harmless on a writer that is not open.
+    subroutine abort_csv(writer)
+        type(csv_writer_t), intent(inout) :: writer !! closed afterwards
+        integer(c_int) :: code
+
+        if (.not. c_associated(writer%stream)) return
+        code = c_fclose(writer%stream)
+        writer%stream = c_null_ptr
+        if (len(writer%temporary) > 0) code = c_remove(writer%temporary // c_null_char)
+    end subroutine abort_csv
+end module faststrip_files_csv_writer
