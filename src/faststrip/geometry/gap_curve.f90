@@ -15,8 +15,8 @@ module faststrip_geometry_gap_curve
                                      st_workspace_too_small, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
     use faststrip_geometry_gap, only: gap_t, check_gap, check_gap_points
-    use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size, &
-                                              tame_interval
+    use faststrip_geometry_gap_pieces, only: cut_into_pieces, find_lowest
+    use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size
     implicit none
     private
 
@@ -175,7 +175,10 @@ contains
         if (is_error(status)) return
         curve%n = n
         curve%is_image = .false.
-        call cut_into_monotone_pieces(curve)
+        call cut_into_pieces(curve%y(:n), curve%h(:n), curve%bend(:n), curve%slope_from(:n), &
+                             curve%slope_to(:n), curve%y_node, curve%h_node, curve%n_pieces)
+        call find_lowest(curve%y_node(:curve%n_pieces + 1), curve%h_node(:curve%n_pieces + 1), &
+                         curve%y_lowest, curve%h_lowest)
         if (is_image) call mirror_gap_curve(curve)
     end subroutine take_points
 
@@ -265,92 +268,6 @@ contains
         end do
         if (n > 0) usual = unit*exp(total/n)
     end function usual_inv2r
-
-    pure subroutine cut_into_monotone_pieces(curve)
-        type(gap_curve_t), intent(inout) :: curve
-
-        real(wp) :: dy, root(2), extremum(2)
-        integer :: i, j, m, n_roots
-        logical :: is_tamed
-
-        m = 1
-        curve%y_node(1) = curve%y(1)
-        curve%h_node(1) = curve%h(1)
-        do i = 1, curve%n - 1
-            dy = curve%y(i + 1) - curve%y(i)
-            call find_extrema(curve, i, n_roots, root, extremum)
-            if (n_roots > 0) then
-                call tame_interval(i, curve%y(:curve%n), curve%h(:curve%n), &
-                                   curve%bend(:curve%n), minval(extremum(:n_roots)), &
-                                   maxval(extremum(:n_roots)), curve%slope_from(i), &
-                                   curve%slope_to(i), is_tamed)
-                if (is_tamed) call find_extrema(curve, i, n_roots, root, extremum)
-            end if
-            do j = 1, n_roots
-                m = m + 1
-                curve%y_node(m) = curve%y(i) + root(j)*dy
-                curve%h_node(m) = extremum(j)
-            end do
-            m = m + 1
-            curve%y_node(m) = curve%y(i + 1)
-            curve%h_node(m) = curve%h(i + 1)
-        end do
-        curve%n_pieces = m - 1
-        i = minloc(curve%h_node(:m), dim=1)
-        curve%h_lowest = curve%h_node(i)
-        ! The middle of a flat place, as seen from either side.
-        j = i
-        do while (j < m)
-            if (curve%h_node(j + 1) > curve%h_lowest) exit
-            j = j + 1
-        end do
-        curve%y_lowest = curve%y_node(i)
-        if (j > i) curve%y_lowest = 0.5_wp*(curve%y_node(i) + curve%y_node(j))
-    end subroutine cut_into_monotone_pieces
-
-    !> Places and heights of the extrema inside interval i.
-    pure subroutine find_extrema(curve, i, n, root, extremum)
-        type(gap_curve_t), intent(in) :: curve
-        integer, intent(in) :: i
-        integer, intent(out) :: n
-        real(wp), intent(out) :: root(2), extremum(2) ! in 0 to 1; mm
-
-        real(wp) :: c1, c2, c3, dy, secant
-
-        dy = curve%y(i + 1) - curve%y(i)
-        secant = curve%h(i + 1) - curve%h(i)
-        c1 = curve%slope_from(i)*dy
-        c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
-        c2 = secant - c1 - c3
-        call unit_interval_roots(3.0_wp*c3, 2.0_wp*c2, c1, n, root)
-        extremum = curve%h(i) + root*(c1 + root*(c2 + root*c3))
-    end subroutine find_extrema
-
-    !> Roots of a t^2 + b t + c strictly inside (0, 1), ascending.
-    pure subroutine unit_interval_roots(a, b, c, n, root)
-        real(wp), intent(in) :: a, b, c
-        integer, intent(out) :: n
-        real(wp), intent(out) :: root(2)
-
-        real(wp) :: discriminant, q, candidate(2)
-        integer :: i
-
-        n = 0
-        root = 0.0_wp
-        candidate = -1.0_wp
-        discriminant = b*b - 4.0_wp*a*c
-        if (discriminant <= 0.0_wp) return
-        q = -0.5_wp*(b + sign(sqrt(discriminant), b))
-        ! A quotient above one is no root inside; tested before dividing, which could overflow.
-        if (abs(q) < abs(a)) candidate(1) = q/a
-        if (abs(c) < abs(q)) candidate(2) = c/q
-        if (candidate(1) > candidate(2)) candidate = candidate([2, 1])
-        do i = 1, 2
-            if (candidate(i) <= 0.0_wp .or. candidate(i) >= 1.0_wp) cycle
-            n = n + 1
-            root(n) = candidate(i)
-        end do
-    end subroutine unit_interval_roots
 
     !> Height and longitudinal term of the gap; outside the points those of the nearest one.
     !>
@@ -467,7 +384,7 @@ contains
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: level          !! height, mm
         real(wp), intent(inout) :: y_from(:)   !! left ends, mm; the first `n` count
-        real(wp), intent(inout) :: y_to(:)         !! right ends, mm
+        real(wp), intent(inout) :: y_to(:)     !! right ends, mm
         integer, intent(out) :: n              !! number of intervals; at most size(y_from),
                                                !! further ones to the right are left out
         integer :: j
