@@ -59,10 +59,12 @@ module faststrip_contact_solve
 
     !> Figures of one contact.
     type :: contact_result_t
-        type(normal_result_t) :: normal         !! load, penetration, area, largest pressure, ...
-        type(certificate_t) :: certificate      !! how wrong they are, by strips
-        logical :: is_estimated = .false.       !! is that known? Not of ellipses
-        type(tangential_result_t) :: tangential !! forces on the rail, friction power, stick
+        type(normal_result_t) :: normal = normal_result_t()
+            !! load, penetration, area, largest pressure, ...
+        type(certificate_t) :: certificate = certificate_t() !! how wrong they are, by strips
+        logical :: is_estimated = .false.                    !! is that known? Not of ellipses
+        type(tangential_result_t) :: tangential = tangential_result_t()
+            !! forces on the rail, friction power, stick
     end type contact_result_t
 
     !> Everything a solution needs beside the case; owned by the caller, one per thread.
