@@ -29,6 +29,7 @@ module faststrip_normal_strip_coupled
     integer, parameter :: max_factorings = 6
     real(wp), parameter :: slow = 0.5_wp       ! steps that shrink less ask for a new Jacobian
     real(wp), parameter :: far = 0.5_wp        ! so does a first step this large with an old one
+    real(wp), parameter :: least_scale = 0.3_wp ! of an updated step; less: a new Jacobian
     real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &
                            max_end_step = 1.0_wp
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
@@ -42,116 +43,185 @@ module faststrip_normal_strip_coupled
         logical :: fixed = .false. ! at the end of the gap's points
     end type end_t
 
+    !> What one step hands to the next.
+    type :: steps_t
+        integer :: factored = 0   ! how often the Jacobian was
+        integer :: updates = 0    ! of the factors, by Broyden's formula
+        logical :: exact = .false. ! are the factors those of this step?
+        real(wp) :: size_now = 0.0_wp, size_before = 0.0_wp ! largest component
+        real(wp) :: ratio = slow  ! of the two
+        real(wp) :: norm2(most_updates) = 0.0_wp ! of the steps kept
+    end type steps_t
+
 contains
 
     !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
-    !> nothing of patches, penetration and the workspace's strips counts.
-    pure subroutine settle_coupled(workspace, compliance, goal, tolerance, patches, penetration, &
-                                   cost, settled)
+    !> nothing of the patches and the workspace's strips counts.
+    pure subroutine settle_coupled(workspace, compliance, demand, tolerance, patches, cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips placed and started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: goal           !! load or penetration
-        real(wp), intent(in) :: tolerance            !! relative size of what is left
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: tolerance            !! relative size of the residuals left
         type(patches_t), intent(inout) :: patches    !! their ends move
-        real(wp), intent(inout) :: penetration       !! above the lowest height, mm
         type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
         type(end_t) :: ends(2*max_patches)
-        integer :: n, m, n_ends, trial, updates, factored, j
-        real(wp) :: size_now, size_before, ratio, scale, norm2(most_updates), p_scale
-        logical :: singular, exact
+        type(steps_t) :: steps
+        integer :: m, n_ends, trial
+        real(wp) :: scale, p_scale
+        logical :: possible
 
         settled = .false.
-        n = sum(patches%at(:patches%n)%n_strips)
         call list_ends(workspace, patches, ends, n_ends)
-        m = 2*n + 1 + n_ends
-        updates = 0
-        factored = 0
-        size_before = 0.0_wp
-        call check_kept(workspace%newton, goal, patches, ends(:n_ends))
+        m = 2*workspace%strips%n + 1 + n_ends
+        call check_kept(workspace%newton, demand, patches, ends(:n_ends))
         do trial = 1, max_iterations
-            p_scale = maxval(workspace%p0(:n))
-            exact = .not. workspace%newton%kept
-            if (exact) then
-                if (factored == max_factorings) return
-                factored = factored + 1
-                call add_cost(cost, n, m, .true., count(.not. ends(:n_ends)%fixed))
-                call factor(workspace, compliance, goal, patches, ends(:n_ends), n, penetration, &
-                            p_scale, singular)
-                if (singular) return
-                workspace%newton%kept = .true.
-                updates = 0
+            p_scale = maxval(workspace%strips%p0(:workspace%strips%n))
+            call linearise(workspace, compliance, demand, patches, ends(:n_ends), p_scale, cost, &
+                           steps, possible)
+            if (.not. possible) return
+            call find_step(workspace%newton, m, steps, possible)
+            if (.not. possible) return
+            if (.not. workspace%newton%kept) cycle
+            call take_step(workspace, ends(:n_ends), p_scale, patches, scale, possible)
+            if (.not. possible) return
+            if (scale < 1.0_wp .or. steps%updates == most_updates) then
+                workspace%newton%kept = .false.
             else
-                call add_cost(cost, n, m, .false., 1)
-                call coupled_residual(workspace, compliance, goal, ends(:n_ends), n, penetration, &
-                              workspace%newton%step)
+                ! The residuals left are about the next step.
+                settled = steps%size_now*min(steps%ratio, slow)/(1.0_wp - slow) <= tolerance
+                if (settled) exit
+                call keep_step(workspace%newton, m, steps, settled)
+                if (settled) exit
             end if
-            associate (step => workspace%newton%step, history => workspace%newton%history)
-                call lu_solve(m, workspace%newton%jacobian, workspace%newton%pivot, step)
-                do j = 1, updates - 1
-                    step(:m) = step(:m) + history(:m, j + 1) &
-                               *(dot_product(history(:m, j), step(:m))/norm2(j))
-                end do
-                if (updates > 0) then
-                    scale = 1.0_wp - dot_product(history(:m, updates), step(:m))/norm2(updates)
-                    if (scale < 0.3_wp) then
-                        workspace%newton%kept = .false.
-                        cycle
-                    end if
-                    step(:m) = step(:m)/scale
-                end if
-                size_now = maxval(abs(step(:m)))
-                if (.not. size_now < huge(1.0_wp)) return
-                ratio = slow
-                if (updates > 0) then
-                    ratio = size_now/size_before
-                    if (ratio > slow) then
-                        workspace%newton%kept = .false.
-                        cycle
-                    end if
-                else if (.not. exact .and. size_now > far) then
-                    workspace%newton%kept = .false.
-                    cycle
-                end if
-                scale = min(1.0_wp, limit_of(step(n + 1:2*n), max_log_length_step), &
-                            limit_of(step(2*n + 1:2*n + 1), max_penetration_step), &
-                            limit_of(step(2*n + 2:m), max_end_step))
-                workspace%p0(:n) = workspace%p0(:n) + scale*p_scale*step(:n)
-                workspace%half_length(:n) = workspace%half_length(:n)*exp(scale*step(n + 1:2*n))
-                penetration = penetration*(1.0_wp + scale*step(2*n + 1))
-                call move(workspace, ends(:n_ends), scale, step(2*n + 2:m), patches)
-                if (.not. in_order(workspace, patches)) return
-                call place_edges(workspace, patches)
-                call mark_leaving_strips(workspace%y_left(:n), workspace%y_right(:n), &
-                                         workspace%inv2r(:n), workspace%p0(:n), &
-                                         workspace%half_length(:n), workspace%leaves(:n))
-                if (any(workspace%leaves(:n))) return
-                if (scale < 1.0_wp .or. updates == most_updates) then
-                    workspace%newton%kept = .false.
-                else
-                    ! What is left is about the next step.
-                    if (size_now*min(ratio, slow)/(1.0_wp - slow) <= tolerance) then
-                        settled = .true.
-                        exit
-                    end if
-                    updates = updates + 1
-                    history(:m, updates) = step(:m)
-                    norm2(updates) = sum(step(:m)**2)
-                    if (.not. norm2(updates) > tiny(1.0_wp)) then
-                        settled = .true.
-                        exit
-                    end if
-                end if
-                size_before = size_now
-            end associate
+            steps%size_before = steps%size_now
         end do
         if (.not. settled) return
         ! The load to the last digit.
-        if (goal%by_load) workspace%p0(:n) = workspace%p0(:n)*goal%load &
-            /sum(0.5_wp*pi*workspace%p0(:n)*workspace%half_length(:n) &
-                 *(workspace%y_right(:n) - workspace%y_left(:n)))
+        associate (strips => workspace%strips, n => workspace%strips%n)
+            if (demand%by_load) strips%p0(:n) = strips%p0(:n)*demand%load &
+                /sum(0.5_wp*pi*strips%p0(:n)*strips%half_length(:n) &
+                     *(strips%y_right(:n) - strips%y_left(:n)))
+        end associate
     end subroutine settle_coupled
+
+    !> Residuals, into the step, and factors of a Jacobian: the kept ones, or new ones.
+    pure subroutine linearise(workspace, compliance, demand, patches, ends, p_scale, cost, steps, &
+                              possible)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance, p_scale
+        type(demand_t), intent(in) :: demand
+        type(patches_t), intent(in) :: patches
+        type(end_t), intent(in) :: ends(:)
+        type(cost_t), intent(inout) :: cost
+        type(steps_t), intent(inout) :: steps
+        logical, intent(out) :: possible ! false: factored too often, or singular
+
+        integer :: n, m
+        logical :: singular
+
+        n = workspace%strips%n
+        m = 2*n + 1 + size(ends)
+        steps%exact = .not. workspace%newton%kept
+        possible = .true.
+        if (.not. steps%exact) then
+            call add_cost(cost, n, m, .false., 1)
+            call coupled_residual(workspace, compliance, demand, ends, workspace%newton%step)
+            return
+        end if
+        possible = steps%factored < max_factorings
+        if (.not. possible) return
+        steps%factored = steps%factored + 1
+        call add_cost(cost, n, m, .true., count(.not. ends%fixed))
+        call factor(workspace, compliance, demand, patches, ends, p_scale, singular)
+        possible = .not. singular
+        if (singular) return
+        workspace%newton%kept = .true.
+        steps%updates = 0
+    end subroutine linearise
+
+    !> The step from the residuals, by the factors and their updates. The factors are kept no longer
+    !> if they are too old for it.
+    pure subroutine find_step(newton, m, steps, possible)
+        type(newton_workspace_t), intent(inout) :: newton
+        integer, intent(in) :: m ! equations
+        type(steps_t), intent(inout) :: steps
+        logical, intent(out) :: possible ! is the step finite, or to be sought anew?
+
+        real(wp) :: scale
+        integer :: j
+
+        possible = .true.
+        associate (step => newton%step, history => newton%history, updates => steps%updates)
+            call lu_solve(m, newton%jacobian, newton%pivot, step)
+            do j = 1, updates - 1
+                step(:m) = step(:m) + history(:m, j + 1) &
+                           *(dot_product(history(:m, j), step(:m))/steps%norm2(j))
+            end do
+            if (updates > 0) then
+                scale = 1.0_wp - dot_product(history(:m, updates), step(:m))/steps%norm2(updates)
+                if (scale < least_scale) then
+                    newton%kept = .false.
+                    return
+                end if
+                step(:m) = step(:m)/scale
+            end if
+            steps%size_now = maxval(abs(step(:m)))
+            possible = steps%size_now < huge(1.0_wp)
+            if (.not. possible) return
+            steps%ratio = slow
+            if (updates > 0) then
+                steps%ratio = steps%size_now/steps%size_before
+                if (steps%ratio > slow) newton%kept = .false.
+            else if (.not. steps%exact .and. steps%size_now > far) then
+                newton%kept = .false.
+            end if
+        end associate
+    end subroutine find_step
+
+    !> Move strips and ends by the step, or by a part of it where it is large.
+    pure subroutine take_step(workspace, ends, p_scale, patches, scale, possible)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(end_t), intent(in) :: ends(:)
+        real(wp), intent(in) :: p_scale
+        type(patches_t), intent(inout) :: patches
+        real(wp), intent(out) :: scale   ! part of the step, at most 1
+        logical, intent(out) :: possible ! are the patches in order, and does no strip leave?
+
+        integer :: n, m
+
+        n = workspace%strips%n
+        m = 2*n + 1 + size(ends)
+        associate (step => workspace%newton%step, strips => workspace%strips)
+            scale = min(1.0_wp, limit_of(step(n + 1:2*n), max_log_length_step), &
+                        limit_of(step(2*n + 1:2*n + 1), max_penetration_step), &
+                        limit_of(step(2*n + 2:m), max_end_step))
+            strips%p0(:n) = strips%p0(:n) + scale*p_scale*step(:n)
+            strips%half_length(:n) = strips%half_length(:n)*exp(scale*step(n + 1:2*n))
+            strips%penetration = strips%penetration*(1.0_wp + scale*step(2*n + 1))
+            call move(workspace, ends, scale, step(2*n + 2:m), patches)
+            possible = in_order(workspace, patches)
+            if (.not. possible) return
+            call place_edges(workspace, patches)
+            call mark_leaving_strips(strips%y_left(:n), strips%y_right(:n), strips%inv2r(:n), &
+                                     strips%p0(:n), strips%half_length(:n), strips%leaves(:n))
+            possible = .not. any(strips%leaves(:n))
+        end associate
+    end subroutine take_step
+
+    !> Keep a whole step for the next update of the factors; one of no size has settled.
+    pure subroutine keep_step(newton, m, steps, settled)
+        type(newton_workspace_t), intent(inout) :: newton
+        integer, intent(in) :: m
+        type(steps_t), intent(inout) :: steps
+        logical, intent(out) :: settled
+
+        steps%updates = steps%updates + 1
+        newton%history(:m, steps%updates) = newton%step(:m)
+        steps%norm2(steps%updates) = sum(newton%step(:m)**2)
+        settled = .not. steps%norm2(steps%updates) > tiny(1.0_wp)
+    end subroutine keep_step
 
     !> The factor that keeps steps within a limit.
     pure real(wp) function limit_of(step, largest)
@@ -185,43 +255,38 @@ contains
     end subroutine list_ends
 
     !> Keep the last factors only if they are of a system of the same kind.
-    pure subroutine check_kept(newton, goal, patches, ends)
+    pure subroutine check_kept(newton, demand, patches, ends)
         type(newton_workspace_t), intent(inout) :: newton
-        type(demand_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         type(patches_t), intent(in) :: patches
         type(end_t), intent(in) :: ends(:)
 
         integer :: n
 
         n = patches%n
-        if (newton%kept) newton%kept = newton%by_load .eqv. goal%by_load
+        if (newton%kept) newton%kept = newton%by_load .eqv. demand%by_load
         if (newton%kept) newton%kept = newton%n_patches == n
         if (newton%kept) newton%kept = all(newton%n_strips(:n) == patches%at(:n)%n_strips) &
                                        .and. all(newton%fixed(:2*n) .eqv. ends%fixed)
-        newton%by_load = goal%by_load
+        newton%by_load = demand%by_load
         newton%n_patches = n
         newton%n_strips(:n) = patches%at(:n)%n_strips
         newton%fixed(:2*n) = ends%fixed
     end subroutine check_kept
 
-    !> Residual of all equations for the strips where they are.
-    pure subroutine coupled_residual(workspace, compliance, goal, ends, n, penetration, residual)
+    !> Residuals of all equations for the strips where they are.
+    pure subroutine coupled_residual(workspace, compliance, demand, ends, residual)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         type(end_t), intent(in) :: ends(:)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: penetration
         real(wp), intent(inout) :: residual(:)
 
         integer :: e
 
-        call strip_residual(workspace%y_left(:n), workspace%y_right(:n), workspace%height(:n), &
-                            workspace%inv2r(:n), compliance, goal, workspace%p0(:n), &
-                            workspace%half_length(:n), penetration, residual, &
-                            workspace%newton%y, workspace%newton%influence)
+        call strip_residual(workspace%strips, compliance, demand, residual)
         do e = 1, size(ends)
-            residual(2*n + 1 + e) = wanted(workspace, ends(e))
+            residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
         end do
     end subroutine coupled_residual
 
@@ -236,29 +301,24 @@ contains
     end function wanted
 
     !> Residual, into `step`, and the factored Jacobian.
-    pure subroutine factor(workspace, compliance, goal, patches, ends, n, penetration, p_scale, &
-                           singular)
+    pure subroutine factor(workspace, compliance, demand, patches, ends, p_scale, singular)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         type(patches_t), intent(in) :: patches
         type(end_t), intent(in) :: ends(:)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: penetration, p_scale
+        real(wp), intent(in) :: p_scale
         logical, intent(out) :: singular
 
         type(patches_t) :: moved
-        integer :: e, j, k, m
+        integer :: e, j, k, m, n
         real(wp) :: kept_length, away
 
+        n = workspace%strips%n
         m = 2*n + 1 + size(ends)
         associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
                    other => workspace%newton%history(:, 1))
-            call strip_jacobian(workspace%y_left(:n), workspace%y_right(:n), &
-                                workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
-                                workspace%p0(:n), workspace%half_length(:n), penetration, &
-                                p_scale, jacobian, residual, workspace%newton%y, &
-                                workspace%newton%influence)
+            call strip_jacobian(workspace%strips, compliance, demand, p_scale, jacobian, residual)
             jacobian(2*n + 2:m, :m) = 0.0_wp
             do e = 1, size(ends)
                 residual(2*n + 1 + e) = wanted(workspace, ends(e))
@@ -269,11 +329,11 @@ contains
                 end if
                 do j = 0, 2
                     k = ends(e)%strip + j*ends(e)%stride*ends(e)%inward
-                    kept_length = workspace%half_length(k)
-                    workspace%half_length(k) = kept_length*(1.0_wp + length_difference)
+                    kept_length = workspace%strips%half_length(k)
+                    workspace%strips%half_length(k) = kept_length*(1.0_wp + length_difference)
                     jacobian(2*n + 1 + e, n + k) = &
                         (residual(2*n + 1 + e) - wanted(workspace, ends(e)))/length_difference
-                    workspace%half_length(k) = kept_length
+                    workspace%strips%half_length(k) = kept_length
                 end do
             end do
             do e = 1, size(ends)
@@ -287,10 +347,7 @@ contains
                     moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
                 end if
                 call place_edges(workspace, moved)
-                call strip_residual(workspace%y_left(:n), workspace%y_right(:n), &
-                                    workspace%height(:n), workspace%inv2r(:n), compliance, goal, &
-                                    workspace%p0(:n), workspace%half_length(:n), penetration, &
-                                    other, workspace%newton%y, workspace%newton%influence)
+                call strip_residual(workspace%strips, compliance, demand, other)
                 jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
                 call place_edges(workspace, patches)
             end do

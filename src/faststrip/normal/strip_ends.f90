@@ -90,7 +90,7 @@ contains
         integer, intent(in) :: k      !! the end strip
         integer, intent(in) :: stride !! of `end_stride`
 
-        width = stride*(workspace%y_right(k) - workspace%y_left(k))
+        width = stride*(workspace%strips%y_right(k) - workspace%strips%y_left(k))
     end function end_width
 
     !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
@@ -107,9 +107,9 @@ contains
         width = end_width(workspace, k, stride)
         do j = 1, 3
             associate (i => k + (j - 1)*stride*inward)
-                y(j) = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))/width
-                q(j) = (workspace%half_length(i)/workspace%half_length(k))**2 &
-                       *(workspace%inv2r(i)/workspace%inv2r(k))
+                y(j) = 0.5_wp*(workspace%strips%y_left(i) + workspace%strips%y_right(i))/width
+                q(j) = (workspace%strips%half_length(i)/workspace%strips%half_length(k))**2 &
+                       *(workspace%strips%inv2r(i)/workspace%strips%inv2r(k))
             end associate
         end do
         ! q(s) = 1 + b s + bend s^2 with s from the end strip's middle outwards.
@@ -188,8 +188,8 @@ contains
             if (j <= m) then
                 y = low + (j - 0.5_wp)*dy
                 depth = overlap_depth(workspace%curve, compliance, penetration, &
-                                      workspace%y_left(:n), workspace%y_right(:n), &
-                                      workspace%p0(:n), workspace%half_length(:n), y)
+                                      workspace%strips%y_left(:n), workspace%strips%y_right(:n), &
+                                      workspace%strips%p0(:n), workspace%strips%half_length(:n), y)
             end if
             if (depth > overlap_tolerance*penetration) then
                 if (from == 0) from = j

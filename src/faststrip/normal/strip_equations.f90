@@ -15,6 +15,7 @@ module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
@@ -64,121 +65,140 @@ contains
         work = cost_work(cost)
     end function step_work
 
-    !> What is missing in the 2n + 1 equations, over the penetration and the load: centre lines,
-    !> tips, load (or zero).
-    pure subroutine strip_residual(y_left, y_right, height, inv2r, compliance, goal, p0, &
-                                   half_length, penetration, residual, y, influence)
-        real(wp), intent(in) :: y_left(:)      !! left edges, (n), mm
-        real(wp), intent(in) :: y_right(:)     !! right edges, (n), mm
-        real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
-        real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
-        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: goal     !! load or penetration
-        real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
-        real(wp), intent(in) :: half_length(:) !! xd, (n), mm
-        real(wp), intent(in) :: penetration    !! D above the lowest height, mm
-        real(wp), intent(inout) :: residual(:)  !! (2n + 1)
-        real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 1)
+    !> Residuals of the 2n + 1 equations, over the penetration and the load: centre lines, tips,
+    !> load (or zero).
+    pure subroutine strip_residual(strips, compliance, demand, residual)
+        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
 
         integer :: n, s
         real(wp) :: scale
 
-        n = size(p0)
-        call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
-                            residual, y)
-        scale = compliance/penetration
-        do s = 1, n
-            call center_influence_column(half_length(s), y_left(s), y_right(s), y(:n), &
-                                         influence(:n, 1))
-            residual(:n) = residual(:n) - scale*p0(s)*influence(:n, 1)
-            call tip_influence_column(half_length(s), y_left(s), y_right(s), half_length, y(:n), &
-                                      influence(:n, 1))
-            residual(n + 1:2*n) = residual(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
-        end do
+        n = strips%n
+        call start_residual(strips, demand, residual)
+        scale = compliance/strips%penetration
+        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y, &
+                   p0 => strips%p0, half_length => strips%half_length, &
+                   influence => strips%influence)
+            do s = 1, n
+                call center_influence_column(half_length(s), y_left(s), y_right(s), y(:n), &
+                                             influence(:n, 1))
+                residual(:n) = residual(:n) - scale*p0(s)*influence(:n, 1)
+                call tip_influence_column(half_length(s), y_left(s), y_right(s), &
+                                          half_length(:n), y(:n), influence(:n, 1))
+                residual(n + 1:2*n) = residual(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
+            end do
+        end associate
     end subroutine strip_residual
 
     !> The same, and the Jacobian of its negative in p0/p_scale, ln xd, ln D.
-    pure subroutine strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
-                                   half_length, penetration, p_scale, jacobian, residual, y, &
-                                   influence)
-        real(wp), intent(in) :: y_left(:), y_right(:) !! edges, (n), mm
-        real(wp), intent(in) :: height(:)      !! h on the centre lines, above the lowest, (n), mm
-        real(wp), intent(in) :: inv2r(:)       !! A on the centre lines, positive, (n), 1/mm
-        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: goal     !! load or penetration
-        real(wp), intent(in) :: p0(:)          !! pressures on the centre lines, (n), MPa
-        real(wp), intent(in) :: half_length(:) !! xd, (n), mm
-        real(wp), intent(in) :: penetration    !! D above the lowest height, mm
-        real(wp), intent(in) :: p_scale        !! unit of the pressures' changes, MPa
-        real(wp), intent(inout) :: jacobian(:, :) !! first 2n + 1 rows and columns
-        real(wp), intent(inout) :: residual(:)  !! (2n + 1)
-        real(wp), intent(inout) :: y(:), influence(:, :) !! work, (n), (n, 3)
+    pure subroutine strip_jacobian(strips, compliance, demand, p_scale, jacobian, residual)
+        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: p_scale              !! unit of the pressures' changes, MPa
+        real(wp), intent(inout) :: jacobian(:, :)    !! first 2n + 1 rows and columns
+        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
 
-        integer :: n, k, s
-        real(wp) :: scale, strip_force, tip
+        integer :: n, k
 
-        n = size(p0)
-        call start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, penetration, &
-                            residual, y)
-        scale = compliance/penetration
+        n = strips%n
+        call start_residual(strips, demand, residual)
         do k = 1, n
-            jacobian(n + k, n + k) = 2.0_wp*inv2r(k)*half_length(k)**2/penetration
+            jacobian(n + k, n + k) = 2.0_wp*strips%inv2r(k)*strips%half_length(k)**2 &
+                                     /strips%penetration
         end do
         jacobian(:2*n, 2*n + 1) = -1.0_wp
-        do s = 1, n
-            call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y(:n), &
-                                                  influence(:n, 1), influence(:n, 3))
-            do k = 1, n
-                residual(k) = residual(k) - scale*p0(s)*influence(k, 1)
-                jacobian(k, s) = scale*p_scale*influence(k, 1)
-                jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
-            end do
-            call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
-                                               half_length, y(:n), influence(:n, 1), &
-                                               influence(:n, 2), influence(:n, 3))
-            tip = jacobian(n + s, n + s)
-            do k = 1, n
-                residual(n + k) = residual(n + k) - scale*p0(s)*influence(k, 1)
-                jacobian(n + k, s) = scale*p_scale*influence(k, 1)
-                jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
-            end do
-            jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
-            ! The tip of the field strip moves with its own length, under every source.
-            do k = 1, n
-                jacobian(n + k, n + k) = jacobian(n + k, n + k) &
-                                         + scale*p0(s)*half_length(k)*influence(k, 2)
-            end do
-        end do
-        if (.not. goal%by_load) then
+        call add_displacements(strips, compliance/strips%penetration, p_scale, jacobian, residual)
+        if (.not. demand%by_load) then
             jacobian(2*n + 1, :2*n) = 0.0_wp
             jacobian(2*n + 1, 2*n + 1) = 1.0_wp
             return
         end if
         jacobian(2*n + 1, 2*n + 1) = 0.0_wp
-        do s = 1, n
-            strip_force = 0.5_wp*pi*half_length(s)*(y_right(s) - y_left(s))/goal%load
-            jacobian(2*n + 1, s) = strip_force*p_scale
-            jacobian(2*n + 1, n + s) = strip_force*p0(s)
-        end do
+        call differentiate_load(strips, demand%load, p_scale, jacobian)
     end subroutine strip_jacobian
 
-    !> What is missing before the displacements are subtracted, and the load's equation whole.
-    pure subroutine start_residual(y_left, y_right, height, inv2r, goal, p0, half_length, &
-                                   penetration, residual, y)
-        real(wp), intent(in) :: y_left(:), y_right(:), height(:), inv2r(:)
-        type(demand_t), intent(in) :: goal
-        real(wp), intent(in) :: p0(:), half_length(:), penetration
-        real(wp), intent(inout) :: residual(:), y(:)
+    !> The displacements of centre lines and tips in residual and Jacobian.
+    pure subroutine add_displacements(strips, scale, p_scale, jacobian, residual)
+        type(pass_strips_t), intent(inout) :: strips
+        real(wp), intent(in) :: scale ! compliance over penetration
+        real(wp), intent(in) :: p_scale
+        real(wp), intent(inout) :: jacobian(:, :), residual(:)
+
+        integer :: n, k, s
+        real(wp) :: tip
+
+        n = strips%n
+        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y, &
+                   p0 => strips%p0, half_length => strips%half_length, &
+                   influence => strips%influence)
+            do s = 1, n
+                call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
+                                                      y(:n), influence(:n, 1), influence(:n, 3))
+                do k = 1, n
+                    residual(k) = residual(k) - scale*p0(s)*influence(k, 1)
+                    jacobian(k, s) = scale*p_scale*influence(k, 1)
+                    jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+                end do
+                call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
+                                                   half_length(:n), y(:n), influence(:n, 1), &
+                                                   influence(:n, 2), influence(:n, 3))
+                tip = jacobian(n + s, n + s)
+                do k = 1, n
+                    residual(n + k) = residual(n + k) - scale*p0(s)*influence(k, 1)
+                    jacobian(n + k, s) = scale*p_scale*influence(k, 1)
+                    jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+                end do
+                jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
+                ! The tip of the field strip moves with its own length, under every source.
+                do k = 1, n
+                    jacobian(n + k, n + k) = jacobian(n + k, n + k) &
+                                             + scale*p0(s)*half_length(k)*influence(k, 2)
+                end do
+            end do
+        end associate
+    end subroutine add_displacements
+
+    !> The load's row of the Jacobian.
+    pure subroutine differentiate_load(strips, load, p_scale, jacobian)
+        type(pass_strips_t), intent(in) :: strips
+        real(wp), intent(in) :: load, p_scale
+        real(wp), intent(inout) :: jacobian(:, :)
+
+        integer :: n, s
+        real(wp) :: strip_force
+
+        n = strips%n
+        do s = 1, n
+            strip_force = 0.5_wp*pi*strips%half_length(s) &
+                          *(strips%y_right(s) - strips%y_left(s))/load
+            jacobian(2*n + 1, s) = strip_force*p_scale
+            jacobian(2*n + 1, n + s) = strip_force*strips%p0(s)
+        end do
+    end subroutine differentiate_load
+
+    !> The residuals before the displacements are subtracted, and the load's whole.
+    pure subroutine start_residual(strips, demand, residual)
+        type(pass_strips_t), intent(inout) :: strips
+        type(demand_t), intent(in) :: demand
+        real(wp), intent(inout) :: residual(:)
 
         integer :: n
 
-        n = size(p0)
-        y(:n) = 0.5_wp*(y_left + y_right)
-        residual(:n) = (penetration - height)/penetration
-        residual(n + 1:2*n) = residual(:n) - inv2r*half_length**2/penetration
-        residual(2*n + 1) = 0.0_wp
-        if (goal%by_load) residual(2*n + 1) = &
-            1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/goal%load
+        n = strips%n
+        associate (y_left => strips%y_left(:n), y_right => strips%y_right(:n), &
+                   p0 => strips%p0(:n), half_length => strips%half_length(:n), &
+                   penetration => strips%penetration)
+            strips%y(:n) = 0.5_wp*(y_left + y_right)
+            residual(:n) = (penetration - strips%height(:n))/penetration
+            residual(n + 1:2*n) = residual(:n) - strips%inv2r(:n)*half_length**2/penetration
+            residual(2*n + 1) = 0.0_wp
+            if (demand%by_load) residual(2*n + 1) = &
+                1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/demand%load
+        end associate
     end subroutine start_residual
 
     !> Mark strips without pressure and strips that have become too short beside a neighbour.

@@ -3,6 +3,7 @@ module faststrip_normal_strip_newton
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_cost, strip_jacobian, mark_leaving_strips
+    use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_strip_patches, only: max_patches
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
@@ -36,8 +37,6 @@ module faststrip_normal_strip_newton
         real(wp), allocatable :: history(:, :)   !! steps that update the factors
         real(wp), allocatable :: jacobian(:, :)
         real(wp), allocatable :: step(:)
-        real(wp), allocatable :: y(:)            !! centre lines
-        real(wp), allocatable :: influence(:, :) !! one column: values, d/dx, d/dxd
         integer, allocatable :: pivot(:)
     end type newton_workspace_t
 
@@ -54,29 +53,19 @@ contains
         workspace%kept = .false.
         if (allocated(workspace%pivot)) then
             if (size(workspace%pivot) >= n) return
-            deallocate (workspace%jacobian, workspace%step, workspace%pivot, workspace%y, &
-                        workspace%influence, workspace%history)
+            deallocate (workspace%jacobian, workspace%step, workspace%pivot, workspace%history)
         end if
         allocate (workspace%jacobian(n, n), workspace%step(n), &
                   workspace%history(n, most_updates), source=0.0_wp)
-        allocate (workspace%y(max_strips), workspace%influence(max_strips, 3), source=0.0_wp)
         allocate (workspace%pivot(n), source=0)
     end subroutine reserve_newton
 
-    !> Pressures, half-lengths and penetration of strips with given edges under a given load.
-    subroutine solve_strips(y_left, y_right, height, inv2r, compliance, goal, tolerance, p0, &
-                            half_length, penetration, leaves, cost, outcome, workspace)
-        real(wp), intent(in) :: y_left(:)        !! left edges, (n), mm
-        real(wp), intent(in) :: y_right(:)       !! right edges, (n), mm
-        real(wp), intent(in) :: height(:)        !! h on the centre lines, above the lowest, (n), mm
-        real(wp), intent(in) :: inv2r(:)         !! A on the centre lines, positive, (n), 1/mm
+    !> Pressures, half-lengths and penetration of strips with given edges.
+    subroutine solve_strips(strips, compliance, demand, tolerance, cost, outcome, workspace)
+        type(pass_strips_t), intent(inout) :: strips !! start and result, `leaves`
         real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: goal       !! load or penetration
+        type(demand_t), intent(in) :: demand     !! load or penetration
         real(wp), intent(in) :: tolerance        !! relative size of the last step
-        real(wp), intent(inout) :: p0(:)         !! start and result, (n), MPa
-        real(wp), intent(inout) :: half_length(:) !! start and result, (n), mm
-        real(wp), intent(inout) :: penetration   !! D above the lowest height, mm
-        logical, intent(out) :: leaves(:)        !! strips that leave the contact, (n)
         type(cost_t), intent(inout) :: cost      !! increased
         integer, intent(out) :: outcome          !! one of the `newton_` codes
         type(newton_workspace_t), intent(inout) :: workspace !! reserved for n strips
@@ -85,22 +74,22 @@ contains
         logical :: singular
         real(wp) :: limit, p_scale, largest, depth, residual, residual_before
 
-        n = size(p0)
+        n = strips%n
         outcome = newton_failed
         workspace%kept = .false.
-        leaves = .false.
+        strips%leaves(:n) = .false.
         backs = 0
         residual_before = 1.0e100_wp
         p_scale = 1.0_wp
         limit = 1.0_wp
-        depth = penetration
+        depth = strips%penetration
         associate (step => workspace%step(:2*n + 1), last => workspace%history(:2*n + 1, 1), &
-                   before => workspace%history(:2*n, 2))
+                   before => workspace%history(:2*n, 2), p0 => strips%p0(:n), &
+                   half_length => strips%half_length(:n))
             do iteration = 1, max_iterations
                 largest = maxval(abs(p0))
-                call strip_jacobian(y_left, y_right, height, inv2r, compliance, goal, p0, &
-                                    half_length, penetration, largest, workspace%jacobian, &
-                                    workspace%step, workspace%y, workspace%influence)
+                call strip_jacobian(strips, compliance, demand, largest, workspace%jacobian, &
+                                    workspace%step)
                 residual = norm2(step)
                 if (residual > most_growth*residual_before .and. backs < max_backs) then
                     ! The step led too far: a part of it from where it began.
@@ -124,18 +113,17 @@ contains
                     last = step
                     before(:n) = p0
                     before(n + 1:) = half_length
-                    depth = penetration
+                    depth = strips%penetration
                 end if
                 p0 = before(:n) + limit*p_scale*last(:n)
                 half_length = before(n + 1:)*exp(limit*last(n + 1:2*n))
-                penetration = depth*(1.0_wp + limit*last(2*n + 1))
+                strips%penetration = depth*(1.0_wp + limit*last(2*n + 1))
                 largest = maxval(abs(last))
                 if (iteration >= 2 .or. largest <= tolerance) then
-                    call mark_leaving_strips(y_left, y_right, inv2r, p0, half_length, leaves)
                     ! Far from the solution only ends are sure to leave.
-                    if (largest > splitting_step .and. iteration < sure_iteration) &
-                        call keep_inner_strips(y_left, y_right, leaves)
-                    if (any(leaves)) then
+                    call find_leaving(strips, .not. (largest > splitting_step &
+                                                     .and. iteration < sure_iteration))
+                    if (any(strips%leaves(:n))) then
                         outcome = newton_strips_leave
                         return
                     end if
@@ -147,6 +135,19 @@ contains
             end do
         end associate
     end subroutine solve_strips
+
+    !> Mark the strips that leave; those inside a patch only if that is `sure`.
+    pure subroutine find_leaving(strips, sure)
+        type(pass_strips_t), intent(inout) :: strips
+        logical, intent(in) :: sure
+
+        associate (n => strips%n)
+            call mark_leaving_strips(strips%y_left(:n), strips%y_right(:n), strips%inv2r(:n), &
+                                     strips%p0(:n), strips%half_length(:n), strips%leaves(:n))
+            if (.not. sure) call keep_inner_strips(strips%y_left(:n), strips%y_right(:n), &
+                                                   strips%leaves(:n))
+        end associate
+    end subroutine find_leaving
 
     !> Take back the marks of strips that no other marked ones join to an end of their patch.
     pure subroutine keep_inner_strips(y_left, y_right, leaves)

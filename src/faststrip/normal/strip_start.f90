@@ -19,10 +19,10 @@ contains
     !> Below a level c the gap is W wide, as is that of the parabola with B = 4 c/W^2. The level is
     !> the one at which the Hertz ellipse of A and B is W wide too; on a Hertzian gap this is the
     !> solution itself.
-    pure subroutine start_patches(curve, compliance, goal, patches, penetration)
+    pure subroutine start_patches(curve, compliance, demand, patches, penetration)
         type(gap_curve_t), intent(in) :: curve      !! a gap that was set
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: goal          !! load or penetration
+        type(demand_t), intent(in) :: demand          !! load or penetration
         type(patches_t), intent(out) :: patches     !! not yet shared into strips
         real(wp), intent(out) :: penetration        !! above the lowest height, mm
 
@@ -35,23 +35,24 @@ contains
         logical :: wider
         integer :: i
 
-        high = goal%penetration
-        if (goal%by_load) high = first_level*sqrt(compliance*goal%load)
+        high = demand%penetration
+        if (demand%by_load) high = first_level*sqrt(compliance*demand%load)
         do i = 1, 100
-            call fit_ellipse(curve, compliance, goal, high, y_from, y_to, patches%n, hertz, wider)
+            call fit_ellipse(curve, compliance, demand, high, y_from, y_to, patches%n, hertz, wider)
             if (.not. wider) exit
             high = factor*high
         end do
         low = high/factor
         do i = 1, 100
-            call fit_ellipse(curve, compliance, goal, low, y_from, y_to, patches%n, hertz, wider)
+            call fit_ellipse(curve, compliance, demand, low, y_from, y_to, patches%n, hertz, wider)
             if (wider) exit
             high = low
             low = high/factor
         end do
         do while (high > close_enough*low)
             level = sqrt(low*high)
-            call fit_ellipse(curve, compliance, goal, level, y_from, y_to, patches%n, hertz, wider)
+            call fit_ellipse(curve, compliance, demand, level, y_from, y_to, patches%n, hertz, &
+                             wider)
             if (wider) then
                 low = level
             else
@@ -59,7 +60,7 @@ contains
             end if
         end do
         level = sqrt(low*high)
-        call fit_ellipse(curve, compliance, goal, level, y_from, y_to, patches%n, hertz, wider)
+        call fit_ellipse(curve, compliance, demand, level, y_from, y_to, patches%n, hertz, wider)
         penetration = hertz%penetration
         do i = 1, patches%n
             patches%at(i) = patch_t(y_from(i), y_to(i), seed_level=level, seed_length=hertz%a, &
@@ -67,21 +68,21 @@ contains
         end do
     end subroutine start_patches
 
-    !> Take the last solution of the workspace, scaled to the new goal as Hertz contacts scale:
+    !> Take the last solution of the workspace, scaled to the new demand as Hertz contacts scale:
     !> lengths and pressures with load^(1/3), the penetration with load^(2/3).
-    pure subroutine resume_patches(workspace, goal, patches, penetration)
+    pure subroutine resume_patches(workspace, demand, patches, penetration)
         type(strip_workspace_t), intent(inout) :: workspace !! with a solution remembered
-        type(demand_t), intent(in) :: goal                  !! load or penetration
+        type(demand_t), intent(in) :: demand                  !! load or penetration
         type(patches_t), intent(out) :: patches             !! not yet shared into strips
         real(wp), intent(out) :: penetration                !! above the lowest height, mm
 
         real(wp) :: factor, middle, half
         integer :: p, n
 
-        if (goal%by_load) then
-            factor = (goal%load/workspace%old_load)**(1.0_wp/3.0_wp)
+        if (demand%by_load) then
+            factor = (demand%load/workspace%old_load)**(1.0_wp/3.0_wp)
         else
-            factor = sqrt(goal%penetration/workspace%old_penetration)
+            factor = sqrt(demand%penetration/workspace%old_penetration)
         end if
         penetration = workspace%old_penetration*factor**2
         n = sum(workspace%old%at(:workspace%old%n)%n_strips)
@@ -99,10 +100,10 @@ contains
     end subroutine resume_patches
 
     !> The parabola as wide as the gap at a level, and its Hertz ellipse: is that wider than both?
-    pure subroutine fit_ellipse(curve, compliance, goal, level, y_from, y_to, n, hertz, wider)
+    pure subroutine fit_ellipse(curve, compliance, demand, level, y_from, y_to, n, hertz, wider)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: goal
+        type(demand_t), intent(in) :: demand
         real(wp), intent(in) :: level ! from the lowest point
         real(wp), intent(inout) :: y_from(:), y_to(:)
         integer, intent(out) :: n
@@ -116,11 +117,11 @@ contains
         half_width = max(0.5_wp*sum(y_to(:n) - y_from(:n)), tiny(1.0_wp)**0.25_wp)
         call gap_at(curve, curve%y_lowest, h, inv2r)
         load = 1.0_wp
-        if (goal%by_load) load = goal%load
+        if (demand%by_load) load = demand%load
         call hertz_solve(compliance, max(inv2r, flattest), level/half_width**2, load, hertz, status)
-        if (.not. (goal%by_load .or. is_error(status))) then
+        if (.not. (demand%by_load .or. is_error(status))) then
             ! Penetration goes with load^(2/3).
-            load = sqrt(goal%penetration/hertz%penetration)**3
+            load = sqrt(demand%penetration/hertz%penetration)**3
             call hertz_solve(compliance, max(inv2r, flattest), level/half_width**2, load, hertz, &
                              status)
         end if

@@ -7,6 +7,7 @@ module faststrip_normal_strip_state
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
+    use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch, &
                                               mirror_patches
     implicit none
@@ -30,12 +31,10 @@ module faststrip_normal_strip_state
         real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
         logical :: old_is_mirrored = .false. !! was their gap solved as its mirror image?
         integer :: max_strips = 0   !! capacity, all patches together
-        real(wp), allocatable :: y_left(:), y_right(:), height(:), inv2r(:) ! of the strips
-        real(wp), allocatable :: p0(:), half_length(:)
+        type(pass_strips_t) :: strips !! of the pass, all patches together
         real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
         real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
                                        !! strips', so that the unit of length does not matter
-        logical, allocatable :: leaves(:)
     end type strip_workspace_t
 
 contains
@@ -57,16 +56,11 @@ contains
         if (is_error(status)) return
         call reserve_newton(workspace%newton, max_strips)
         if (workspace%max_strips >= max_strips) return
-        if (allocated(workspace%p0)) deallocate ( &
-            workspace%y_left, workspace%y_right, workspace%height, workspace%inv2r, workspace%p0, &
-            workspace%half_length, workspace%old_eta, workspace%old_p0, workspace%old_half_length, &
-            workspace%leaves)
-        allocate (workspace%y_left(max_strips), workspace%y_right(max_strips), &
-                  workspace%height(max_strips), workspace%inv2r(max_strips), &
-                  workspace%p0(max_strips), workspace%half_length(max_strips), &
-                  workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
+        call reserve_pass_strips(workspace%strips, max_strips)
+        if (allocated(workspace%old_p0)) deallocate (workspace%old_eta, workspace%old_p0, &
+                                                     workspace%old_half_length)
+        allocate (workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
                   workspace%old_half_length(max_strips), source=0.0_wp)
-        allocate (workspace%leaves(max_strips), source=.false.)
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
 
@@ -94,33 +88,37 @@ contains
 
         n = sum(patches%at(:patches%n)%n_strips)
         if (n > workspace%max_strips) return
+        workspace%strips%n = n
         call place_edges(workspace, patches)
-        i = 0
-        do p = 1, patches%n
-            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
-            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
-            q = only_match(workspace%old, patches, p)
-            do k = 1, patches%at(p)%n_strips
-                i = i + 1
-                y = 0.5_wp*(workspace%y_left(i) + workspace%y_right(i))
-                eta = (y - middle)/half
-                if (patches%at(p)%seed_length > 0.0_wp) then
-                    ratio = sqrt(1.0_wp - eta**2)
-                    if (workspace%height(i) < patches%at(p)%seed_level) &
-                        ratio = sqrt(1.0_wp - workspace%height(i)/patches%at(p)%seed_level)
-                    workspace%half_length(i) = patches%at(p)%seed_length*ratio
-                    workspace%p0(i) = patches%at(p)%seed_pressure*ratio
-                else if (q > 0) then
-                    call start_from_old(workspace, q, eta, eta, i)
-                else
-                    q = nearest_patch(workspace%old, y)
-                    ratio = (2.0_wp*y - workspace%old%at(q)%y_from - workspace%old%at(q)%y_to) &
-                            /(workspace%old%at(q)%y_to - workspace%old%at(q)%y_from)
-                    call start_from_old(workspace, q, max(-0.95_wp, min(0.95_wp, ratio)), eta, i)
-                    q = 0
-                end if
+        associate (strips => workspace%strips)
+            i = 0
+            do p = 1, patches%n
+                middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+                half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+                q = only_match(workspace%old, patches, p)
+                do k = 1, patches%at(p)%n_strips
+                    i = i + 1
+                    y = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
+                    eta = (y - middle)/half
+                    if (patches%at(p)%seed_length > 0.0_wp) then
+                        ratio = sqrt(1.0_wp - eta**2)
+                        if (strips%height(i) < patches%at(p)%seed_level) &
+                            ratio = sqrt(1.0_wp - strips%height(i)/patches%at(p)%seed_level)
+                        strips%half_length(i) = patches%at(p)%seed_length*ratio
+                        strips%p0(i) = patches%at(p)%seed_pressure*ratio
+                    else if (q > 0) then
+                        call start_from_old(workspace, q, eta, eta, i)
+                    else
+                        q = nearest_patch(workspace%old, y)
+                        ratio = (2.0_wp*y - workspace%old%at(q)%y_from - workspace%old%at(q)%y_to) &
+                                /(workspace%old%at(q)%y_to - workspace%old%at(q)%y_from)
+                        ratio = max(-0.95_wp, min(0.95_wp, ratio))
+                        call start_from_old(workspace, q, ratio, eta, i)
+                        q = 0
+                    end if
+                end do
             end do
-        end do
+        end associate
     end subroutine place_strips
 
     !> Cut the patches into strips: their edges, and the gap on their centre lines.
@@ -131,26 +129,28 @@ contains
         real(wp) :: middle, half, h, a
         integer :: p, k, i
 
-        i = 0
-        do p = 1, patches%n
-            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
-            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
-            do k = 1, patches%at(p)%n_strips
-                i = i + 1
-                if (k == 1) then
-                    workspace%y_left(i) = patches%at(p)%y_from
-                else
-                    workspace%y_left(i) = workspace%y_right(i - 1)
-                end if
-                workspace%y_right(i) = middle &
-                                       + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
-                if (k == patches%at(p)%n_strips) workspace%y_right(i) = patches%at(p)%y_to
-                call gap_at(workspace%curve, 0.5_wp*(workspace%y_left(i) + workspace%y_right(i)), &
-                            h, a)
-                workspace%height(i) = h - workspace%curve%h_lowest
-                workspace%inv2r(i) = max(a, flattest)
+        associate (strips => workspace%strips)
+            i = 0
+            do p = 1, patches%n
+                middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+                half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+                do k = 1, patches%at(p)%n_strips
+                    i = i + 1
+                    if (k == 1) then
+                        strips%y_left(i) = patches%at(p)%y_from
+                    else
+                        strips%y_left(i) = strips%y_right(i - 1)
+                    end if
+                    strips%y_right(i) = middle &
+                                           + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
+                    if (k == patches%at(p)%n_strips) strips%y_right(i) = patches%at(p)%y_to
+                    call gap_at(workspace%curve, 0.5_wp*(strips%y_left(i) + strips%y_right(i)), &
+                                h, a)
+                    strips%height(i) = h - workspace%curve%h_lowest
+                    strips%inv2r(i) = max(a, flattest)
+                end do
             end do
-        end do
+        end associate
     end subroutine place_edges
 
     !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
@@ -169,23 +169,25 @@ contains
         real(wp) :: middle, half, ellipse
         integer :: p, k, i
 
-        i = 0
-        workspace%old_inv2r = workspace%inv2r(1)
-        do p = 1, patches%n
-            middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
-            half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
-            do k = 1, patches%at(p)%n_strips
-                i = i + 1
-                workspace%old_eta(i) = (0.5_wp*(workspace%y_left(i) + workspace%y_right(i)) &
-                                        - middle)/half
-                ellipse = sqrt(1.0_wp - workspace%old_eta(i)**2)
-                workspace%old_p0(i) = workspace%p0(i)/ellipse
-                workspace%old_half_length(i) = workspace%half_length(i)/ellipse &
-                                               *sqrt(workspace%inv2r(i)/workspace%old_inv2r)
+        associate (strips => workspace%strips)
+            i = 0
+            workspace%old_inv2r = strips%inv2r(1)
+            do p = 1, patches%n
+                middle = 0.5_wp*(patches%at(p)%y_from + patches%at(p)%y_to)
+                half = 0.5_wp*(patches%at(p)%y_to - patches%at(p)%y_from)
+                do k = 1, patches%at(p)%n_strips
+                    i = i + 1
+                    workspace%old_eta(i) = (0.5_wp*(strips%y_left(i) + strips%y_right(i)) &
+                                            - middle)/half
+                    ellipse = sqrt(1.0_wp - workspace%old_eta(i)**2)
+                    workspace%old_p0(i) = strips%p0(i)/ellipse
+                    workspace%old_half_length(i) = strips%half_length(i)/ellipse &
+                                                   *sqrt(strips%inv2r(i)/workspace%old_inv2r)
+                end do
             end do
-        end do
-        patches%at%seed_length = 0.0_wp
-        workspace%old = patches
+            patches%at%seed_length = 0.0_wp
+            workspace%old = patches
+        end associate
     end subroutine remember
 
     !> Mirror the solution that was kept, y to -y: the next gap is solved the other way round.
@@ -218,11 +220,12 @@ contains
             if (workspace%old_eta(k + 1) + workspace%old_eta(k + 2) >= 2.0_wp*eta_old) exit
         end do
         ellipse = sqrt(1.0_wp - eta**2)
-        workspace%p0(i) = ellipse*between(workspace%old_eta(k:k + 2), workspace%old_p0(k:k + 2), &
-                                          eta_old)
-        workspace%half_length(i) = ellipse*between(workspace%old_eta(k:k + 2), &
-                                                   workspace%old_half_length(k:k + 2), eta_old) &
-                                   /sqrt(workspace%inv2r(i)/workspace%old_inv2r)
+        associate (strips => workspace%strips, old_eta => workspace%old_eta(k:k + 2))
+            strips%p0(i) = ellipse*between(old_eta, workspace%old_p0(k:k + 2), eta_old)
+            strips%half_length(i) = ellipse*between(old_eta, workspace%old_half_length(k:k + 2), &
+                                                    eta_old) &
+                                    /sqrt(strips%inv2r(i)/workspace%old_inv2r)
+        end associate
     end subroutine start_from_old
 
     !> The parabola through three points, not beyond them by more than they differ.

@@ -1,0 +1,68 @@
+!> What a strip solution hands over: the strips of a converged pass, and their figures.
+module faststrip_normal_strip_figures
+    use faststrip_base_kinds, only: wp
+    use faststrip_normal_patch_curves, only: curve_integral, curve_peak
+    use faststrip_normal_strip_pass, only: pass_strips_t
+    use faststrip_normal_strip_patches, only: patches_t
+    use faststrip_normal_strips, only: contact_strips_t, strips_load
+    use faststrip_normal_types, only: normal_result_t
+    implicit none
+    private
+
+    public :: hand_over, summarize
+
+contains
+
+    !> Hand a converged pass over as strips.
+    pure subroutine hand_over(found, patches, strips)
+        type(pass_strips_t), intent(in) :: found        !! the strips of the pass
+        type(patches_t), intent(in) :: patches          !! that they fill
+        type(contact_strips_t), intent(inout) :: strips !! with capacity enough
+
+        integer :: p, n, last
+
+        n = found%n
+        strips%n = n
+        strips%n_patches = patches%n
+        strips%y_left(:n) = found%y_left(:n)
+        strips%y_right(:n) = found%y_right(:n)
+        strips%p0(:n) = found%p0(:n)
+        strips%half_length(:n) = found%half_length(:n)
+        last = 0
+        do p = 1, patches%n
+            strips%patch(last + 1:last + patches%at(p)%n_strips) = p
+            last = last + patches%at(p)%n_strips
+        end do
+    end subroutine hand_over
+
+    !> The figures of a solution.
+    pure subroutine summarize(strips, penetration, result)
+        type(contact_strips_t), intent(in) :: strips !! of the solution
+        real(wp), intent(in) :: penetration !! from h = 0, mm
+        type(normal_result_t), intent(inout) :: result !! all but what it cost
+
+        integer :: p, first, last
+
+        result%load = strips_load(strips)
+        result%penetration = penetration
+        result%area = 0.0_wp
+        result%pmax = 0.0_wp
+        result%x_max = 0.0_wp
+        result%strips_across = 0
+        last = 0
+        do p = 1, strips%n_patches
+            first = last + 1
+            last = last + count(strips%patch(:strips%n) == p)
+            result%strips_across = max(result%strips_across, last - first + 1)
+            associate (left => strips%y_left(first:last), right => strips%y_right(first:last), &
+                       half_length => strips%half_length(first:last))
+                result%area = result%area + 2.0_wp*curve_integral(left, right, half_length)
+                result%pmax = max(result%pmax, curve_peak(left, right, strips%p0(first:last)))
+                result%x_max = max(result%x_max, curve_peak(left, right, half_length))
+            end associate
+        end do
+        result%y_min = strips%y_left(1)
+        result%y_max = strips%y_right(strips%n)
+        result%n_patches = strips%n_patches
+    end subroutine summarize
+end module faststrip_normal_strip_figures

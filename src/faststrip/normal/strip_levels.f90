@@ -1,0 +1,247 @@
+!> Levels of the strip solver: the number of strips asked for is reached by way of smaller ones.
+!>
+!> 7 strips find the patches, 15 and more refine them. Where 20 or fewer strips do not settle twice
+!> as many are tried; a gap whose ends do not settle with them either, within a bounded work, gets
+!> the answer of `faststrip_normal_lattice`.
+module faststrip_normal_strip_levels
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
+    use faststrip_normal_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_lattice, only: lattice_solve, lattice_solve_penetration, &
+                                        forget_lattice_errors
+    use faststrip_normal_limitations, only: default_resolution
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strip_figures, only: summarize
+    use faststrip_normal_strip_patches, only: fewest_strips
+    use faststrip_normal_strip_settle, only: level_t, settling_t, settle
+    use faststrip_normal_strip_start, only: start_patches, resume_patches
+    use faststrip_normal_strip_state, only: strip_workspace_t
+    use faststrip_normal_types, only: normal_result_t, demand_t
+    implicit none
+    private
+
+    public :: strip_options_t, strips_auto, strips_auto_most
+    public :: solve_by_levels
+
+    !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
+    !> resolved, up to `strips_auto_most`.
+    integer, parameter :: strips_auto = 0
+    integer, parameter :: strips_auto_most = 81
+
+    integer, parameter :: scout_strips = 7   ! strips that find the patches
+    integer, parameter :: fewest_scouted = 10 ! fewer strips find the patches themselves
+    integer, parameter :: first_level = 15   ! strips that refine them
+    integer, parameter :: most_at_once = 20  ! more strips than these are reached by further levels,
+    integer, parameter :: level_factor = 3   ! each with at most so many times the strips
+    integer, parameter :: most_levels = 9
+    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp ! of the scouting strips
+    integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
+    integer, parameter :: auto_enough = 41 ! for a solution that is resolved
+    real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
+
+    integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
+
+    ! What a level starts from.
+    integer, parameter :: from_nothing = 1
+    integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
+    integer, parameter :: from_coarser = 3       ! the level before
+
+    !> What the user chooses.
+    type :: strip_options_t
+        integer :: strips_per_patch = 15  !! strips across the largest patch, or `strips_auto`
+        real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
+        logical :: warm_start = .false.   !! from the last solution of this workspace, if any
+        real(wp) :: resolution_limit = default_resolution
+            !! `strips_auto` goes on until no estimated error is above this
+    end type strip_options_t
+
+    !> The numbers of strips of all levels.
+    type :: plan_t
+        integer :: n = 0                !! how many levels
+        integer :: strips(most_levels) = 0
+        integer :: first_counted = 2    !! the first whose solution may be the answer
+        logical :: is_auto = .false.    !! is any of them enough?
+    end type plan_t
+
+contains
+
+    !> Solve by levels of strips, or else by the lattice.
+    subroutine solve_by_levels(workspace, compliance, demand, options, strips, result, n_settled, &
+                               all_settled, status)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
+        real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand       !! load or penetration above the lowest height
+        type(strip_options_t), intent(in) :: options !! number of strips, tolerance, start
+        type(contact_strips_t), intent(inout) :: strips !! of the solution
+        type(normal_result_t), intent(inout) :: result !! its figures
+        integer, intent(out) :: n_settled    !! strips per patch of the solution; 0: the lattice's
+        logical, intent(out) :: all_settled  !! did as many as were asked settle?
+        type(status_t), intent(inout) :: status !! those of the lattice
+
+        type(plan_t) :: plan
+        type(settling_t) :: settling
+        type(normal_result_t) :: coarser
+        integer :: level, start
+
+        call forget_lattice_errors(workspace%lattice)
+        plan = level_plan(options%strips_per_patch)
+        level = 1
+        start = from_nothing
+        if (options%warm_start .and. workspace%old%n > 0) then
+            start = from_last_solution
+            call resume_patches(workspace, demand, settling%patches, settling%penetration)
+            level = merge(plan%first_counted, plan%n, plan%is_auto)
+        end if
+        n_settled = 0
+        do while (level <= plan%n)
+            if (start == from_nothing) then
+                call start_patches(workspace%curve, compliance, demand, settling%patches, &
+                                   settling%penetration)
+                workspace%old%n = 0
+            end if
+            coarser = result
+            call settle(workspace, compliance, demand, &
+                        level_of(plan, level, start, options%tolerance), settling, strips, result)
+            if (settling%settled) then
+                if (level >= plan%first_counted) n_settled = plan%strips(level)
+                start = from_coarser
+                level = level + 1
+                if (.not. plan%is_auto .or. level <= plan%first_counted + 1) cycle
+                if (.not. is_resolved(workspace, compliance, strips, result, &
+                                      options%resolution_limit)) cycle
+                if (is_enough(coarser, result)) exit
+            else if (start == from_nothing) then
+                if (n_settled > 0) exit
+                if (level == plan%n) call add_level(options%strips_per_patch, plan)
+                if (level == plan%n) exit
+                level = level + 1
+            else
+                if (start == from_last_solution) level = 1
+                if (plan%strips(level) > most_at_once) exit
+                start = from_nothing
+            end if
+        end do
+        all_settled = settling%settled
+        result%iterations = result%cost%iterations
+        if (n_settled == 0) then
+            workspace%old%n = 0
+            call fall_back(workspace, compliance, demand, &
+                           min(maxval(plan%strips(:plan%n)), most_fallback_strips), strips, &
+                           result, status)
+            return
+        end if
+        workspace%old_load = result%load
+        workspace%old_penetration = settling%penetration
+        ! What did not settle is no start for the next solution.
+        if (.not. all_settled) workspace%old%n = 0
+    end subroutine solve_by_levels
+
+    !> What a level of the plan asks for.
+    pure type(level_t) function level_of(plan, level, start, tolerance)
+        type(plan_t), intent(in) :: plan
+        integer, intent(in) :: level, start
+        real(wp), intent(in) :: tolerance ! of the levels that count
+
+        level_of%strips_per_patch = plan%strips(level)
+        level_of%most_strips = maxval(plan%strips(:plan%n))
+        level_of%tolerance = tolerance
+        if (level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
+        level_of%near = start /= from_nothing
+    end function level_of
+
+    !> Are so many strips enough that have changed so little?
+    pure logical function is_enough(coarser, result)
+        type(normal_result_t), intent(in) :: coarser, result ! of the last two levels
+
+        is_enough = result%strips_across >= auto_enough .or. &
+                    abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
+                    abs(result%penetration - coarser%penetration) &
+                    <= auto_penetration*result%penetration
+    end function is_enough
+
+    !> Twice the strips after the last level, if those are few: where a neck or an edge is too fine
+    !> for few strips, more may settle.
+    pure subroutine add_level(strips_per_patch, plan)
+        integer, intent(in) :: strips_per_patch ! asked
+        type(plan_t), intent(inout) :: plan
+
+        if (plan%strips(plan%n) > min(most_at_once, max(strips_per_patch, fewest_strips)) &
+            .or. plan%n == most_levels) return
+        plan%n = plan%n + 1
+        plan%strips(plan%n) = 2*plan%strips(plan%n - 1) + 1
+    end subroutine add_level
+
+    !> Are the estimated errors not above a limit?
+    pure logical function is_resolved(workspace, compliance, strips, result, limit)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, limit
+        type(contact_strips_t), intent(in) :: strips
+        type(normal_result_t), intent(in) :: result
+
+        type(certificate_t) :: certificate
+        type(status_t) :: status
+
+        call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
+        is_resolved = .not. is_error(status) &
+                      .and. max(certificate%est_err_penetration, certificate%est_err_pmax, &
+                                certificate%est_err_area) <= limit
+    end function is_resolved
+
+    !> By which numbers of strips the asked one is reached.
+    pure type(plan_t) function level_plan(strips_per_patch) result(plan)
+        integer, intent(in) :: strips_per_patch
+
+        plan%is_auto = strips_per_patch == strips_auto
+        if (plan%is_auto) then
+            plan%n = 1 + size(auto_levels)
+            plan%strips(1) = scout_strips
+            plan%strips(2:plan%n) = auto_levels
+            return
+        end if
+        plan%n = 1
+        plan%strips(1) = max(strips_per_patch, fewest_strips)
+        if (strips_per_patch < fewest_scouted) then
+            plan%first_counted = 1
+            return
+        end if
+        plan%strips(1) = scout_strips
+        do
+            plan%n = plan%n + 1
+            plan%strips(plan%n) = strips_per_patch
+            if (strips_per_patch <= most_at_once .or. plan%n == most_levels) exit
+            plan%strips(plan%n) = first_level
+            if (plan%n > 2) plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1)
+            if (plan%strips(plan%n)*level_factor >= strips_per_patch) then
+                plan%n = plan%n + 1
+                plan%strips(plan%n) = strips_per_patch
+                exit
+            end if
+        end do
+    end function level_plan
+
+    !> The answer of a fixed lattice, for a gap whose ends did not settle.
+    subroutine fall_back(workspace, compliance, demand, strips_per_patch, strips, result, status)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        integer, intent(in) :: strips_per_patch
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: penetration
+
+        if (demand%by_load) then
+            call lattice_solve(workspace%lattice, workspace%curve, compliance, demand%load, &
+                               strips_per_patch, strips, penetration, status)
+        else
+            penetration = demand%penetration + workspace%curve%h_lowest
+            call lattice_solve_penetration(workspace%lattice, workspace%curve, compliance, &
+                                           penetration, strips_per_patch, strips, status)
+        end if
+        if (is_error(status)) return
+        call summarize(strips, penetration, result)
+        call set_status(status, st_fallback_used, &
+                        'the ends of the contact patches did not settle: fixed lattice used')
+    end subroutine fall_back
+end module faststrip_normal_strip_levels

@@ -1,0 +1,294 @@
+!> One level of the strip solver: passes with one number of strips until the ends of the patches
+!> rest.
+!>
+!> A level goes from state to state. Each is a procedure that says which comes next:
+!>
+!>     place    cut the patches into strips              -> newton, couple, give_up
+!>     newton   solve for the strips, ends given         -> move, place, give_up
+!>     move     let ends move, overlaps join             -> place, couple, done
+!>     couple   solve for strips and ends together       -> done, place
+!>     done     the ends rest
+!>     give_up  a limit was met; the best converged pass counts if its ends moved little
+module faststrip_normal_strip_settle
+    use faststrip_base_kinds, only: wp
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strip_coupled, only: settle_coupled
+    use faststrip_normal_strip_ends, only: move_ends, close_overlaps
+    use faststrip_normal_strip_equations, only: cost_work, step_work
+    use faststrip_normal_strip_figures, only: hand_over, summarize
+    use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
+    use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
+                                              free_ends, drop_slivers
+    use faststrip_normal_strip_state, only: strip_workspace_t, place_strips, remember
+    use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
+    implicit none
+    private
+
+    public :: level_t, settling_t, settle
+    public :: state_place, state_newton, state_move, state_couple, state_done, state_give_up
+
+    integer, parameter :: state_place = 1   !! cut the patches into strips
+    integer, parameter :: state_newton = 2  !! solve for the strips, ends given
+    integer, parameter :: state_move = 3    !! let ends move, overlaps join
+    integer, parameter :: state_couple = 4  !! solve for strips and ends together
+    integer, parameter :: state_done = 5    !! the ends rest
+    integer, parameter :: state_give_up = 6 !! a limit was met
+
+    integer, parameter :: max_passes = 40    ! in one level
+    integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
+    integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
+    integer, parameter :: max_splits_near = 1  ! more: the start was not that near
+    integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
+    ! Work of all levels together: so much, and so many steps of all strips.
+    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 60.0_wp
+    real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
+    real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
+    real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
+    ! Newton's tolerance while the ends still move by more than the loose tolerance, and by more
+    ! than the other: what is left then is far below what the ends' moves change.
+    real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
+
+    real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
+
+    !> What a level is asked for.
+    type :: level_t
+        integer :: strips_per_patch = 15  !! of the widest patch
+        integer :: most_strips = 15       !! of all levels, for the limit of the work
+        real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
+        logical :: near = .false.         !! do the strips start near a solution?
+    end type level_t
+
+    !> Where the settling of a level stands, and what it leaves.
+    type :: settling_t
+        integer :: state = state_place    !! one of the `state_` numbers
+        type(patches_t) :: patches        !! those the next pass starts with
+        type(patches_t) :: solved         !! those of this pass
+        real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
+        integer :: pass = 0               !! how often strips were placed
+        integer :: splits = 0             !! patches split by strips that left
+        integer :: couplings = 0          !! how often strips and ends were tried together
+        real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
+        logical :: at_rest = .false.      !! did the ends rest in the last pass?
+        real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
+        logical :: settled = .false.      !! is there a pass that stands?
+    end type settling_t
+
+contains
+
+    !> Go from state to state until the ends rest or a limit is met; keep the best converged pass.
+    subroutine settle(workspace, compliance, demand, level, settling, strips, result)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
+        real(wp), intent(in) :: compliance              !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand            !! load or penetration
+        type(level_t), intent(in) :: level              !! what is asked for
+        type(settling_t), intent(inout) :: settling
+            !! starts from its patches and penetration; says how it ended
+        type(contact_strips_t), intent(inout) :: strips !! of the best pass
+        type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
+
+        call begin(level, settling)
+        do
+            select case (settling%state)
+            case (state_place)
+                call place(workspace, level, size(strips%p0), result%cost, settling)
+            case (state_newton)
+                call solve_pass(workspace, compliance, demand, level, settling, result)
+            case (state_move)
+                call move(workspace, compliance, level, settling, strips, result)
+            case (state_couple)
+                call couple(workspace, compliance, demand, level, settling, strips, result)
+            case default
+                exit
+            end select
+        end do
+        settling%settled = settling%best_move <= loose_end_tolerance
+    end subroutine settle
+
+    !> Everything but patches and penetration as at the start; share the strips.
+    pure subroutine begin(level, settling)
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+
+        call free_ends(settling%patches)
+        settling%state = state_place
+        settling%solved = settling%patches
+        settling%pass = 0
+        settling%splits = 0
+        settling%couplings = 0
+        settling%tolerance = merge(near_tolerance, far_tolerance, level%near)
+        settling%at_rest = .false.
+        settling%best_move = huge(1.0_wp)
+        call share_strips(level%strips_per_patch, settling%patches)
+        if (.not. level%near) return
+        ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
+        associate (before => settling%solved%at(:settling%solved%n)%n_strips, &
+                   shared => settling%patches%at(:settling%solved%n)%n_strips)
+            if (maxval(before) == level%strips_per_patch .and. all(abs(before - shared) <= 1)) &
+                settling%patches = settling%solved
+        end associate
+    end subroutine begin
+
+    !> Place: cut the patches into strips, if passes, strips and work are left.
+    pure subroutine place(workspace, level, capacity, cost, settling)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(level_t), intent(in) :: level
+        integer, intent(in) :: capacity ! of the strips of the answer
+        type(cost_t), intent(in) :: cost
+        type(settling_t), intent(inout) :: settling
+
+        real(wp) :: narrowest
+        integer :: n
+
+        settling%state = state_give_up
+        if (settling%pass == max_passes) return
+        settling%pass = settling%pass + 1
+        narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
+        call drop_slivers(narrowest, settling%patches)
+        if (settling%patches%n == 0) return
+        call place_strips(workspace, settling%patches, n)
+        if (n > min(workspace%max_strips, capacity)) return
+        if (cost_work(cost) > work_to_begin + most_steps*step_work(max(n, level%most_strips))) &
+            return
+        workspace%strips%penetration = settling%penetration
+        settling%solved = settling%patches
+        settling%state = merge(state_couple, state_newton, level%near .and. settling%pass == 1)
+    end subroutine place
+
+    !> Newton: solve for the strips between ends that are given.
+    subroutine solve_pass(workspace, compliance, demand, level, settling, result)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+        type(normal_result_t), intent(inout) :: result
+
+        integer :: outcome
+
+        settling%tolerance = max(settling%tolerance, level%tolerance)
+        call solve_strips(workspace%strips, compliance, demand, settling%tolerance, result%cost, &
+                          outcome, workspace%newton)
+        result%passes = result%passes + 1
+        select case (outcome)
+        case (newton_converged)
+            settling%penetration = workspace%strips%penetration
+            call remember(workspace, settling%patches)
+            settling%state = state_move
+        case (newton_strips_leave)
+            call cut(workspace, level, settling)
+        case default
+            settling%state = state_give_up
+        end select
+    end subroutine solve_pass
+
+    !> Strips leave: cut them off and place the others anew.
+    pure subroutine cut(workspace, level, settling)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+
+        associate (now => workspace%strips)
+            call cut_leaving_strips(now%y_left(:now%n), now%y_right(:now%n), now%leaves(:now%n), &
+                                    settling%patches, settling%splits)
+        end associate
+        if (settling%patches%n == 0 .or. &
+            settling%splits > merge(max_splits_near, max_splits_at_all, level%near)) then
+            settling%state = state_give_up
+        else
+            call share_strips(level%strips_per_patch, settling%patches)
+            settling%state = state_place
+        end if
+    end subroutine cut
+
+    !> Move: let the ends move to where the strips run out, and overlaps join.
+    pure subroutine move(workspace, compliance, level, settling, strips, result)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+
+        real(wp) :: moved ! in widths of the end strips
+        logical :: changed
+
+        call move_ends(workspace, settling%pass, settling%patches, moved)
+        call join_overlaps(workspace, compliance, level, settling, changed)
+        if (changed) return
+        if (settling%tolerance <= level%tolerance) then
+            if (moved < settling%best_move) call keep(workspace, moved, settling, strips, result)
+            if (settling%at_rest .or. moved < end_tolerance) then
+                settling%state = state_done
+                return
+            end if
+        end if
+        settling%at_rest = moved < end_tolerance
+        if (moved > loose_end_tolerance) then
+            settling%tolerance = far_tolerance
+        else if (.not. settling%at_rest) then
+            settling%tolerance = near_tolerance
+        end if
+        ! The last passes count, whatever they reach.
+        if (settling%at_rest .or. settling%pass >= max_passes/2) &
+            settling%tolerance = level%tolerance
+        settling%state = merge(state_couple, state_place, moved < coupling_move &
+                               .and. settling%couplings < max_couplings)
+    end subroutine move
+
+    !> Couple: solve for strips and ends together, from nearby.
+    pure subroutine couple(workspace, compliance, demand, level, settling, strips, result)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+
+        logical :: found, changed
+
+        settling%state = state_place
+        settling%couplings = settling%couplings + 1
+        call settle_coupled(workspace, compliance, demand, level%tolerance, settling%solved, &
+                            result%cost, found)
+        if (.not. found) return
+        settling%patches = settling%solved
+        settling%penetration = workspace%strips%penetration
+        call remember(workspace, settling%patches)
+        call join_overlaps(workspace, compliance, level, settling, changed)
+        if (changed) return
+        call keep(workspace, 0.0_wp, settling, strips, result)
+        settling%state = state_done
+    end subroutine couple
+
+    !> Let overlaps join the patches. If that changes them, they are placed anew, far from a
+    !> solution.
+    pure subroutine join_overlaps(workspace, compliance, level, settling, changed)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+        logical, intent(out) :: changed
+
+        call close_overlaps(workspace, compliance, settling%penetration, &
+                            settling%splits < max_splits, settling%patches, changed)
+        if (.not. changed) return
+        settling%at_rest = .false.
+        settling%tolerance = far_tolerance
+        call share_strips(level%strips_per_patch, settling%patches)
+        settling%state = state_place
+    end subroutine join_overlaps
+
+    !> Keep a converged pass as the best one.
+    pure subroutine keep(workspace, moved, settling, strips, result)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: moved ! how far the ends still go
+        type(settling_t), intent(inout) :: settling
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+
+        settling%best_move = moved
+        call hand_over(workspace%strips, settling%patches, strips)
+        call summarize(strips, settling%penetration + workspace%curve%h_lowest, result)
+    end subroutine keep
+end module faststrip_normal_strip_settle
