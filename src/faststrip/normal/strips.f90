@@ -7,6 +7,7 @@ module faststrip_normal_strips
     private
 
     public :: contact_strips_t, reserve_strips, mirror_strips, strip_load, strips_load
+    public :: starts_patch, first_of_patch, last_of_patch
 
     !> Contact patches cut into strips along the rolling direction x, each with the pressure
     !> `p(x) = p0 sqrt(1 - (x/xd)^2)` (eq. (1)). Strips are ordered by y, patches too; the first
@@ -74,4 +75,35 @@ contains
         strips_load = sum(strip_load(strips%p0(:strips%n), strips%half_length(:strips%n), &
                                      strips%y_right(:strips%n) - strips%y_left(:strips%n)))
     end function strips_load
+
+    !> Is a strip the first of its patch?
+    pure logical function starts_patch(strips, k)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! one of its strips
+
+        starts_patch = k == 1
+        if (k > 1) starts_patch = strips%patch(k) /= strips%patch(k - 1)
+    end function starts_patch
+
+    !> The first strip of the patch that strip k belongs to.
+    pure integer function first_of_patch(strips, k) result(first)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! one of its strips
+
+        do first = k, 2, -1
+            if (starts_patch(strips, first)) return
+        end do
+        first = 1
+    end function first_of_patch
+
+    !> The last strip of the patch that strip `first` belongs to.
+    pure integer function last_of_patch(strips, first) result(last)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: first                 !! a strip of the patch
+
+        do last = first, strips%n - 1
+            if (starts_patch(strips, last + 1)) return
+        end do
+        last = strips%n
+    end function last_of_patch
 end module faststrip_normal_strips
