@@ -129,34 +129,34 @@ contains
         real(wp), intent(inout) :: jacobian(:, :), residual(:)
 
         integer :: n, k, s
-        real(wp) :: tip
+        real(wp) :: tip, pressure, length
 
         n = strips%n
-        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y, &
-                   p0 => strips%p0, half_length => strips%half_length, &
-                   influence => strips%influence)
+        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y(:n), &
+                   half_length => strips%half_length(:n), value => strips%influence(:n, 1), &
+                   d_x => strips%influence(:n, 2), d_xd => strips%influence(:n, 3))
             do s = 1, n
-                call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
-                                                      y(:n), influence(:n, 1), influence(:n, 3))
+                pressure = scale*strips%p0(s)
+                length = half_length(s)
+                call center_influence_column_gradient(length, y_left(s), y_right(s), y, value, d_xd)
                 do k = 1, n
-                    residual(k) = residual(k) - scale*p0(s)*influence(k, 1)
-                    jacobian(k, s) = scale*p_scale*influence(k, 1)
-                    jacobian(k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+                    residual(k) = residual(k) - pressure*value(k)
+                    jacobian(k, s) = scale*p_scale*value(k)
+                    jacobian(k, n + s) = pressure*length*d_xd(k)
                 end do
-                call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
-                                                   half_length(:n), y(:n), influence(:n, 1), &
-                                                   influence(:n, 2), influence(:n, 3))
+                call tip_influence_column_gradient(length, y_left(s), y_right(s), half_length, y, &
+                                                   value, d_x, d_xd)
                 tip = jacobian(n + s, n + s)
                 do k = 1, n
-                    residual(n + k) = residual(n + k) - scale*p0(s)*influence(k, 1)
-                    jacobian(n + k, s) = scale*p_scale*influence(k, 1)
-                    jacobian(n + k, n + s) = scale*p0(s)*half_length(s)*influence(k, 3)
+                    residual(n + k) = residual(n + k) - pressure*value(k)
+                    jacobian(n + k, s) = scale*p_scale*value(k)
+                    jacobian(n + k, n + s) = pressure*length*d_xd(k)
                 end do
                 jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
                 ! The tip of the field strip moves with its own length, under every source.
                 do k = 1, n
                     jacobian(n + k, n + k) = jacobian(n + k, n + k) &
-                                             + scale*p0(s)*half_length(k)*influence(k, 2)
+                                             + pressure*half_length(k)*d_x(k)
                 end do
             end do
         end associate

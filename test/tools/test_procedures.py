@@ -1,0 +1,91 @@
+"""Procedures one can read: the strip solver and its certificate stay in small pieces."""
+
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOM = ROOT / "src/faststrip/normal"
+FILES = sorted([*ROOM.glob("strip*.f90"), *ROOM.glob("certificate*.f90")])
+MOST_LINES = 500       # of a file
+MOST_PROCEDURE = 80    # lines of a procedure, from its first line to its `end`
+MOST_ARGUMENTS = 11
+PROCEDURE = re.compile(r"^ *(?:(?:pure|elemental|recursive|impure) +)*(?:[a-z]+(?:\([^)]*\))? +)?"
+                       r"(subroutine|function) +(\w+) *\(([^)]*)\)", re.MULTILINE)
+STATES = re.compile(r"integer, parameter :: (state_\w+) = \d+")
+
+
+def procedures(text):
+    """Name, arguments and lines of each procedure of a source."""
+    text = re.sub(r"!.*", "", text)
+    for found in PROCEDURE.finditer(text):
+        kind, name, arguments = found.groups()
+        start = found.start()
+        end = re.compile(rf"^ *end {kind} {name}\b", re.MULTILINE).search(text, start).end()
+        yield name, re.findall(r"\w+", arguments), text[start:end].count("\n") + 1
+
+
+class Procedures(unittest.TestCase):
+    def test_procedures_are_found(self):
+        text = """
+module m
+contains
+    pure type(level_t) function level_of(plan, & ! the plan (all of it)
+                                         level)
+    end function level_of
+    subroutine settle(a)
+        x = 1
+    end subroutine settle
+end module m
+"""
+        self.assertEqual(list(procedures(text)),
+                         [("level_of", ["plan", "level"], 3), ("settle", ["a"], 3)])
+
+    def test_all_are_seen(self):
+        for path in FILES:
+            text = path.read_text(encoding="utf-8")
+            ends = re.findall(r"^ *end (?:subroutine|function) (\w+)", text, re.MULTILINE)
+            self.assertEqual(sorted(name for name, _, _ in procedures(text)), sorted(ends), path)
+        self.assertGreater(len(FILES), 12)
+
+    def test_few_arguments(self):
+        for path in FILES:
+            for name, arguments, _ in procedures(path.read_text(encoding="utf-8")):
+                self.assertLessEqual(len(arguments), MOST_ARGUMENTS, f"{path.name}: {name}")
+                self.assertNotIn("goal", arguments, f"{path.name}: {name}: that is a demand")
+
+    def test_short(self):
+        for path in FILES:
+            text = path.read_text(encoding="utf-8")
+            self.assertLess(text.count("\n"), MOST_LINES, path.name)
+            for name, _, lines in procedures(text):
+                self.assertLessEqual(lines, MOST_PROCEDURE, f"{path.name}: {name}")
+
+
+class States(unittest.TestCase):
+    """The states in the code are those of the document, and each has its procedure."""
+
+    def setUp(self):
+        self.text = (ROOM / "strip_settle.f90").read_text(encoding="utf-8")
+        self.states = [name.removeprefix("state_") for name in STATES.findall(self.text)]
+
+    def test_documented(self):
+        document = (ROOT / "docs/method.md").read_text(encoding="utf-8")
+        chapter = document.split("\n## The states of the strip solver\n")[1].split("\n## ")[0]
+        self.assertGreater(len(self.states), 4)
+        for state in self.states:
+            self.assertRegex(chapter, rf"(?m)^\| `{state}` \|", state)
+
+    def test_handled(self):
+        last = {"done", "give_up"}
+        handled = set(re.findall(r"case \(state_(\w+)\)", self.text))
+        self.assertEqual(handled, set(self.states) - last)
+
+    def test_reached(self):
+        for state in self.states:
+            self.assertRegex(self.text, rf"settling%state = (?:state_{state}\b|"
+                             rf"merge\((?:state_{state}\b|state_\w+, state_{state}\b))", state)
+
+
+if __name__ == "__main__":
+    unittest.main()
