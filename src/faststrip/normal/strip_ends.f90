@@ -13,13 +13,24 @@ module faststrip_normal_strip_ends
 
     public :: move_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
 
+    ! Tuned [points]. Origin: capacity.
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
+    ! Tuned [passes]. Origin: chosen against ends that swing.
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
+    ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
+    ! swing.
     real(wp), parameter :: damping = 0.6_wp
+    ! Tuned [strip widths]. Origin: chosen.
     real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
+    ! Tuned [1]. Origin: far below the errors of 15 strips.
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
+    ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
+    ! Tuned [strips]. Origin: chosen for the patch ends of many strips.
     integer, parameter :: fine_patch = 24    ! from so many strips on an end is carried on from
+    ! Tuned [doublings]: most of the step that an end may take towards "too far". Origin: safeguard:
+    ! powers of two cannot overflow.
+    integer, parameter :: most_pushes = 20
                                              ! strips further apart
 
 contains
@@ -74,7 +85,7 @@ contains
         most = 0.5_wp*space + forget*width*(2.0_wp**pushes - 1.0_wp)
         if (step <= most) return
         step = most
-        pushes = min(pushes + 1, 20)
+        pushes = min(pushes + 1, most_pushes)
     end subroutine hold_back
 
     !> How many strips apart the three strips are from which an end is carried on.
@@ -100,6 +111,8 @@ contains
         integer, intent(in) :: inward !! 1 at a left end, -1 at a right end
         integer, intent(in) :: stride !! strips from one of the three strips to the next
 
+        ! Tuned [strip widths]: How far an end may be carried on. Origin: safeguard: an end moves no
+        ! farther in a pass.
         real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
         real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s
         integer :: j
@@ -219,7 +232,9 @@ contains
         type(contact_strips_t), intent(in) :: strips !! a solution
 
         ! Distances from an end, in widths of the end strip
+        ! Tuned [strip widths]. Origin: chosen.
         real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
+        ! Tuned [1]. Origin: chosen.
         real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
         real(wp) :: depth, width
         integer :: j, k
@@ -298,6 +313,7 @@ contains
         do s = 1, size(p0)
             width = y_right(s) - y_left(s)
             middle = 0.5_wp*(y_left(s) + y_right(s)) - y
+            ! Given: moment of a width
             least = least + p0(s)*half_length(s)*width &
                     /sqrt(0.25_wp*half_length(s)**2 + middle**2 + width**2/12.0_wp)
         end do
