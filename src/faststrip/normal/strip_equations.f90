@@ -25,7 +25,11 @@ module faststrip_normal_strip_equations
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.
+    !> Tuned [1]: Length over that of its neighbour. Origin: chosen.
     real(wp), parameter :: leaving_length_ratio = 0.15_wp
+    ! Tuned [influence numbers]: time of one operation of linear algebra. Origin: chosen for the
+    ! time.
+    real(wp), parameter :: operation_cost = 0.01_wp
 
 contains
 
@@ -52,7 +56,7 @@ contains
         type(cost_t), intent(in) :: cost !! of a solution
 
         work = real(cost%values, wp) + 3.0_wp*real(cost%gradients, wp) &
-               + 0.01_wp*cost%operations
+               + operation_cost*cost%operations
     end function cost_work
 
     !> The same for one step of n strips with a Jacobian.
