@@ -12,19 +12,34 @@ module faststrip_normal_strip_newton
     public :: most_updates, newton_workspace_t, reserve_newton, solve_strips
     public :: newton_converged, newton_strips_leave, newton_failed
 
+    ! Given: numbers of kinds.
     integer, parameter :: newton_converged = 0    !! pressures, lengths and load agree
     integer, parameter :: newton_strips_leave = 1 !! strips to be cut off are marked
     integer, parameter :: newton_failed = 2       !! no convergence or a singular system
 
+    ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 40
+    ! Tuned [steps]: Most steps taken back one after the other. Origin: chosen.
     integer, parameter :: max_backs = 4
+    ! Tuned [1]: Growth of the residual from which a step is taken back, and the part of it that is
+    ! tried. Origin: chosen; steps led too far.
     real(wp), parameter :: most_growth = 1.5_wp, part = 0.4_wp
+    ! Tuned [iterations]: From here on strips may leave inside a patch. Origin: chosen; patches
+    ! split too soon.
     integer, parameter :: sure_iteration = 10
+    ! Tuned [1]: Step below which strips may leave inside a patch. Origin: chosen; patches split too
+    ! soon.
     real(wp), parameter :: splitting_step = 0.3_wp
+    ! Tuned [1]: Largest step of the logarithm of a length. Origin: convergence from afar: lengths
+    ! at most double.
     real(wp), parameter :: max_log_length_step = 0.7_wp
+    ! Tuned [1]: Largest step of the penetration over itself. Origin: convergence from afar.
     real(wp), parameter :: max_penetration_step = 0.5_wp
+    ! Tuned [1]: residual before the first step: any is less. Origin: safeguard.
+    real(wp), parameter :: no_residual = 1.0e100_wp
 
     !> Updates of one Jacobian at most, see `faststrip_normal_strip_coupled`.
+    !> Tuned [updates]. Origin: chosen for the time: by then a new Jacobian is cheaper.
     integer, parameter :: most_updates = 8
 
     !> The linear system of 2n + 1 equations and those of the ends.
@@ -79,7 +94,7 @@ contains
         workspace%kept = .false.
         strips%leaves(:n) = .false.
         backs = 0
-        residual_before = 1.0e100_wp
+        residual_before = no_residual
         p_scale = 1.0_wp
         limit = 1.0_wp
         depth = strips%penetration
