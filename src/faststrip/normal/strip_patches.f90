@@ -10,14 +10,21 @@ module faststrip_normal_strip_patches
     public :: cut_leaving_strips, free_ends, drop_slivers, mirror_patches
 
     !> Most patches a contact may have at a time.
+    !> Tuned [patches]. Origin: capacity.
     integer, parameter :: max_patches = 16
     !> Fewest strips a patch can be cut into: its ends are carried on from three.
+    !> Tuned [strips]. Origin: a parabola through three.
     integer, parameter :: fewest_strips = 3
     ! A second patch gets fewer strips than the largest, in proportion to its width, but these.
+    ! Tuned [strips]. Origin: chosen for the errors of small patches.
     integer, parameter :: fewest_strips_small_patch = 9
 
     ! An end position beyond all data, mm.
+    ! Tuned [mm]. Origin: safeguard.
     real(wp), parameter :: far = 1.0e100_wp
+    ! Tuned [spacings]: width of an overlap from which it moves the end of the patch it touches.
+    ! Origin: chosen: more than one place.
+    real(wp), parameter :: wide_seed = 1.5_wp
 
     !> One patch while its ends are sought.
     type :: patch_t
@@ -113,7 +120,7 @@ contains
             if (seed%y_from < low + 0.5_wp*dy .and. patches%at(p)%y_from < low &
                 .and. patches%at(p)%y_to > low - dy .and. patches%at(p)%y_to < seed%y_to) then
                 touches = .true.
-                if (seed%y_to - seed%y_from > 1.5_wp*dy) then
+                if (seed%y_to - seed%y_from > wide_seed*dy) then
                     patches%at(p)%y_to = seed%y_to
                     changed = .true.
                 end if
@@ -121,7 +128,7 @@ contains
                      .and. patches%at(p)%y_from < high + dy &
                      .and. patches%at(p)%y_from > seed%y_from) then
                 touches = .true.
-                if (seed%y_to - seed%y_from > 1.5_wp*dy) then
+                if (seed%y_to - seed%y_from > wide_seed*dy) then
                     patches%at(p)%y_from = seed%y_from
                     changed = .true.
                 end if
