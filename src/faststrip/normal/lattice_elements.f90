@@ -23,16 +23,27 @@ module faststrip_normal_lattice_elements
 
     public :: elements_t, reserve_elements, place_elements, solve_elements, element_columns
 
+    ! Tuned [elements]: Most and fewest rows. Origin: capacity, and cost: it rises with its cube.
     integer, parameter :: most_rows = 10, fewest_rows = 4 ! on one side of x = 0
+    ! Tuned [elements]: Most elements. Origin: most_cells by the rows that are mostly needed.
     integer, parameter :: most_elements = 440
+    ! Tuned [rounds]: Rounds of the active set by blocks. Origin: chosen against cycling.
     integer, parameter :: max_block_rounds = 3  ! without fewer infeasible elements
+    ! Tuned [rounds]: Most rounds. Origin: safeguard.
     integer, parameter :: max_rounds = 120
     ! Centre distance, in largest sides, from which moments serve; no ratio of even cells.
+    ! Tuned [sides]: Distance from which an element's influence is by few points. Origin: chosen for
+    ! the quadrature's error.
     real(wp), parameter :: far = 3.37_wp
+    ! Tuned [1]: Proportion from which an element is divided. Origin: as `far`.
     real(wp), parameter :: long = 3.13_wp ! side over side
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: start_level = 0.5_wp ! of the penetration: elements that may press
+    ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: nothing = 1.0e-12_wp ! of a pressure
+    ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: open_gap = 1.0e-13_wp ! of the penetration: not an overlap
+    ! Tuned [1]. Origin: chosen: pressures are trusted to that.
     real(wp), parameter :: most_corrected = 0.05_wp ! of p0, see `element_columns`
 
     !> The elements of one lattice and what their solution needs; owned by the caller.
@@ -93,6 +104,7 @@ contains
                     e%x(i) = (j - 0.5_wp)*e%dx(i)
                     e%y(i) = 0.5_wp*(y_left(k) + y_right(k))
                     e%area(i) = e%dx(i)*e%dy(i)
+                    ! Given: moment of a side
                     e%height(i) = height(k) + inv2r(k)*(e%x(i)**2 + e%dx(i)**2/12.0_wp)
                 end do
             end do
@@ -124,8 +136,8 @@ contains
         r2 = x*x + y*y
         side = max(e%dx(i), e%dy(i), e%dx(j), e%dy(j))
         if (r2 > (far*side)**2) then
-            along = (e%dx(i)**2 + e%dx(j)**2)/24.0_wp
-            across = (e%dy(i)**2 + e%dy(j)**2)/24.0_wp
+            along = (e%dx(i)**2 + e%dx(j)**2)/24.0_wp ! Given: moment of a side
+            across = (e%dy(i)**2 + e%dy(j)**2)/24.0_wp ! Given: moment of a side
             mean = (1.0_wp + (along*(3.0_wp*x*x/r2 - 1.0_wp) + across*(3.0_wp*y*y/r2 - 1.0_wp)) &
                     /r2)/sqrt(r2)
         else
@@ -139,6 +151,7 @@ contains
     pure real(wp) function mean_potential(x, y, dx, dy, target_dx, target_dy) result(mean)
         real(wp), intent(in) :: x, y, dx, dy, target_dx, target_dy
 
+        ! Given: Gauss-Legendre with two points.
         real(wp), parameter :: gauss = 0.5_wp/sqrt(3.0_wp)
         real(wp) :: s, t
 
