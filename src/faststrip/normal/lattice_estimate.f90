@@ -38,9 +38,12 @@ module faststrip_normal_lattice_estimate
     end type lattice_figures_t
 
     ! Of penetration, pmax and area; with half of them every second estimate is too small.
+    ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated on random gaps,
+    ! see the module's head.
     real(wp), parameter :: difference(3) = [2.0_wp, 1.2_wp, 3.3_wp]
     real(wp), parameter :: smooth(2) = [0.2_wp, 1.0_wp], waves(2) = [0.03_wp, 1.1_wp]
     real(wp), parameter :: ends = 0.9_wp
+    ! Tuned [1]. Origin: chosen, see the module's head.
     real(wp), parameter :: high_pressure = 0.5_wp ! of pmax: a wave there counts for it
 
 contains
