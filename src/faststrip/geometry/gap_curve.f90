@@ -26,7 +26,10 @@ module faststrip_geometry_gap_curve
     public :: gap_inv2r, inclination_change, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
+    !> Tuned [1]. Origin: chosen; lengths go with the square root.
     real(wp), parameter :: flattest_ratio = 0.03_wp
+    ! Tuned [halvings]: most of them for the place of a level. Origin: all digits of an interval.
+    integer, parameter :: most_halvings = 60
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
@@ -59,7 +62,7 @@ contains
         type(status_t), intent(out) :: status     !! `st_bad_argument`
 
         call clear_status(status)
-        if (max_points < 5) then
+        if (max_points < 5) then ! Given: fewest points of a gap
             call set_status(status, st_bad_argument, 'capacity for fewer than 5 gap points asked')
             return
         end if
@@ -429,7 +432,7 @@ contains
         high = (high - y0)/dy
         rising = curve%h_node(j + 1) > curve%h_node(j)
         t = 0.5_wp*(low + high)
-        do k = 1, 60
+        do k = 1, most_halvings
             t = 0.5_wp*(low + high)
             f = height(curve, i, t) - level
             if ((f > 0.0_wp) .eqv. rising) then
