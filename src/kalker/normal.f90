@@ -48,31 +48,43 @@ module faststrip_kalker_normal
     public :: norm_most_elements, norm_watch
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
+    !> Tuned [elements]. Origin: capacity.
     integer, parameter :: norm_most_elements = 4000000
 
+    ! Tuned [placings]. Origin: safeguard.
     integer, parameter :: max_placings = 12       ! of the grid, for one spacing
     ! Of the half-length, when columns are missing, at first and in the end.
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: enlargement = 1.3_wp, late_enlargement = 2.0_wp
+    ! Tuned [levels]. Origin: safeguard.
     integer, parameter :: max_levels = 12         ! of spacing, for a target
+    ! Tuned [elements]. Origin: chosen: as few as show a patch.
     integer, parameter :: first_elements = 6      ! across the shorter half of the first level
+    ! Tuned [1]: Tolerance of coarser levels. Origin: far below what the next level changes.
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
     ! Height of the gap's lowest place below the elements' middles, over the penetration. A parabola
     ! has less with three rows of elements; what is more is a needle, as of a fill value.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: tolerated_miss = 0.1_wp
+    ! Tuned [mm]. Origin: the reference's grid.
     real(wp), parameter :: spacing_unit = 0.1_wp  ! mm; with a target, spacings are this by 2^k
 
     ! Sizes beyond which nothing is promised.
+    ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp, largest = 1.0e60_wp
 
     !> What the user chooses.
     type :: norm_options_t
+        ! Tuned [mm]. Origin: chosen for the S1002/UIC60 contacts.
         real(wp) :: dx = 0.2_wp           !! side of the elements along x, mm
         real(wp) :: dy = 0.2_wp           !! side of the elements along y, mm
         real(wp) :: error_target = 0.0_wp !! estimated relative error of penetration and largest
                                           !! pressure; the sides are chosen if it is positive
         logical :: two_levels = .true.    !! solve with sides twice as long before: a better start
                                           !! and an estimate of the errors
+        ! Tuned [1]. Origin: far below the errors of any grid.
         real(wp) :: tolerance = 1.0e-9_wp !! largest |gap| in contact over the approach
+        ! Tuned [iterations]. Origin: safeguard.
         integer :: max_iterations = 300   !! of conjugate gradients on one grid
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         logical :: preconditioned = .true. !! or plain conjugate gradients?
@@ -604,7 +616,12 @@ contains
         real(wp), intent(in) :: compliance
         type(contact_grid_t), intent(inout) :: grid
 
+        ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
+        ! of a Hertz contact (Piotrowski and Kik).
         real(wp), parameter :: share = 0.55_wp
+        ! Tuned [halvings]: most of the range of a first penetration. Origin: more than a guess
+        ! needs.
+        integer, parameter :: max_halvings = 40
         real(wp) :: lowest, low, high, depth, radius
         integer :: i
 
@@ -612,11 +629,13 @@ contains
         if (demand%by_load) then
             low = 0.0_wp
             ! As if one element carried it all.
+            ! Given: Hertz, a round contact
             high = 0.75_wp*pi*compliance*(demand%load/sqrt(grid%dx*grid%dy/pi))
-            do i = 1, 40
+            do i = 1, max_halvings
                 depth = 0.5_wp*(low + high)
                 radius = sqrt(max(1, count(grid%height - lowest < share*depth)) &
                               *(grid%dx*grid%dy/pi))
+                ! Given: Hertz, a round contact
                 if (depth < 0.75_wp*pi*compliance*demand%load/radius) then
                     low = depth
                 else
