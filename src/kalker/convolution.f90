@@ -29,10 +29,15 @@ module faststrip_kalker_convolution
     public :: even, odd
 
     !> Parity of a kernel along one axis.
+    !> Given: numbers of kinds.
     integer, parameter :: even = 1, odd = -1
 
     !> Most points of a doubled grid along one axis.
+    !> Tuned [points]. Origin: capacity: memory of a transform.
     integer, parameter :: largest_size = 2**15
+    ! Tuned [1]: transform of a kernel over its largest below which it counts as this in the
+    ! inverse. Origin: safeguard; it only preconditions.
+    real(wp), parameter :: least_transform = 1.0e-6_wp
 
     !> Room, plans, kernels and transformed sources for one grid. Owned by the caller, one per
     !> thread, never copied by assignment; given back by `release_convolution` or when it goes out
@@ -175,6 +180,7 @@ contains
     pure integer function good_size(n)
         integer, intent(in) :: n !! at least 1
 
+        ! Given: the factors that transforms are fast for.
         integer, parameter :: primes(3) = [2, 5, 7]
         integer :: rest, i
 
@@ -271,7 +277,7 @@ contains
             return
         end if
         scale = (real(convolution%mx, wp)*convolution%my)**2
-        floor = 1.0e-6_wp*maxval(convolution%kernel(:, :, other))
+        floor = least_transform*maxval(convolution%kernel(:, :, other))
         if (convolution%is_imaginary(other) .or. floor <= tiny(floor)*scale) then
             call set_status(status, st_bad_argument, 'a kernel without a positive transform')
             return

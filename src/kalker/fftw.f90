@@ -14,8 +14,10 @@ module faststrip_kalker_fftw
     public :: fftw_execute_dft, fftw_execute_dft_r2c, fftw_execute_dft_c2r
 
     !> Choose the algorithm without timing.
+    !> Given: numbers of the FFTW library.
     integer(c_int), parameter :: fftw_estimate = 64_c_int
     !> Sign of the exponent of a complex transform.
+    !> Given: numbers of the FFTW library.
     integer(c_int), parameter :: fftw_forward = -1_c_int, fftw_backward = 1_c_int
 
     interface

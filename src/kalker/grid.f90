@@ -83,6 +83,8 @@ contains
             real(wp), intent(in) :: distance
             integer, intent(in) :: n
 
+            ! Tuned [elements]: Distance below which two rows are one. Origin: safeguard: far above
+            ! rounding.
             real(wp), parameter :: coincide = 1.0e-6_wp
 
             place = min(max(distance + 1.0_wp, -1.0_wp), n + 2.0_wp)

@@ -27,6 +27,8 @@ module faststrip_kalker_normal_estimate
 
     public :: raise_estimates
 
+    ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: peak_share = 0.5_wp, border_share = 0.25_wp, area_order = 2.0_wp
     real(wp), parameter :: penetration_share = 0.1_wp
 

@@ -34,12 +34,20 @@ module faststrip_kalker_normal_place
         real(wp) :: level = 0.0_wp       !! height of the gap at the ends, from the lowest, mm
     end type extent_t
 
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: guess_room = 1.3_wp   ! of the level, for rows of a guess
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
+    ! Tuned [1]. Origin: chosen: errors of the area of strips.
     real(wp), parameter :: strips_margin = 0.02_wp ! of the extent of a strip solution
     ! A row is missing if its gap is below this of the approach: strips are not exact.
+    ! Tuned [1]. Origin: chosen: errors of the penetration of strips.
     real(wp), parameter :: doubtful = 1.0e-3_wp
+    ! Tuned [rows]. Origin: safeguard: numbers of rows fit in integers.
     real(wp), parameter :: most_rows = 1.0e6_wp  ! along the gap's data
+    ! Tuned [1]: places beyond this many times the most rows are refused. Origin: safeguard: numbers
+    ! of rows fit in integers.
+    real(wp), parameter :: farthest = 1.0e3_wp
 
 contains
 
@@ -163,6 +171,7 @@ contains
         integer, intent(out) :: from, to
         type(status_t), intent(out) :: status
 
+        ! Tuned [1]: By how much a row may be beside its place. Origin: safeguard: above rounding.
         real(wp), parameter :: slack = 1.0e-6_wp ! of a side
         real(wp) :: low, high
 
@@ -171,7 +180,7 @@ contains
         to = -1
         low = curve%y(1)/dy
         high = curve%y(curve%n)/dy
-        if (high - low > most_rows .or. max(abs(low), abs(high)) > 1.0e3_wp*most_rows) then
+        if (high - low > most_rows .or. max(abs(low), abs(high)) > farthest*most_rows) then
             call set_status(status, st_out_of_range, 'elements of '//trim(number_text(dy)) &
                             //' mm are too short for the gap''s points')
             return

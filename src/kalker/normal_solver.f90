@@ -27,9 +27,13 @@ module faststrip_kalker_normal_solver
     public :: kernel_influence, kernel_inverse
 
     !> Numbers of the kernels in the convolution's workspace.
+    !> Given: numbers of kinds.
     integer, parameter :: kernel_influence = 1, kernel_inverse = 2
 
+    ! Tuned [1]: Work. Origin: chosen; directions spoilt by elements that leave.
     real(wp), parameter :: least_work = 0.1_wp ! of a direction, over that of the residual's
+    ! Tuned [1]: of the tolerance: an overlap below it is none. Origin: chosen.
+    real(wp), parameter :: let_in_share = 0.1_wp
 
     !> Room for one grid.
     type :: minimiser_t
@@ -43,7 +47,9 @@ module faststrip_kalker_normal_solver
     !> have the sum `total`.
     type, extends(demand_t) :: task_t
         real(wp) :: total = 0.0_wp         !! sum of s, mm, > 0
+        ! Tuned [1]. Origin: as that of the options.
         real(wp) :: tolerance = 1.0e-9_wp  !! largest |gap| in contact over the depth
+        ! Tuned [iterations]. Origin: safeguard.
         integer :: max_iterations = 200    !! at most
         logical :: preconditioned = .true. !! or plain conjugate gradients?
     end type task_t
@@ -131,7 +137,7 @@ contains
                 fresh = .true.
             end if
             call set_approach(task, minimiser, found%approach)
-            call let_in(found%approach - 0.1_wp*task%tolerance*depth, minimiser, changed)
+            call let_in(found%approach - let_in_share*task%tolerance*depth, minimiser, changed)
             if (changed) call set_approach(task, minimiser, found%approach)
         end do
         found%overlap = max(maxval(found%approach - minimiser%g, mask=minimiser%inside == 0.0_wp), &

@@ -31,16 +31,25 @@ module faststrip_kalker_tangential
     public :: motion_rolling, motion_shift, are_alike
 
     !> Steady rolling, or a shift of bodies that were not displaced before.
+    !> Given: CONTACT's numbers.
     integer, parameter :: motion_rolling = 3, motion_shift = 1
     !> Most elements in contact unless the options say otherwise.
+    !> Tuned [elements]. Origin: capacity.
     integer, parameter :: tang_most_elements = 300000
 
     ! Sizes beyond which nothing is promised.
+    ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
     ! Coupling of pressures and slip below this part of 1 is none: materials given with few digits.
+    ! Tuned [1]. Origin: moduli given with six digits.
     real(wp), parameter :: no_coupling = 1.0e-6_wp
     ! r of `variational_newton` times the own compliance, tried one after the other.
+    ! Tuned [1]. Origin: chosen for the number of Newton's steps.
     real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
+    ! Tuned [1]: tolerances outside are refused. Origin: rounding; chosen.
+    real(wp), parameter :: least_tolerance = 1.0e-12_wp, largest_tolerance = 0.1_wp
+    ! Tuned [1]: sides of elements beyond this proportion are refused. Origin: safeguard.
+    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
     !> What the user chooses.
     type :: tang_options_t
@@ -50,7 +59,9 @@ module faststrip_kalker_tangential
         integer :: edges = edges_sampled        !! `edges_sampled`: pressures are those at the
                                                 !! middles; `edges_of_norm`: NORM's on this grid
         logical :: sticks_everywhere = .false.  !! friction without a bound, mu does not count
+        ! Tuned [1]. Origin: far below the errors of any grid.
         real(wp) :: tolerance = 1.0e-7_wp       !! of the residual, 1e-12 to 0.1
+        ! Tuned [steps]. Origin: safeguard.
         integer :: max_steps = 40               !! of Newton's method for each of three attempts
         logical :: warm_start = .false. !! from the last solution, if it had as many elements
         integer :: most_elements = tang_most_elements !! in contact
@@ -172,7 +183,8 @@ contains
             call set_status(status, st_bad_argument, 'no such kind of pressures')
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, 'the tolerance is not a finite number')
-        else if (options%tolerance < 1.0e-12_wp .or. options%tolerance > 0.1_wp) then
+        else if (options%tolerance < least_tolerance &
+                 .or. options%tolerance > largest_tolerance) then
             call set_status(status, st_bad_argument, 'a tolerance outside 1e-12 to 0.1: ' // &
                             number_text(options%tolerance))
         else if (options%max_steps < 1 .or. options%most_elements < 1) then
@@ -227,7 +239,7 @@ contains
             return
         else if (max(grid%dx, grid%dy, abs(grid%x_first), abs(grid%y_first)) > largest .or. &
                  min(grid%dx, grid%dy) < smallest .or. &
-                 max(grid%dx/grid%dy, grid%dy/grid%dx) > 1.0e6_wp) then
+                 max(grid%dx/grid%dy, grid%dy/grid%dx) > largest_ratio) then
             call set_status(status, st_out_of_range, 'elements or places beyond all proportion')
             return
         end if

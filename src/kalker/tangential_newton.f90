@@ -21,11 +21,18 @@ module faststrip_kalker_tangential_newton
     public :: newton_t, size_newton, solve_newton, most_vectors
 
     !> Most vectors GMRES keeps before it starts again.
+    !> Tuned [vectors]. Origin: capacity.
     integer, parameter :: most_vectors = 60
+    ! Tuned [restarts]: Most of them. Origin: safeguard.
     integer, parameter :: most_restarts = 4
+    ! Tuned [steps]. Origin: chosen against nodes that swing.
     integer, parameter :: free_steps = 5      ! before the carried nodes are kept
+    ! Tuned [halvings]: Most halvings of a step. Origin: chosen.
     integer, parameter :: most_halvings = 5
+    ! Tuned [1]. Origin: chosen for the time of all steps together.
     real(wp), parameter :: loosest = 5.0e-2_wp ! tolerance of GMRES
+    ! Tuned [1]: of what is left to the tolerance, for the tolerance of GMRES. Origin: chosen.
+    real(wp), parameter :: last_share = 0.3_wp
 
     !> State of the solver; arrays grow with the problem.
     type :: newton_t
@@ -118,7 +125,7 @@ contains
             end if
             if (newton%steps >= max_steps) exit
             newton%steps = newton%steps + 1
-            demand = min(loosest, max(newton%residual, 0.3_wp*tolerance/newton%residual))
+            demand = min(loosest, max(newton%residual, last_share*tolerance/newton%residual))
             call find_step(newton, problem, demand, info)
             if (info /= 0) exit
             last_norm = norm
@@ -205,6 +212,7 @@ contains
 
         do i = 1, size(is_carried)
             if (is_carried(i)) then
+                ! Given: second-order extrapolation
                 slip(:, i) = 1.5_wp*node(:, i) - 0.5_wp*node(:, i - 1)
             else
                 slip(:, i) = node(:, i)

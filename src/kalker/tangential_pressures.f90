@@ -16,8 +16,10 @@ module faststrip_kalker_tangential_pressures
     public :: sample_strips, sample_ellipse
 
     ! Sizes beyond which nothing is promised, mm, MPa.
+    ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
     ! A whole number of elements stays one.
+    ! Tuned [elements]. Origin: safeguard: above rounding.
     real(wp), parameter :: rounding = 1.0e-9_wp
 
 contains
@@ -67,7 +69,7 @@ contains
         end if
         call place(a, y0 - b, y0 + b, dx, dy, most_elements, grid, status)
         if (is_error(status)) return
-        pmax = 1.5_wp*(load/(pi*a))/b
+        pmax = 1.5_wp*(load/(pi*a))/b ! Given: Hertz
         do j = 1, grid%ny
             do i = 1, grid%nx
                 rest = 1.0_wp - (element_x(grid, i)/a)**2 - ((element_y(grid, j) - y0)/b)**2

@@ -45,23 +45,32 @@ module faststrip_kalker_tangential_problem
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
 
     !> How slip is made of displacements.
+    !> Given: numbers of kinds.
     integer, parameter :: scheme_second_order = 2, scheme_first_order = 1
     !> What the pressures are: values at the middles of the elements, or NORM's on this grid.
+    !> Given: numbers of kinds.
     integer, parameter :: edges_sampled = 1, edges_of_norm = 2
 
+    ! Given: fitted, the plane contact of cylinders.
     real(wp), parameter :: edge_strength = 2.7046_wp
     real(wp), parameter :: edge_reach = 0.174_wp
     ! Smallest place of an edge, just short of where the element carries nothing.
+    ! Given: fitted, see edge_fit.
     real(wp), parameter :: nearest_edge = -0.17_wp
     ! norm_edge: of the plane contact of cylinders, 60 places of its edge in the grid.
+    ! Given: coefficients of a fit.
     real(wp), parameter :: edge_fit(0:4) = [-0.17462861_wp, 0.99658564_wp, 0.43443832_wp, &
                                             0.13650724_wp, 0.15087991_wp]
+    ! Tuned [1]: Largest proportion of neighbouring pressures. Origin: safeguard of the fit.
     real(wp), parameter :: largest_ratio = 0.75_wp
     ! CONTACT's rigid slip is that of dx/6 ahead of the middle.
+    ! Given: as CONTACT.
     real(wp), parameter :: contact_lead = 1.0_wp/6.0_wp
     ! Pressures below this part of the largest carry no traction.
+    ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: least_pressure = 1.0e-10_wp
 
+    ! Given: numbers of kinds.
     integer, parameter :: kernel_xx = 1, kernel_xy = 2, kernel_yy = 3
 
     !> Elements, influence and rigid slip; arrays grow with the grid.

@@ -14,6 +14,7 @@ module faststrip_kalker_tangential_rows
     public :: rows_t, size_rows, factor_rows, solve_rows
 
     !> Most elements of a block.
+    !> Tuned [elements]. Origin: chosen for the time: what fits the cache.
     integer, parameter :: block_elements = 48
 
     !> Blocks, their factors and the place of their unknowns.
@@ -176,7 +177,7 @@ contains
         b = problem%own_row(:, d)
         if (k == i) b = b + problem%edge(:, i)
         if (.not. is_carried(k)) return
-        b = 1.5_wp*b - 0.5_wp*problem%own_row(:, d + 1)
+        b = 1.5_wp*b - 0.5_wp*problem%own_row(:, d + 1) ! Given: second-order extrapolation
         if (i == k - 1) b = b - 0.5_wp*problem%edge(:, i)
     end function between
 

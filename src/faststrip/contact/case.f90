@@ -18,6 +18,7 @@ module faststrip_contact_case
     type, extends(demand_t) :: contact_case_t
         type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
         type(material_t) :: material       !! moduli in MPa
+        ! Tuned [1]. Origin: usual for dry rails.
         real(wp) :: mu = 0.3_wp            !! coefficient of friction
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions

@@ -21,6 +21,7 @@ module faststrip_contact_choice
 
     public :: choose_methods, target_forces, target_pmax, target_penetration
 
+    ! Given: numbers of kinds.
     integer, parameter :: target_forces = 1      !! Fx and Fy together, over mu N
     integer, parameter :: target_pmax = 2        !! largest pressure, relative
     integer, parameter :: target_penetration = 3 !! relative

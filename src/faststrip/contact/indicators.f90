@@ -30,12 +30,16 @@ module faststrip_contact_indicators
         real(wp) :: b = 0.0_wp          !! and half-width, mm
     end type indicators_t
 
+    ! Tuned [1]. Origin: chosen: beyond any that is told apart.
     real(wp), parameter :: no_ellipse = 1.0e3_wp  !! misfit without an ellipse, and the most told
+    ! Tuned [1]. Origin: chosen: beyond any that is told apart.
     real(wp), parameter :: no_friction = 1.0e3_wp !! saturation without friction, and the most told
 
     ! Where the gap is looked at, in half-widths of the ellipse.
+    ! Tuned [half-widths]. Origin: chosen: more at the edge, where ellipses differ.
     real(wp), parameter :: places(5) = [0.3_wp, 0.6_wp, 0.85_wp, 1.0_wp, 1.15_wp]
     ! Beyond this misfit the size of the patch is taken from the width of the gap.
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: large_misfit = 0.2_wp
 
 contains

@@ -14,6 +14,7 @@ module faststrip_contact_methods
     public :: most_strips, most_rows
 
     !> Length of a method's name, characters.
+    !> Given: the longest name fits.
     integer, parameter :: method_name_length = 24
 
     !> One method.
@@ -113,16 +114,21 @@ module faststrip_contact_methods
         method_t(0, 'none', help='no forces')]
 
     !> Most strips per patch.
+    !> Tuned [strips]. Origin: capacity.
     integer, parameter :: most_strips = 1000
     !> Most rows, and most points along a row, of FASTSIM.
+    !> Tuned [rows]. Origin: capacity.
     integer, parameter :: most_rows = 10000
 
     !> Methods and resolutions.
     type :: contact_methods_t
         integer :: normal = normal_strip             !! one of the `normal_` numbers
         integer :: tangential = tangential_faststrip !! one of the `tangential_` numbers
+        ! Tuned [strips]. Origin: see strip_options_t.
         integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
+        ! Tuned [points]. Origin: see faststrip_tangential_faststrip.
         integer :: points_per_strip = 15 !! points along a strip, faststrip...
+        ! Tuned [points]. Origin: chosen.
         integer :: fastsim_nx = 50       !! points along a row, fastsim...
         integer :: fastsim_ny = 50       !! rows, fastsim...
     end type contact_methods_t

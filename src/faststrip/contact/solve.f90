@@ -51,11 +51,20 @@ module faststrip_contact_solve
     public :: most_gap_points
 
     ! Strips of a Hertz ellipse where the number is left to the solver.
+    ! Tuned [strips]. Origin: as strips_per_patch.
     integer, parameter :: auto_hertz_strips = 15
+    ! Tuned [patches]. Origin: as max_patches of the strips.
     integer, parameter :: most_patches = 16 ! each with its own ellipse
 
     !> Most points of a gap.
+    !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
+    ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
+    integer, parameter :: spare_strips = 60
+    ! Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip, a pair
+    ! of strips, and the lattice. Origin: counted from the components of the workspaces, with a
+    ! margin.
+    integer(int64), parameter :: per_point = 20, per_strip = 100, per_pair = 8, at_least = 400000
 
     !> Figures of one contact.
     type :: contact_result_t
@@ -101,9 +110,9 @@ contains
         end if
         capacity = strip_capacity(methods)
         ! Tried as a whole first: what the parts find missing would stop the program.
-        numbers = 20_int64*max_points + 100_int64*capacity
+        numbers = per_point*max_points + per_strip*capacity
         if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < capacity) &
-            numbers = numbers + 8_int64*capacity*capacity + 400000_int64
+            numbers = numbers + per_pair*capacity*capacity + at_least
         allocate (trial(numbers), stat=failure)
         if (failure /= 0) then
             call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
@@ -462,7 +471,8 @@ contains
     pure integer function strip_capacity(methods)
         type(contact_methods_t), intent(in) :: methods
 
-        strip_capacity = 2*methods%strips_per_patch + 60
-        if (methods%strips_per_patch == strips_auto) strip_capacity = 2*strips_auto_most + 60
+        strip_capacity = 2*methods%strips_per_patch + spare_strips
+        if (methods%strips_per_patch == strips_auto) &
+            strip_capacity = 2*strips_auto_most + spare_strips
     end function strip_capacity
 end module faststrip_contact_solve

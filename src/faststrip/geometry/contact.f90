@@ -20,6 +20,7 @@ module faststrip_geometry_contact
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
+        ! Given: dimensions of standard gauge.
         real(wp) :: back_spacing = 1360.0_wp !! distance of the two flange backs, mm
         real(wp) :: tread_line = 70.0_wp     !! flange back to mean tread line (y = 0), mm
         real(wp) :: radius = 460.0_wp        !! rolling radius r0 at the mean tread line, mm
@@ -27,6 +28,7 @@ module faststrip_geometry_contact
 
     !> The track; both rails carry the same profile.
     type :: track_t
+        ! Given: dimensions of standard gauge.
         real(wp) :: gauge = 1435.0_wp     !! distance of the two gauge faces, mm
         real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
     end type track_t
@@ -44,14 +46,22 @@ module faststrip_geometry_contact
 
     !> The signs of Table 2 taken literally: cksi = Sx, not consistent with its spin. Only to
     !> reproduce the paper.
+    !> Given: numbers of kinds.
     integer, parameter :: creepage_set_a = 1
 
     !> The physical signs: cksi = -Sx of Table 2, what a wheelset's motion gives.
+    !> Given: numbers of kinds.
     integer, parameter :: creepage_set_b = 2
 
     ! Spacing of the scan for the smallest distance, mm; bisections that follow.
+    ! Tuned [mm]: Spacing. Origin: well below the curvature of flange and rail corner.
     real(wp), parameter :: scan_step = 0.02_wp
+    ! Tuned [steps]: Bisections. Origin: all digits of the scan's interval.
     integer, parameter :: n_bisections = 60
+    ! Tuned [mm]: shifts beyond are refused. Origin: safeguard.
+    real(wp), parameter :: largest_shift = 1.0e4_wp
+    ! Tuned [mm]: lengths beyond are refused. Origin: safeguard.
+    real(wp), parameter :: largest_length = 1.0e6_wp
 
 contains
 
@@ -183,7 +193,7 @@ contains
         if (status%code /= 0) return
         if (.not. ieee_is_finite(shift)) then
             call set_status(status, st_bad_argument, 'the lateral shift is not a finite number')
-        else if (abs(shift) > 1.0e4_wp) then
+        else if (abs(shift) > largest_shift) then
             call set_status(status, st_bad_argument, 'lateral shift beyond 10 m: ' // &
                             trim(number_text(shift)) // ' mm')
         end if
@@ -198,7 +208,7 @@ contains
 
         if (status%code /= 0) return
         valid = ieee_is_finite(value)
-        if (valid) valid = value > 0.0_wp .and. value <= 1.0e6_wp
+        if (valid) valid = value > 0.0_wp .and. value <= largest_length
         if (.not. valid) then
             call set_status(status, st_bad_argument, name // &
                             ' not between 0 and 1e6 mm: ' // trim(number_text(value)))

@@ -13,18 +13,33 @@ module faststrip_geometry_contact_gap
     public :: make_gap, standard_gap_step, standard_gap_height
 
     !> Spacing of the samples, mm.
+    !> Tuned [mm]. Origin: chosen: many samples in a strip of the S1002/UIC60 contacts.
     real(wp), parameter :: standard_gap_step = 0.05_wp
 
     !> Gap beyond which no sample is taken, mm.
+    !> Tuned [mm]. Origin: chosen: some times the penetration of the S1002/UIC60 contacts.
     real(wp), parameter :: standard_gap_height = 0.6_wp
 
+    ! Tuned [mm]: Shortest spacing and smallest radius. Origin: safeguard; digits of profiles end
+    ! there.
     real(wp), parameter :: smallest_step = 1.0e-3_wp, smallest_radius = 1.0e-6_wp
 
     ! Least dy'/dy of a profile that still counts as a function of y'.
+    ! Tuned [1]. Origin: safeguard: steeper than 89.9 degrees.
     real(wp), parameter :: least_along = 1.0e-3_wp
 
     ! Most samples on either side, most steps to one of them.
+    ! Tuned [1]. Origin: capacity; bisection needs some 60 steps.
     integer, parameter :: max_samples = 200000, max_iterations = 100
+    ! Tuned [mm]: longest spacing. Origin: safeguard.
+    real(wp), parameter :: largest_step = 1.0e3_wp
+    ! Tuned [mm]: coordinates beyond are refused. Origin: safeguard.
+    real(wp), parameter :: largest_length = 1.0e6_wp
+    ! Tuned [mm]: first width of a bracket at least. Origin: safeguard: above rounding.
+    real(wp), parameter :: least_bracket = 1.0e-9_wp
+    ! Tuned [1]: residual over the coordinate that ends the steps. Origin: safeguard: above
+    ! rounding.
+    real(wp), parameter :: exact = 1.0e-13_wp
 
     ! A point of a profile in its own frame and in the turned one.
     type :: inclined_point_t
@@ -68,7 +83,7 @@ contains
         if (is_error(status)) return
         capacity = min(max_samples, &
                    ceiling(2.0_wp*min(wheel%y_last - wheel%y_first, &
-                                      rail%y_last - rail%y_first, 1.0e6_wp)/step) + 1)
+                                      rail%y_last - rail%y_first, largest_length)/step) + 1)
         allocate (h(-capacity:capacity), inv2r(-capacity:capacity), &
                   inclination(-capacity:capacity), source=0.0_wp)
         call sample_side(-1, n_left)
@@ -126,7 +141,7 @@ contains
 
         call clear_status(status)
         valid = ieee_is_finite(step)
-        if (valid) valid = step >= smallest_step .and. step <= 1.0e3_wp
+        if (valid) valid = step >= smallest_step .and. step <= largest_step
         if (.not. valid) then
             call set_status(status, st_bad_argument, 'step of the gap outside 0.001 to 1000 mm: ' &
                             // trim(number_text(step)))
@@ -150,7 +165,7 @@ contains
         valid = all(ieee_is_finite([contact%y_wheel, contact%z_wheel, contact%y_rail, &
                                     contact%z_rail, contact%gamma, wheelset%radius]))
         if (valid) valid = maxval(abs([contact%y_wheel, contact%z_wheel, contact%y_rail, &
-                                       contact%z_rail, wheelset%radius])) <= 1.0e6_wp &
+                                       contact%z_rail, wheelset%radius])) <= largest_length &
                            .and. abs(contact%gamma) < 0.5_wp*pi .and. wheelset%radius > 0.0_wp
         if (.not. valid) call set_status(status, st_bad_argument, &
                                          'the gap does not start at a contact of the profiles')
@@ -176,7 +191,7 @@ contains
         near = start
         ! The far end of the bracket: twice the distance to go, and on.
         far = start
-        next = max(2.0_wp*abs(residual)/point%along, 1.0e-9_wp)
+        next = max(2.0_wp*abs(residual)/point%along, least_bracket)
         do
             far = max(profile%y_first, min(far + side*next, profile%y_last))
             call turned_at(far, point, residual)
@@ -195,7 +210,7 @@ contains
             else
                 far = next
             end if
-            if (abs(residual) <= 1.0e-13_wp*(1.0_wp + abs(y_turned)) &
+            if (abs(residual) <= exact*(1.0_wp + abs(y_turned)) &
                 .or. abs(far - near) <= spacing(next)) exit
             next = next + residual/point%along
             if ((next - near)*(next - far) > 0.0_wp) next = 0.5_wp*(near + far)

@@ -11,6 +11,8 @@ module faststrip_geometry_gap
     public :: gap_t, check_gap, check_gap_points, min_gap_points
 
     !> Fewest points that describe a gap.
+    !> Given: cubic splines without knots at the second and last but one need four; a parabola in
+    !> between one more.
     integer, parameter :: min_gap_points = 5
 
     !> Distance of wheel and rail along the common normal before any load,

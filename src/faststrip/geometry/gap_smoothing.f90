@@ -32,13 +32,23 @@ module faststrip_geometry_gap_smoothing
 
     public :: smooth_gap
 
+    ! Tuned [intervals]: Most intervals of the spline. Origin: capacity; several in each strip of
+    ! any patch.
     integer, parameter :: most_intervals = 400 ! between knots
+    ! Given: third differences.
     integer, parameter :: band = 3             ! upper diagonals of the system
     real(wp), parameter :: third_difference(0:3) = [-1.0_wp, 3.0_wp, -3.0_wp, 1.0_wp]
+    ! Tuned [1]: Weight of the degrees of freedom. Origin: Kim and Gu (2004).
     real(wp), parameter :: caution = 1.4_wp    ! f
+    ! Tuned [1]: Largest misfit. Origin: chosen; round.
     real(wp), parameter :: bad_fit = 2.0_wp    ! rms deviation at the least lambda, over the noise
     ! lambda, with the traces of N and D'D made equal: a factor of 10, then finer
+    ! Tuned [decades; halvings]: Range of the search and its refinements. Origin: chosen; beyond
+    ! both ends nothing changes.
     integer, parameter :: first_decade = -6, last_decade = 13, refinements = 4
+    ! Tuned [1]: noise over heights, either way, that is refused. Origin: safeguard: squares cannot
+    ! overflow.
+    real(wp), parameter :: largest_ratio = 1.0e100_wp
 
 contains
 
@@ -82,7 +92,7 @@ contains
             smoothed = gap
             return
         end if
-        if (noise/unit > 1.0e100_wp .or. unit/noise > 1.0e100_wp) then
+        if (noise/unit > largest_ratio .or. unit/noise > largest_ratio) then
             call set_status(status, st_out_of_range, 'noise and heights beyond all proportion')
             return
         end if
@@ -91,7 +101,7 @@ contains
         call fill_system(basis, first, rest, normal, penalty, right)
         best_risk = huge(1.0_wp)
         best_log = 0.0_wp
-        step = log(10.0_wp)
+        step = log(10.0_wp) ! Given: a decade
         do i = first_decade, last_decade
             call fit(i*step, risk)
             if (info /= 0) cycle
@@ -196,10 +206,11 @@ contains
             t = intervals*((y(i) - y(1))/(y(n) - y(1)))
             first(i) = min(int(t), intervals - 1) + 1
             u = t - (first(i) - 1)
-            basis(0, i) = (1.0_wp - u)**3/6.0_wp
-            basis(1, i) = (4.0_wp + u*u*(3.0_wp*u - 6.0_wp))/6.0_wp
+            basis(0, i) = (1.0_wp - u)**3/6.0_wp ! Given: cubic B-spline
+            basis(1, i) = (4.0_wp + u*u*(3.0_wp*u - 6.0_wp))/6.0_wp ! Given: cubic B-spline
+            ! Given: cubic B-spline
             basis(2, i) = (1.0_wp + u*(3.0_wp + u*(3.0_wp - 3.0_wp*u)))/6.0_wp
-            basis(3, i) = u**3/6.0_wp
+            basis(3, i) = u**3/6.0_wp ! Given: cubic B-spline
         end do
     end subroutine fill_basis
 

@@ -20,6 +20,7 @@ module faststrip_geometry_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: standard_cant
 
+    ! Given: numbers of kinds.
     integer, parameter :: profile_none = 0
     integer, parameter :: profile_s1002 = 1
     integer, parameter :: profile_uic60 = 2
@@ -27,9 +28,11 @@ module faststrip_geometry_profile
     integer, parameter :: profile_points = 4
 
     !> Rail cant 1:40.
+    !> Given: 1:40.
     real(wp), parameter :: standard_cant = 0.025_wp
 
     ! Points beyond this are not in mm.
+    ! Tuned [mm]. Origin: safeguard.
     real(wp), parameter :: largest_coordinate = 1.0e4_wp
 
     !> One profile, ready to be evaluated between y_first and y_last.

@@ -16,21 +16,30 @@ module faststrip_geometry_rail_uic60
     public :: uic60_transition, en60e1_transition
 
     !> Half of 21.000 mm: the `uic60` of the Manchester benchmark and multibody programs, mm.
+    !> Given: dimensions, as said with it.
     real(wp), parameter :: uic60_transition = 10.5_wp
 
     !> Half of 20.456 mm: the `60e1` of EN 13674-1, mm.
+    !> Given: dimensions, as said with it.
     real(wp), parameter :: en60e1_transition = 10.228_wp
 
+    ! Given: dimensions of the head: R300, R80, R13.
     real(wp), parameter :: radius(3) = [300.0_wp, 80.0_wp, 13.0_wp]
 
     ! Half-width where the flank begins and where the head ends (74.3 mm wide), mm.
+    ! Given: dimensions of the head; the flank is 20:1.
     real(wp), parameter :: flank_half_width = 36.0_wp, end_half_width = 37.15_wp
     real(wp), parameter :: flank_slope = 20.0_wp
 
     ! Where a canted gauge face becomes vertical the head is cut this far before, mm.
+    ! Tuned [mm]. Origin: safeguard: slopes stay finite.
     real(wp), parameter :: vertical_margin = 1.0e-6_wp
 
+    ! Tuned [rad]: Largest cant taken. Origin: chosen.
     real(wp), parameter :: largest_cant = 0.1_wp
+    ! Tuned [mm]: places of the transition that are taken. Origin: chosen: half and double of the
+    ! standards' are.
+    real(wp), parameter :: least_transition = 1.0_wp, largest_transition = 20.0_wp
 
     !> A rail head: its own frame has the origin at the crown, y to the field side, z down. The
     !> canted frame is turned by the cant and has its origin at the highest point.
@@ -69,7 +78,7 @@ contains
 
         call clear_status(status)
         valid = ieee_is_finite(transition)
-        if (valid) valid = transition >= 1.0_wp .and. transition <= 20.0_wp
+        if (valid) valid = transition >= least_transition .and. transition <= largest_transition
         if (.not. valid) then
             call set_status(status, st_bad_argument, 'transition R300/R80 outside 1 to 20 mm: ' &
                             // number_text(transition))
@@ -172,6 +181,7 @@ contains
         real(wp), intent(out) :: d2z          !! second derivative, 1/mm
         type(status_t), intent(out) :: status !! `st_out_of_range` beyond head%joint(1) and
                                               !! head%joint(8) and for y not finite: all zero
+        ! Given: the five arcs' radii.
         integer, parameter :: radius_of(5) = [3, 2, 1, 2, 3]
         integer :: i
         real(wp) :: root
@@ -194,7 +204,7 @@ contains
             z = head%flank_z(2) + dz*(y - head%flank_y(2))
         else
             i = 1
-            do while (i < 5)
+            do while (i < 5) ! Given: the five arcs
                 if (y < head%joint(i + 2)) exit
                 i = i + 1
             end do

@@ -12,6 +12,7 @@ module faststrip_geometry_sampled
     public :: sampled_profile_t, make_sampled_profile, sampled_profile_at, min_profile_points
 
     !> Fewest points that describe a profile.
+    !> Tuned [points]. Origin: chosen; as few as splines take.
     integer, parameter :: min_profile_points = 5
 
     !> Points and the slopes of the curve through them.

@@ -15,18 +15,23 @@ module faststrip_influence_angle_sums
     public :: angle_moments, least_near
 
     ! The largest far rule that is cheaper than a near one.
+    ! Tuned [rule's number]. Origin: chosen for the time.
     integer, parameter :: last_far = 8
 
     ! Forms of the kernel: 1 to 4 with 2, 4, 6, 8 powers for thin strips, and of any width.
+    ! Given: numbers of kinds.
     integer, parameter :: wide = 5
     ! Largest narrowness, half-width over distance, that a form serves for each accuracy; negative:
     ! not used.
+    ! Tuned [1]. Origin: errors within the accuracy, see faststrip_influence_angle_rules.
     real(wp), parameter :: thin_last(wide - 1, fine:coarse) = reshape( &
         [-1.0_wp, -1.0_wp, -1.0_wp, 0.26_wp, 0.045_wp, 0.16_wp, 0.28_wp, -1.0_wp], [wide - 1, 2])
 
     ! Largest X and distance of an edge, in half-lengths: beyond, scalar procedures lose less.
+    ! Tuned [half-lengths]. Origin: accuracy: beyond, differences of large numbers.
     real(wp), parameter :: largest_sigma = 1.0e3_wp
     !> Least distance of a field point from the nearer edge, in half-lengths: below, no rule fits.
+    !> Tuned [half-lengths]. Origin: the last rule's smallest interval.
     real(wp), parameter :: least_near = 1.0e-5_wp
 
 contains

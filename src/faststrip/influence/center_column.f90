@@ -16,9 +16,11 @@ module faststrip_influence_center_column
 
     ! Field points are taken so many at a time, as many as a patch seldom has strips: five arrays of
     ! that length for each form are on the stack, 10 kB.
+    ! Tuned [field points]. Origin: as said with it.
     integer, parameter :: chunk = 64
     ! An edge this close to the field point, over the other edge's distance, counts as this far: its
     ! part of the integral, c ln c, is below rounding. From 1e-17 down no digit changes.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: least_ratio = 1.0e-30_wp
 
 contains
@@ -171,7 +173,7 @@ contains
             da = 0.0_wp
             dal = 0.0_wp
             dar = 0.0_wp
-            do k = 18, 0, -1
+            do k = 18, 0, -1 ! Given: degree of the polynomial
                 da = da*xr + al
                 dal = dal*xl + al
                 dar = dar*xr + ar
@@ -210,7 +212,7 @@ contains
             db = b_small(20)
             al = a_small(19)
             da = 0.0_wp
-            do k = 18, 0, -1
+            do k = 18, 0, -1 ! Given: degree of the polynomial
                 da = da*xr + al
                 al = al*xl + a_small(k)
                 db = db*xr + bl
@@ -244,7 +246,7 @@ contains
             dr = 0.0_wp
             drl = 0.0_wp
             drr = 0.0_wp
-            do k = 25, 0, -1
+            do k = 25, 0, -1 ! Given: degree of the polynomial
                 dr = dr*xr + rl
                 drl = drl*xl + rl
                 drr = drr*xr + rr
@@ -275,7 +277,7 @@ contains
             xr = ur*ur - r_centre
             rl = r_large(26)
             dr = 0.0_wp
-            do k = 25, 0, -1
+            do k = 25, 0, -1 ! Given: degree of the polynomial
                 dr = dr*xr + rl
                 rl = rl*xl + r_large(k)
             end do

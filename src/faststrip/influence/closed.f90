@@ -31,20 +31,26 @@ module faststrip_influence_closed
     public :: c_small, c_large, c_near, c_far, table_end
 
     !> Largest c of the form for small c, in half-lengths: as far as its polynomials were fitted.
+    !> Given: the range its polynomials were fitted on.
     real(wp), parameter :: c_small = 1.0_wp
     !> Least c of the form for large c: as far as its polynomial was fitted. The two forms overlap
     !> for strips with an edge on either side of 1.
+    !> Given: the range its polynomial was fitted on.
     real(wp), parameter :: c_large = 0.7_wp
     ! Where both forms serve a difference is taken apart here, at the geometric mean of both ends.
+    ! Given: the mean of c_small and c_large; any other place there does as well.
     real(wp), parameter :: c_middle = 0.84_wp
     !> Largest c of the short form for small c, 0.6.
     real(wp), parameter :: c_near = sqrt(short_last)
     !> Least c of the short form for large c, 5/3 and a rounding.
+    !> Given: follows from c_near.
     real(wp), parameter :: c_far = 1.0_wp/c_near + 1.0e-12_wp
+    ! Given: ln 4.
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
     !> The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
+    !> Tuned [1]. Origin: far more than the strips of a patch; beyond, five powers are exact.
     integer, parameter :: table_end = 64
     ! 2n atanh(1/(2n)), and the coefficients of its powers.
     real(wp), parameter :: distance_table(table_end) = &
@@ -88,6 +94,8 @@ contains
     elemental real(wp) function influence_primitive_slope(c) result(slope)
         real(wp), intent(in) :: c !! edge of the strip over its half-length, any size and sign
 
+        ! Tuned [half-lengths]: Edges nearer to the field point than this need the first term only.
+        ! Origin: its square is below rounding.
         real(wp), parameter :: tiny_c = 1.0e-9_wp
         real(wp) :: size, root
 
@@ -112,6 +120,8 @@ contains
         integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
         real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
 
+        ! Tuned [half-lengths]: Wider strips are infinitely wide. Origin: safeguard: squares cannot
+        ! overflow.
         real(wp), parameter :: b_huge = 1.0e150_wp
         real(wp) :: distance, cl, cr, t, wl, wr, xl, xr, p, q(2), r(2)
 
@@ -173,6 +183,8 @@ contains
         integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
         real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
 
+        ! Tuned [half-lengths]: Wider strips are infinitely wide. Origin: safeguard: squares cannot
+        ! overflow.
         real(wp), parameter :: b_huge = 1.0e100_wp
         real(wp) :: distance, cl, cr
 
@@ -285,6 +297,8 @@ contains
     elemental real(wp) function far_difference(cl, cr) result(value)
         real(wp), intent(in) :: cl, cr
 
+        ! Tuned [half-lengths]: Edges beyond are as far as this. Origin: safeguard: no product can
+        ! overflow.
         real(wp), parameter :: c_huge = 1.0e300_wp
         real(wp) :: wl, wr, p, q(2)
 

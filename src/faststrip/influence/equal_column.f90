@@ -24,6 +24,7 @@ module faststrip_influence_equal_column
     real(wp), parameter :: step_square(table_end) = [(4.0_wp*k_*(2*k_ + 1), k_=1, table_end)]
     real(wp), parameter :: half_pi_log(table_end) = [(pi*atanh(0.5_wp/k_), k_=1, table_end)]
     real(wp), parameter :: inverse_square(0:table_end) = 1.0_wp/odd_square
+    ! Given: follows from the series.
     real(wp), parameter :: inverse_step(table_end) = &
         [(8.0_wp*k_/((2.0_wp*k_ - 1.0_wp)*(2.0_wp*k_ + 1.0_wp))**2, k_=1, table_end)]
 
@@ -99,7 +100,7 @@ contains
             d_odd = a_short(11)
             e = d_even*y2 + a_short(8)
             o = d_odd*y2 + a_short(9)
-            do k = 6, 0, -2
+            do k = 6, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + a_short(k)
@@ -111,7 +112,7 @@ contains
             d_odd = b_short(11)
             e = d_even*y2 + b_short(8)
             o = d_odd*y2 + b_short(9)
-            do k = 6, 0, -2
+            do k = 6, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + b_short(k)
@@ -148,7 +149,7 @@ contains
             o = a_small(19)
             d_even = 0.0_wp
             d_odd = 0.0_wp
-            do k = 16, 0, -2
+            do k = 16, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + a_small(k)
@@ -160,7 +161,7 @@ contains
             o = 0.0_wp
             d_even = 0.0_wp
             d_odd = 0.0_wp
-            do k = 18, 0, -2
+            do k = 18, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + b_small(k)
@@ -196,7 +197,7 @@ contains
             d_odd = r_short(11)
             e = d_even*y2 + r_short(8)
             o = d_odd*y2 + r_short(9)
-            do k = 6, 0, -2
+            do k = 6, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + r_short(k)
@@ -230,7 +231,7 @@ contains
             o = 0.0_wp
             d_even = 0.0_wp
             d_odd = 0.0_wp
-            do k = 24, 0, -2
+            do k = 24, 0, -2 ! Given: degree of the polynomial
                 d_even = d_even*x2 + e
                 d_odd = d_odd*x2 + o
                 e = e*y2 + r_large(k)

@@ -47,16 +47,21 @@ module faststrip_influence_offcentre
 
     public :: strip_influence_at, strip_influence_gradient, strip_influence_edge_slope
 
+    ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
 
     ! From this many half-lengths away a strip is a point; an edge this many times farther still
     ! sees it, and all within the former, as one.
+    ! Tuned [half-lengths]. Origin: safeguard, far beyond any digit.
     real(wp), parameter :: point_ratio = 1.0e30_wp
     ! On the centre line the closed form serves while edges are at most this many widths away.
+    ! Tuned [widths]. Origin: accuracy of the off-centre rules beside the closed form.
     real(wp), parameter :: center_ratio = 1.0e3_wp
     ! A strip within this distance of the field point, in half-lengths, has no influence.
+    ! Tuned [half-lengths]. Origin: safeguard against underflow.
     real(wp), parameter :: no_width = 1.0e-250_wp
     ! Below this, an edge is on the field point.
+    ! Tuned [half-lengths]. Origin: c ln c is below rounding.
     real(wp), parameter :: on_the_edge = 1.0e-20_wp
 
 contains
@@ -151,6 +156,8 @@ contains
         type(demand_t), intent(in) :: demand
         real(wp), intent(out) :: m(3)
 
+        ! Tuned [half-lengths]: Distances in half-lengths beyond are as far as this. Origin:
+        ! safeguard against overflow.
         real(wp), parameter :: largest_scaled = 1.0e240_wp
         real(wp) :: near, far
 
@@ -172,6 +179,8 @@ contains
         real(wp), intent(in) :: x, xd, el, er
         real(wp), intent(out) :: m(3)
 
+        ! Tuned [half-lengths]: Edges beyond are infinitely far. Origin: safeguard: squares cannot
+        ! overflow.
         real(wp), parameter :: far_edge = 1.0e60_wp
         real(wp) :: size, xs, cl, cr, sl, sr, ker
         logical :: beyond

@@ -10,7 +10,10 @@ module faststrip_influence_offcentre_folded
     integer :: i_
 
     ! The folded double-exponential rule on [0,1]: abscissae y and weights.
+    ! Tuned [nodes]: Number of nodes. Origin: chosen for the error at the least distances.
     integer, parameter :: n_fold = 160
+    ! Tuned [1]: Spacing of the nodes before the transformation. Origin: with n_fold, the last
+    ! weight is below rounding.
     real(wp), parameter :: h_fold = 0.0288_wp
     real(wp), parameter :: t_fold(n_fold) = [(h_fold*(i_ - 1), i_=1, n_fold)]
     real(wp), parameter :: y_fold(n_fold) = 2.0_wp/(1.0_wp + exp(sinh(t_fold) + t_fold))
@@ -97,7 +100,7 @@ contains
             m1 = m1 + u*ker
             m2 = m2 + u*u*ker
         end do
-        m(1) = 16.0_wp*m0
+        m(1) = 16.0_wp*m0 ! Given: of the transformation
         m(2) = -4.0_wp*m1
         m(3) = 4.0_wp*m2
     end subroutine fold_tip

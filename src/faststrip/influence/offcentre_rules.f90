@@ -11,6 +11,7 @@ module faststrip_influence_offcentre_rules
 
     ! Fewer sizes than the columns have, for choosing one costs as much as some nodes: 4, 6, 8, 12,
     ! 16, 20, 24, 32, 48, 64, 96, 128, 192.
+    ! Tuned [rules]: How many sizes, and which. Origin: as said with it.
     integer, parameter :: n_scalar_rules = 13
     integer, parameter :: choice(n_scalar_rules) = [1, 2, 3, 5, 7, 9, 11, 13, 16, 18, 19, 20, 21]
     !> Nodes of each rule.
@@ -33,8 +34,11 @@ module faststrip_influence_offcentre_rules
         real(wp) :: split         !! least cr for taking the logarithm apart
     end type demand_t
 
+    ! Tuned [several]: Limits of the forms for values. Origin: chosen for time and errors of single
+    ! values, 3e-16; the order is that of demand_t.
     type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, &
                                                       1.0e-16_wp, 20.0_wp, 0.5_wp)
+    ! Tuned [several]: Limits of the forms for derivatives. Origin: the same for derivatives.
     type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 7, 0.2_wp, &
                                                          1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
 

@@ -8,8 +8,10 @@ module faststrip_influence_offcentre_series
 
     integer :: k_
 
+    ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
     ! The series in c: 1/(2k + 1), 1/k, ratio of successive factors.
+    ! Tuned [terms]: Most terms of the series. Origin: enough at the largest ratio of the series.
     integer, parameter :: max_terms = 12
     real(wp), parameter :: inverse_odd(0:max_terms) = [(1.0_wp/(2*k_ + 1), k_=0, max_terms)]
     real(wp), parameter :: reciprocal(max_terms) = [(1.0_wp/k_, k_=1, max_terms)]

@@ -11,11 +11,14 @@ module faststrip_influence_offcentre_slope
 
     public :: strip_influence_edge_slope
 
+    ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
     ! The slope in an edge: its series may be cut after one term below this c/(1 - |X|), and off the
     ! strip the edge is on the field point below this c.
+    ! Tuned [1]. Origin: its square is below rounding.
     real(wp), parameter :: small_ratio = 1.0e-8_wp
-    real(wp), parameter :: small_edge = 1.0e-27_wp
+    ! Tuned [half-lengths]. Origin: c ln c is below rounding.
+    real(wp), parameter :: small_edge = 1.0e-27_wp ! on the field point
 
 contains
 
@@ -31,7 +34,12 @@ contains
         real(wp), intent(in) :: x !! X, field point along the strip over the half-length
         real(wp), intent(in) :: c !! edge less the field point's y over the half-length
 
+        ! Tuned [half-lengths]: Beyond, the strip is a point. Origin: safeguard: squares cannot
+        ! overflow.
         real(wp), parameter :: largest = 1.0e100_wp
+        ! Tuned [1]: smaller over larger distance that counts for nothing. Origin: its square is
+        ! below rounding.
+        real(wp), parameter :: no_ratio = 1.0e-8_wp
         real(wp) :: xs, cs, sigma, rest
 
         if (.not. (ieee_is_finite(x) .and. ieee_is_finite(c))) then
@@ -43,7 +51,7 @@ contains
         rest = abs(1.0_wp - xs)
         if (max(xs, cs) > largest) then
             slope = 0.5_wp*pi/max(xs, cs)
-            if (min(xs, cs) > 1.0e-8_wp*max(xs, cs)) &
+            if (min(xs, cs) > no_ratio*max(xs, cs)) &
                 slope = slope/sqrt(1.0_wp + (min(xs, cs)/max(xs, cs))**2)
             return
         end if

@@ -9,8 +9,10 @@ module faststrip_influence_plain_sizes
 
     !> Lengths in mm between which columns divide without a second thought. Contacts
     !> have 1e-3 to 1e3; what lies outside goes to the scalar procedures, at their cost.
+    !> Tuned [mm]. Origin: safeguard: squares cannot underflow.
     real(wp), parameter :: least_size = 1.0e-100_wp
     !> The same, above.
+    !> Tuned [mm]. Origin: safeguard: squares cannot overflow.
     real(wp), parameter :: largest_size = 1.0e100_wp
 
 contains

@@ -15,10 +15,12 @@ module faststrip_influence_polynomial
     public :: table_influence, published_coefficients, table_last_distance
 
     !> The largest strip distance n of the table.
+    !> Given: the published table.
     integer, parameter :: table_last_distance = 20
 
     !> Coefficients as printed, `published_coefficients(k, n)`: power 6 - k of L, strip distance n
     !> (the printed column 2n).
+    !> Given: the published table.
     real(wp), parameter :: published_coefficients(0:6, 0:table_last_distance) = reshape([ &
     -0.002505_wp, -0.001497_wp, 0.022573_wp, 0.009238_wp, -0.16037_wp, 0.467393_wp, 0.483852_wp, &
     -0.007560_wp, -0.026714_wp, 0.015249_wp, 0.105083_wp, -0.14821_wp, 0.079591_wp, -0.08251_wp, &
@@ -52,7 +54,9 @@ contains
         real(wp), intent(out) :: value        !! influence over the half-length; 0 on error
         type(status_t), intent(out) :: status !! `st_not_finite`, `st_out_of_range`
 
+        ! Given: the published range.
         real(wp), parameter :: b_least = 0.01_wp, b_most = 10.0_wp
+        ! Given: ln 10.
         real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
         real(wp) :: l, e
         integer :: k, row
@@ -78,7 +82,7 @@ contains
         row = abs(n)
         l = log10(b)
         e = published_coefficients(0, row)
-        do k = 1, 6
+        do k = 1, 6 ! Given: degree of the polynomial
             e = e*l + published_coefficients(k, row)
         end do
         value = 2.0_wp*exp(log_10*e)

@@ -16,6 +16,7 @@ module faststrip_influence_thin_kernel
     integer :: i_, k_
 
     !> The largest k: of form 4; form f ends with k = 2f.
+    !> Given: the powers that are written out below.
     integer, parameter :: last_power = 8
     ! Coefficient of t^(2j) in P_2k(t), over 2k + 1.
     real(wp), parameter :: legendre(0:last_power, 0:last_power) = reshape( &

@@ -26,8 +26,12 @@ module faststrip_influence_tip
     integer :: k_
 
     ! The series of a strip's own tip, up to a largest kappa.
+    ! Tuned [powers]: The last power. Origin: the first term left out is below rounding at
+    ! own_kappa.
     integer, parameter :: last_own = 18
+    ! Tuned [1]: Largest kappa of the series. Origin: chosen with last_own.
     real(wp), parameter :: own_kappa = 0.35_wp
+    ! Given: the binomial series.
     real(wp), parameter :: own(0:last_own) = &
         [((-1.0_wp)**k_*gamma(1.5_wp)/(gamma(k_ + 1.0_wp)*gamma(1.5_wp - k_)) &
           *gamma(-0.5_wp*k_ - 0.25_wp)*gamma(0.5_wp*k_ + 0.75_wp)/sqrt(pi), k_=0, last_own)]
@@ -131,7 +135,7 @@ contains
         slope = 0.0_wp
         do k = last_own, 0, -1
             slope = slope*kappa + own(k)
-            primitive = primitive*kappa + own(k)/(k + 1.5_wp)
+            primitive = primitive*kappa + own(k)/(k + 1.5_wp) ! Given: integral of a power
         end do
         root = sqrt(kappa)
         m(1) = 4.0_wp*kappa*(pi + root*primitive)

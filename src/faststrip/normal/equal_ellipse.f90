@@ -25,6 +25,7 @@ module faststrip_normal_equal_ellipse
 
     public :: equal_area, equal_moments, replace_by_ellipses
 
+    ! Given: numbers of kinds.
     integer, parameter :: equal_area = 1    !! proportions of the Hertz contact
     integer, parameter :: equal_moments = 2 !! proportions of the patch's second moments
 
@@ -105,7 +106,7 @@ contains
         ellipse%a = ellipse%b*ratio
         ellipse%y = patch%y
         ellipse%load = patch%load
-        ellipse%pmax = 1.5_wp*patch%load/ellipse%area
+        ellipse%pmax = 1.5_wp*patch%load/ellipse%area ! Given: Hertz
     end subroutine find_ellipse
 
     pure subroutine take_ellipse(ellipse, first, last, strips, result)

@@ -36,8 +36,10 @@ module faststrip_normal_hertz
     end type hertz_t
 
     ! |ln(A/B)| beyond which nothing is promised: axes in a ratio of about 1e20.
+    ! Tuned [1]. Origin: safeguard, far from overflow.
     real(wp), parameter :: largest_log_ratio = 90.0_wp
     ! |ln| of the results (mm, MPa) beyond which they are refused, far from overflow.
+    ! Tuned [1]. Origin: safeguard, far from overflow.
     real(wp), parameter :: largest_log_result = 200.0_wp
 
 contains
@@ -57,6 +59,8 @@ contains
             !! `st_not_finite`, `st_bad_material`, `st_bad_load`, `st_no_hertz_ellipse` (a relative
             !! curvature that is not positive), `st_out_of_range` (axes beyond all proportion)
 
+        ! Tuned [steps]: Most steps for the ratio of the axes. Origin: safeguard: Newton's method
+        ! needs few.
         integer, parameter :: most_steps = 40
         real(wp) :: target, axes, step, k, d, s, slope, log_long, long, short
         integer :: i
@@ -72,7 +76,7 @@ contains
             return
         end if
         target = log(max(inv2r_x, inv2r_y)/min(inv2r_x, inv2r_y))
-        axes = target/1.5_wp
+        axes = target/1.5_wp ! Given: Hertz
         do i = 1, most_steps
             call ellipse_integrals(exp(-axes), k, d, s, slope)
             ! ln(A_S/A_L) = ln(B/D) + 2 ln(L/S); B/D = (1/2 - s)/(1/2 + s).
@@ -86,6 +90,7 @@ contains
         end if
         call ellipse_integrals(exp(-axes), k, d, s, slope)
 
+        ! Given: Hertz
         log_long = (log(1.5_wp*d) + log(load) + log(compliance) &
                     - log(min(inv2r_x, inv2r_y)))/3.0_wp
         if (abs(log_long) + axes + abs(log(load)) > largest_log_result) then
@@ -93,6 +98,7 @@ contains
                             'load ' // trim(number_text(load)) // ' N')
             return
         end if
+        ! Given: Hertz
         long = cube_root(1.5_wp*d*fraction(load)*fraction(compliance) &
                          /fraction(min(inv2r_x, inv2r_y)), &
                          exponent(load) + exponent(compliance) - exponent(min(inv2r_x, inv2r_y)))
@@ -104,9 +110,9 @@ contains
             hertz%a = short
             hertz%b = long
         end if
-        hertz%penetration = 1.5_wp*load*compliance*k/long
+        hertz%penetration = 1.5_wp*load*compliance*k/long ! Given: Hertz
         hertz%area = pi*hertz%a*hertz%b
-        hertz%pmax = 1.5_wp*load/hertz%area
+        hertz%pmax = 1.5_wp*load/hertz%area ! Given: Hertz
         hertz%load = load
     end subroutine hertz_solve
 

@@ -48,17 +48,27 @@ module faststrip_normal_limitations
     !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 %
     !> half
     !> as many random gaps are named.
+    !> Tuned [1]. Origin: as said with it.
     real(wp), parameter :: default_resolution = 0.1_wp
 
+    ! Tuned [1]: Slope from which the half-space is doubtful. Origin: its square, 4 %, is what a
+    ! half-space leaves out.
     real(wp), parameter :: doubtful_slope = 0.2_wp
+    ! Tuned [rad]: Change of inclination from which the half-space is doubtful. Origin: as
+    ! doubtful_slope, of two normals.
     real(wp), parameter :: doubtful_inclination = 20.0_wp*pi/180.0_wp
     ! Height of a step over the penetration. Lower ones change it by less than 0.5 %.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: doubtful_step = 0.01_wp
     ! Slope of a step over penetration by half the patch's width. With 0.5 the largest pressure is
     ! off by up to 20 %, with 0.1 by less than 1 %.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: doubtful_steepness = 0.2_wp
     ! Of all heights' range: a step as high as this leads to a fill value, and not over noise.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: fill_step = 0.5_wp
+    ! Tuned [mm]: half-lengths beyond count as this. Origin: safeguard: no product can overflow.
+    real(wp), parameter :: longest = 1.0e30_wp
 
 contains
 
@@ -170,7 +180,7 @@ contains
             inv2r = gap_inv2r(curve, y)
             lowest = min(lowest, inv2r)
             highest = max(highest, inv2r)
-            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), 1.0e30_wp))
+            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), longest))
             if (k < strips%n) then
                 if (strips%patch(k + 1) == strips%patch(k)) cycle
             end if
@@ -190,6 +200,7 @@ contains
             call add_limitation(status, st_flat_along_x, words)
         end if
         if (inclination > doubtful_inclination) then
+            ! Given: degrees
             words = 'half-space doubtful: the inclination of the surfaces changes by ' &
                 //number_text(inclination*180.0_wp/pi)
             call add_words(words, ' degrees over a patch')

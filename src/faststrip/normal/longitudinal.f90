@@ -37,26 +37,33 @@ module faststrip_normal_longitudinal
 
     ! Points of the gap looked at in a strip and in all of the contact, even; of more, so many
     ! evenly spread ones.
+    ! Tuned [points]. Origin: cost.
     integer, parameter :: most_points = 32, most_of_contact = 128
 
     ! Where the pressure off the centre line is looked for, over the half-length.
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: places(3) = [0.5_wp, 0.7_wp, 0.9_wp]
 
     ! Share of the pressure above that counts: u is an upper bound, as the free surface stays
     ! pressed in somewhat. With 0.5 to 0.7 random gaps whose A falls by steps are told from those
     ! whose largest pressure stays on the centre line; with 0.25 the half is missed, with 1
     ! exponential ones are taken for them.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: off_centre_share = 0.6_wp
 
     ! The integral: distances from a quarter of the width, below which the bracket is a parabola,
     ! to a half-length, as neighbours beyond that do not matter, in cells of a constant ratio.
+    ! Tuned [strip widths]. Origin: chosen.
     real(wp), parameter :: nearest = 0.25_wp
+    ! Tuned [cells]: Number. Origin: chosen.
     integer, parameter :: cells = 10
 
+    ! Tuned [1/mm]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e30_wp ! A that cannot overflow, 1/mm
 
     ! The same, with A's bracket at its largest everywhere: distances of less than a width give
     ! 2*(4 + 3)/w, those beyond 2/w.
+    ! Given: follows from the bracket.
     real(wp), parameter :: near_bound = 14.0_wp, far_bound = 2.0_wp
 
 contains

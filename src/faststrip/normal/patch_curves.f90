@@ -20,8 +20,10 @@ contains
         real(wp), intent(in) :: value(:) !! values at the middles, not negative, (n)
 
         ! Gauss-Legendre with five points on [0, 1].
+        ! Given: Gauss-Legendre with five points.
         real(wp), parameter :: t(5) = [0.046910077030668_wp, 0.230765344947158_wp, 0.5_wp, &
                                        0.769234655052842_wp, 0.953089922969332_wp]
+        ! Given: Gauss-Legendre with five points.
         real(wp), parameter :: weight(5) = [0.118463442528095_wp, 0.239314335249683_wp, &
                                             0.284444444444444_wp, 0.239314335249683_wp, &
                                             0.118463442528095_wp]

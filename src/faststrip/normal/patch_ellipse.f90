@@ -19,12 +19,15 @@ module faststrip_normal_patch_ellipse
     end type patch_ellipse_t
 
     !> Virtual ellipses are kept between needles of these proportions.
+    !> Tuned [1]. Origin: safeguard.
     real(wp), parameter :: largest_ratio = 1.0e6_wp
 
     !> Strips are refused beyond this, mm and MPa.
+    !> Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e9_wp
 
     !> Area (mm^2) and load (N) below which a patch is none.
+    !> Tuned [mm2, N]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp
 
 contains
@@ -112,6 +115,7 @@ contains
             if (present(share)) counted = share(i)*w
             y = 0.5_wp*(strips%y_left(i) + strips%y_right(i)) - ellipse%y
             moment_x = moment_x + 2.0_wp/3.0_wp*strips%half_length(i)**3*counted
+            ! Given: moment of a width
             moment_y = moment_y + 2.0_wp*strips%half_length(i)*counted*(y*y + w*w/12.0_wp)
         end do
         ! Products instead of a quotient of moments, which may both be zero.

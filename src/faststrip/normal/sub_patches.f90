@@ -27,6 +27,7 @@ module faststrip_normal_sub_patches
     ! strips of rough gaps for necks: with 0.2 to 0.6 a fifth more contacts, with 0.3 to 0.8 twice
     ! as many change their forces by over 3 % with 2 % of the load. The closer the bounds, the
     ! faster the forces change while a neck grows.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: all_parted = 0.1_wp !! openness up to which a strip is a neck
     real(wp), parameter :: all_joined = 0.5_wp !! openness from which it is none
 

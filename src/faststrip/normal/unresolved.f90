@@ -25,9 +25,11 @@ module faststrip_normal_unresolved
     !> Points of the gap looked at together, even; of more, so many evenly spread ones, which
     !> tell of
     !> long waves, and as many neighbours in the middle, which tell of short ones.
+    !> Tuned [points]. Origin: cost.
     integer, parameter :: most_points = 128
 
     !> Most nodes of a smooth curve.
+    !> Tuned [points]. Origin: middles of a strip and its neighbours, and its edges.
     integer, parameter :: most_nodes = 5
 
 contains

@@ -25,26 +25,35 @@ module faststrip_numerics_cliffs
 
     ! c of a side that foretell the next one: three of them may be torn themselves. With 5 two
     ! steps within five points go unseen; with 9 the curvature has changed too much.
+    ! Tuned [points]. Origin: as said with it.
     integer, parameter :: window = 7
     ! Fewer than these foretell nothing.
+    ! Tuned [points]. Origin: the fewest with a scatter of their own.
     integer, parameter :: fewest = 4
     ! How many median deviations are too many. In noise 10 is passed by one point in some
     ! thousand, and what is lost there is little; smooth curves stay far below 3.
+    ! Tuned [median deviations]. Origin: as said with it.
     real(wp), parameter :: scatter_factor = 10.0_wp
     ! A change of c by less than this is no step; sooner than that the rest is not even looked at.
+    ! Tuned [1, of the unit of c]. Origin: chosen; saves time in smooth curves.
     real(wp), parameter :: least_change = 0.02_wp
     ! A kink, unlike a step, has to have so much of the curvature around it: where two arcs of
     ! changing curvature meet c may stand out by a tenth, in the reference's 20 gaps. With 4, kinks
     ! of a few um per mm in coarse data go unseen.
+    ! Tuned [median deviations]. Origin: as said with it.
     real(wp), parameter :: kink_factor = 2.0_wp
     ! A step turns the curve up and down by the same, up to this and what scatters.
+    ! Tuned [1]. Origin: chosen; between a step, 0, and a kink, 1.
     real(wp), parameter :: step_balance = 0.5_wp
     ! Beside a rough side c has to be so many times what the smooth side has: noise that is joined
     ! to a smooth curve is no row of steps.
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: rough_factor = 1000.0_wp
     ! The nearest three c of a smooth side differ by less than this from what it foretells.
+    ! Tuned [1]. Origin: chosen; round.
     real(wp), parameter :: agreement = 0.25_wp
     ! Rounding of heights and places, in units of their last digit.
+    ! Tuned [units in the last place]. Origin: some roundings of a third difference, with a margin.
     real(wp), parameter :: rounding = 64.0_wp
 
     !> What the points of one side foretell.

@@ -38,7 +38,11 @@ contains
     pure elemental real(wp) function positive_integral(m1, a, b) result(value)
         real(wp), intent(in) :: m1, a, b
 
+        ! Tuned [steps]: Most steps of the mean. Origin: the mean doubles its digits in each: never
+        ! reached.
         integer, parameter :: steps = 24
+        ! Tuned [1]: Difference of the two means that ends the steps. Origin: its square is below
+        ! rounding, and the next step squares it.
         real(wp), parameter :: close_enough = 1.0e-8_wp
         real(wp) :: mean, geometric, product, ai, bi, p, previous, g
         integer :: step

@@ -15,6 +15,7 @@ module faststrip_numerics_environment
         integer(c_long) :: content(16) = 0
     end type environment_t
 
+    ! Given: the C library's number.
     integer(c_int), parameter :: to_nearest = 0 ! FE_TONEAREST, wherever IEEE 754 is in hardware
 
     interface

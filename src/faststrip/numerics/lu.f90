@@ -10,7 +10,9 @@ module faststrip_numerics_lu
 
     public :: lu_factor, lu_solve
 
+    ! Tuned [columns]: Columns factored together. Origin: chosen for the time.
     integer, parameter :: panel = 16 ! a multiple of four
+    ! Tuned [1]: Pivots outside are singular. Origin: safeguard: products of pivots cannot overflow.
     real(wp), parameter :: least_pivot = 1.0e-150_wp, largest_pivot = 1.0e150_wp
 
 contains

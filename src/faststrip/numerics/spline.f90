@@ -17,15 +17,18 @@ module faststrip_numerics_spline
 
     !> Twice continuously differentiable; the third derivative does not jump at the second and
     !> the last but one knot (not-a-knot).
+    !> Given: numbers of kinds.
     integer, parameter :: spline_not_a_knot = 1
 
     !> Once continuously differentiable, without overshoot: monotone between two points, extrema
     !> only at points (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980); slopes by the weighted
     !> harmonic mean of Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984)).
+    !> Given: numbers of kinds.
     integer, parameter :: spline_monotone = 2
 
     ! Numbers beyond this, and knots nearer to each other than its inverse, are refused: with
     ! them no intermediate result can overflow.
+    ! Tuned [1]. Origin: safeguard: fourth powers cannot overflow.
     real(wp), parameter :: largest = 1.0e30_wp
 
 contains
@@ -248,7 +251,7 @@ contains
             c3 = (slopes(i) + slopes(i + 1) - 2.0_wp*secant)/h**2
             value = y(i) + t*(slopes(i) + t*(c2 + t*c3))
             d1 = slopes(i) + t*(2.0_wp*c2 + 3.0_wp*t*c3)
-            d2 = 2.0_wp*c2 + 6.0_wp*t*c3
+            d2 = 2.0_wp*c2 + 6.0_wp*t*c3 ! Given: second derivative of a cubic
         end if
     end subroutine spline_value
 

@@ -21,6 +21,7 @@ module faststrip_numerics_torn_spline
     ! second derivatives around it would at most (an eighth). A spline through noise has less than
     ! 3, through a jump of the curvature less than 2; the waves of an unseen step have more than
     ! 100 three points away.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: tolerated_waves = 10.0_wp
 
 contains
@@ -142,6 +143,7 @@ contains
 
         left = max(abs(c(max(i - 1, 1))), abs(c(i)))
         right = max(abs(c(i + 1)), abs(c(min(i + 2, size(c)))))
+        ! Given: what a parabola leaves its chord by
         is_tamed = max(min(y(i), y(i + 1)) - lowest, highest - max(y(i), y(i + 1))) &
                    > tolerated_waves/8.0_wp*(x(i + 1) - x(i))**2*min(left, right)
         if (is_tamed) call make_monotone(x(i:i + 1), y(i:i + 1), slope_from, slope_to)

@@ -50,8 +50,10 @@ module faststrip_tangential_fastsim
     public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve, fastsim_variant_t
 
     ! The most elements along x and strips across.
+    ! Tuned [elements]. Origin: capacity.
     integer, parameter :: most_elements = 10000
     ! Axes, loads, moduli and coefficients beyond this, or below its inverse, are refused.
+    ! Tuned [mm, N, MPa, 1]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e20_wp
 
     !> What is not Kalker's standard choice.
@@ -255,10 +257,10 @@ contains
         real(wp) :: cksi, slope_x, slope_y, px, py, sx, sy, cell, place, ahead_x, ahead_y
         integer :: i, j, state
 
-        l1 = 8.0_wp*a/(3.0_wp*c%c11*g)
-        l2 = 8.0_wp*a/(3.0_wp*c%c22*g)
+        l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
+        l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
         l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
-        pmax = 1.5_wp*load/(pi*a*b)
+        pmax = 1.5_wp*load/(pi*a*b) ! Given: Hertz
         width = 2.0_wp*b/ny
         ! Motion at the middle of the ellipse.
         cksi = creepage%cksi - y0*creepage%cphi

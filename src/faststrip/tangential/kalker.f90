@@ -27,8 +27,10 @@ module faststrip_tangential_kalker
     end type kalker_coefficients_t
 
     !> Axes more slender than this, either way, are refused.
+    !> Tuned [1]. Origin: safeguard.
     real(wp), parameter :: largest_ratio = 1.0e12_wp
 
+    ! Given: ln 4.
     real(wp), parameter :: ln_4 = 1.386294361119890618834464242916353136_wp
     real(wp), parameter :: ln_16 = 2.0_wp*ln_4
 
@@ -150,8 +152,9 @@ contains
         if (log_ratio < 0.0_wp) then
             c(1) = pi**2/(4.0_wp*(1.0_wp - nu))
             c(2) = pi**2/4.0_wp
+            ! Given: Kalker's asymptotes
             c(3) = pi*sqrt(g)/(3.0_wp*(1.0_wp - nu))*(1.0_wp + nu*(0.5_wp*lambda + ln_4 - 5.0_wp))
-            c(4) = pi**2/(16.0_wp*(1.0_wp - nu)*g)
+            c(4) = pi**2/(16.0_wp*(1.0_wp - nu)*g) ! Given: Kalker's asymptotes
         else
             q = lambda - 2.0_wp*nu
             c(1) = 2.0_wp*pi/(g*q)*(1.0_wp + (3.0_wp - ln_4)/q)

@@ -59,12 +59,17 @@ module faststrip_tangential_laws
 
     public :: law_solve, law_strips_solve, law_linear, law_shen_hedrick_elkins, law_polach
 
+    ! Given: numbers of kinds.
     integer, parameter :: law_linear = 1              !! Kalker's linear theory
     integer, parameter :: law_shen_hedrick_elkins = 2 !! cubic saturation
     integer, parameter :: law_polach = 3              !! Polach's, with his spin
 
     ! A patch that can carry less than this, N, carries nothing.
+    ! Tuned [N]. Origin: safeguard.
     real(wp), parameter :: smallest_force = 1.0e-60_wp
+    ! Tuned [1]: larger proportions of an ellipse count as this. Origin: safeguard: the exponential
+    ! is below rounding.
+    real(wp), parameter :: largest_ratio = 100.0_wp
 
 contains
 
@@ -187,7 +192,7 @@ contains
         linear = hypot(fx, fy)
         tau = over_force(linear, force)
         if (tau < 3.0_wp) then
-            factor = 1.0_wp - tau/3.0_wp + tau*tau/27.0_wp
+            factor = 1.0_wp - tau/3.0_wp + tau*tau/27.0_wp ! Given: Johnson's cubic
         else
             factor = force/linear
         end if
@@ -218,8 +223,10 @@ contains
         if (s > 0.0_wp) stiffness = hypot(c%c11*(creepage%cksi/s), c%c22*(creepage%ceta/s))
         eps = over_force(0.25_wp*pi*g*ab*stiffness*s_c, force)
         pull = 2.0_wp/pi*force*(eps/(1.0_wp + eps*eps) + atan(eps))
-        k = 1.0_wp + 6.3_wp*(1.0_wp - exp(-min(ellipse%a/ellipse%b, 100.0_wp)))
+        k = 1.0_wp + 6.3_wp*(1.0_wp - exp(-min(ellipse%a/ellipse%b, largest_ratio))) ! Given: Polach
+        ! Given: Polach
         eps_s = over_force(8.0_wp/3.0_wp*g*ellipse%b*sqrt(ab)*c%c23*abs(s_yc)/k, force)
+        ! Given: Polach
         spin_pull = 3.0_wp/8.0_wp*ellipse%a*force*k*eps_s &
                     /(1.0_wp + eps_s*eps_s)**2
         fx = -pull*(creepage%cksi/s_c)

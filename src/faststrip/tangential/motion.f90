@@ -12,7 +12,11 @@ module faststrip_tangential_motion
     public :: check_motion, check_ellipse, over_force
 
     !> Friction coefficients and creepages (spin in rad/mm) beyond this are refused.
+    !> Tuned [1, rad/mm]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e6_wp
+    ! Tuned [1]: linear forces over mu N beyond count as this. Origin: safeguard: squares cannot
+    ! overflow.
+    real(wp), parameter :: beyond_all_slip = 1.0e30_wp
 
 contains
 
@@ -64,6 +68,6 @@ contains
         real(wp), intent(in) :: linear !! of either sign, N
         real(wp), intent(in) :: force  !! mu N, above 1e-60 N
 
-        ratio = min(abs(linear)/force, 1.0e30_wp)
+        ratio = min(abs(linear)/force, beyond_all_slip)
     end function over_force
 end module faststrip_tangential_motion

@@ -74,9 +74,11 @@ module faststrip_tangential_paper
     end type march_sum_t
 
     ! A patch or a strip below this area (mm^2) or force (N) carries nothing.
+    ! Tuned [mm2, N]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp
 
     ! Axes more slender than this, either way, are those of this proportion.
+    ! Tuned [1]. Origin: safeguard.
     real(wp), parameter :: largest_ratio = 1.0e6_wp
 
 contains
@@ -235,10 +237,12 @@ contains
         ratio = min(max(total%b/total%a, 1.0_wp/largest_ratio), largest_ratio) ! (29)
         call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
+        ! Given: the paper's (30)
         c1 = 9.0_wp/32.0_wp*c%c11                                            ! (30)
-        c2 = 9.0_wp/32.0_wp*c%c22
+        c2 = 9.0_wp/32.0_wp*c%c22 ! Given: the paper's (30)
         c3 = 3.0_wp/pi*sqrt(ratio)*c%c23
         total%points = reading%points
+        ! Given: the paper's (31)
         if (total%points == 0) total%points = max(int(8.0_wp*total%a), 1)    ! (31)
         largest_p0 = maxval(strips%p0(first:last))
         sum_of_bounds = 0.5_wp*pi

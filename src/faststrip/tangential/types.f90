@@ -12,10 +12,12 @@ module faststrip_tangential_types
     public :: state_adhesion, state_slip, most_points
 
     !> State of an element, the numbers CONTACT uses.
+    !> Given: CONTACT's numbers.
     integer, parameter :: state_adhesion = 1
     integer, parameter :: state_slip = 2
 
     !> The most points along a strip.
+    !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_points = 1000
 
     !> Sums over the contact; forces act on the rail.
