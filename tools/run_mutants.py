@@ -276,11 +276,11 @@ def in_order(sources):
 
 
 class Base:
-    """The tree without a mutant, built once."""
+    """The tree without a mutant, built once, in a folder below build/."""
 
-    def __init__(self, root, python):
+    def __init__(self, root, python, place="mutants"):
         self.python = python
-        self.folder = root / "build" / "mutants" / "base"
+        self.folder = root / "build" / place / "base"
         self.names = files_of(root)
         self.hash = hash_of(root, self.names)
         copy_tree(root, self.folder, self.names)

@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""List the tuned numbers of the solver in docs/constants.md, or check that the list is up to date.
+
+    constants.py [--check] [--bare] [--root FOLDER]
+
+Every number of the solver's rooms that somebody has chosen is a named constant, a parameter or the
+default of a component, and carries a tag in the comment above it or beside it:
+
+    ! The strips that find the patches. Tuned [strips]. Origin: trial on random gaps.
+    integer, parameter :: scout_strips = 7
+
+The words before `Tuned` and those between `]:` and `Origin:` say what it is; what stands beside a
+name does too. A tag holds for the declarations directly below it, up to the next comment above one
+or an empty line. Numbers that nobody has chosen carry `Given: why` instead of it: coefficients of a
+published formula, dimensions of a standard, numbers of kinds. Files
+of tables are in GIVEN_FILES.
+
+What may stand bare in the code, and in the value of a constant made from others:
+
+- 0, 1, 2, 3, 4, 0.5 and 0.25, with or without a decimal point; whole numbers that are a subscript,
+  a bound or a length;
+- any number in a statement with `Given: why` in its comment, or in the comment directly above.
+
+All others are refused (--bare prints them only). What happens at half and at double of a number is
+in reference/constants.csv, measured by tools/sensitivity.py.
+"""
+
+import argparse
+import csv
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOMS = ("src/faststrip/numerics", "src/faststrip/influence", "src/faststrip/geometry",
+         "src/faststrip/normal", "src/faststrip/tangential", "src/faststrip/contact", "src/kalker")
+# Tables and nothing else, and why none of their numbers is tuned.
+GIVEN_FILES = {
+    "influence/angle_rules.f90": "quadrature rules by their errors",
+    "influence/closed_coefficients.f90": "fits, made by tools/influence_coefficients.py",
+    "geometry/wheel_s1002.f90": "the profile of EN 13715",
+    "tangential/kalker_table.f90": "Kalker's table, written by tools/kalker_table.py",
+    "contact/choice_table.f90": "measured errors, written by tools/choice_table.py",
+}
+PAGE = "docs/constants.md"
+MEASURED = "reference/constants.csv"
+PLAIN = {0.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25}
+LARGEST_PLAIN = 4
+# Written by tools/methods.py.
+GENERATED = re.compile(r"^ *! BEGIN methods.*?^ *! END methods", re.MULTILINE | re.DOTALL)
+
+STRING = re.compile(r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\"")
+REAL = re.compile(r"(?<![\w.])(?:(\d+\.\d*|\.\d+)(?:[ed]([+-]?\d+))?|(\d+)[ed]([+-]?\d+))"
+                  r"(?:_\w+)?(?!\w)", re.IGNORECASE)
+WHOLE = re.compile(r"(?<![\w.])(\d+)(?:_[a-z]\w*)?(?![\w.])", re.IGNORECASE)
+DECLARATION = re.compile(r"\s*(real|integer|type|complex|character|logical)\b"
+                         r"(\s*\([^()]*(?:\([^()]*\)[^()]*)*\))?((?:\s*,[^:]*)?)\s*::\s*(.*)",
+                         re.IGNORECASE | re.DOTALL)
+ENTITY = re.compile(r"\s*(\w+)\s*(\(.*?\))?\s*=(?!>)\s*(.*)", re.DOTALL)
+# Calls whose arguments are no subscripts.
+INTRINSIC = re.compile(r"^(?:abs|ceiling|exp|floor|int|log|log10|max|merge|min|mod|modulo|nint|real"
+                       r"|sign|spread|sqrt|if|while|case|else|elseif)$", re.IGNORECASE)
+TAG = re.compile(r"Tuned \[([^\]]+)\](?::\s*|\.\s*)(.*?)\s*Origin:\s*(.+)", re.DOTALL)
+GIVEN = re.compile(r"\bGiven: \w")
+
+
+class Constant:
+    """A named number of a room."""
+
+    def __init__(self, file, line, name, value, kind):
+        self.file, self.line, self.name, self.value, self.kind = file, line, name, value, kind
+        self.given = False
+        self.unit = self.what = self.origin = ""
+
+    @property
+    def key(self):
+        return f"{self.short}:{self.name}"
+
+    @property
+    def short(self):
+        return short_name(self.file)
+
+
+class Statement:
+    """A statement of Fortran: its code in one line, its lines, its comments."""
+
+    def __init__(self, first, above):
+        self.first, self.last, self.above = first, first, above
+        self.code, self.beside = "", []
+
+
+def short_name(file):
+    return "/".join(pathlib.PurePosixPath(file).parts[-2:])
+
+
+def without_strings(line):
+    """The code of a line with its strings blanked, and its comment, or None."""
+    blanked = STRING.sub(lambda found: "'" + " " * (len(found[0]) - 2) + "'", line)
+    at = blanked.find("!")
+    return (blanked, None) if at < 0 else (blanked[:at], line[at:])
+
+
+def words_of(comments):
+    """The text of comments, without their signs."""
+    return " ".join(re.sub(r"^\s*!+[><]?\s?", "", comment).strip() for comment in comments).strip()
+
+
+def statements(text):
+    """The statements of a file in order; each knows the comments directly above and beside it."""
+    found, above, current = [], [], None
+    for number, line in enumerate(text.splitlines(), start=1):
+        code, comment = without_strings(line)
+        if not code.strip():
+            if comment is None:
+                above = []
+                if current is None and found:
+                    found.append(None)
+            elif current is not None:
+                current.beside.append(comment)
+            elif re.match(r"!!", comment) and found and found[-1] is not None and not above:
+                found[-1].beside.append(comment)
+            else:
+                above.append(comment)
+            continue
+        if current is None:
+            current, above = Statement(number, above), []
+        current.last = number
+        if comment is not None:
+            current.beside.append(comment)
+        part = code.strip()
+        part = part[1:] if part.startswith("&") else part
+        current.code += " " + part.rstrip("&").rstrip() if part.endswith("&") else " " + part
+        if not part.endswith("&"):
+            found.append(current)
+            current = None
+    return found
+
+
+def split_at_commas(text):
+    """Parts between the commas outside of all brackets."""
+    parts, depth, part = [], 0, ""
+    for sign in text:
+        depth += (sign in "([") - (sign in ")]")
+        if sign == "," and depth == 0:
+            parts.append(part)
+            part = ""
+        else:
+            part += sign
+    return [*parts, part]
+
+
+def bare_numbers(code):
+    """Numbers of a piece of code that the rule above does not let pass."""
+    found = []
+    for number in REAL.finditer(code):
+        mantissa, power = (number[1], number[2]) if number[1] else (number[3], number[4])
+        if float(mantissa) * 10.0 ** int(power or 0) not in PLAIN:
+            found.append(number[0])
+    rest = REAL.sub(" ", code)
+    # Subscripts, bounds and lengths: brackets after a name, the inner ones first.
+    before = None
+    while before != rest:
+        before = rest
+        rest = re.sub(r"(\w+)\s*\(([^()]*)\)", take_subscripts, rest)
+        rest = re.sub(r"(?<![\w\s])\s*\(([^()]*)\)", r" \1 ", rest)
+    found += [number[0] for number in WHOLE.finditer(rest) if int(number[1]) > LARGEST_PLAIN]
+    return found
+
+
+def take_subscripts(found):
+    name, inside = found[1], found[2]
+    return f" {inside} " if INTRINSIC.match(name) else f" {name} "
+
+
+def needs_a_tag(value, is_parameter):
+    """Is it a number, or made from more than other constants and plain numbers?"""
+    if not REAL.search(value) and not WHOLE.search(value):
+        return False
+    if not is_parameter:
+        return not re.fullmatch(r"[-+]?[01](?:\.0*)?(?:_\w+)?", value)
+    names = re.findall(r"(?<![\w.%])[a-z]\w*", REAL.sub(" ", WHOLE.sub(" ", value)), re.IGNORECASE)
+    return bool(bare_numbers(value)) or not [name for name in names if not name.startswith("_")]
+
+
+def read_file(file, text):
+    """The constants of a file that carry a tag, and what is wrong in it."""
+    constants, wrong = [], []
+    short = short_name(file)
+    text = GENERATED.sub(lambda found: re.sub(r"[^\n]+", "! -", found[0]), text)
+    found = statements(text)
+    if short in GIVEN_FILES:
+        return [], []
+    tag, covered = [], False
+    for statement in found:
+        if statement is None:
+            tag, covered = [], False
+            continue
+        declared = DECLARATION.match(statement.code)
+        if statement.above:
+            tag = statement.above
+        elif not (declared and covered):
+            tag = []
+        covered = bool(declared)
+        beside = words_of(statement.beside)
+        if not declared:
+            if not GIVEN.search(words_of([*statement.above, *statement.beside])):
+                wrong += [f"{file}:{statement.first}: bare number {number}"
+                          for number in bare_numbers(statement.code)]
+            continue
+        is_parameter = "parameter" in declared[3].lower()
+        text_of_tag = f"{words_of(tag)} {beside}" if tag else beside
+        for part in split_at_commas(declared[4]):
+            entity = ENTITY.match(part)
+            if not entity or declared[1].lower() in ("character", "logical"):
+                continue
+            value = entity[3].strip()
+            if not needs_a_tag(value, is_parameter):
+                continue
+            constant = Constant(file, statement.first, entity[1], value, declared[1].lower())
+            marked = TAG.search(text_of_tag) if "Tuned" in text_of_tag else None
+            if marked:
+                above = TAG.search(words_of(tag))
+                if above:
+                    marked = above
+                    what = [words_of(tag)[:above.start()], above[2], beside]
+                else:
+                    what = [beside[:marked.start()], marked[2]]
+                constant.unit, constant.origin = marked[1], marked[3].strip()
+                constant.what = " ".join(words.strip() for words in what if words.strip())
+                if not constant.what:
+                    wrong.append(f"{file}:{statement.first}: {constant.name}: not said what it is")
+                constants.append(constant)
+            elif not GIVEN.search(text_of_tag):
+                wrong.append(f"{file}:{statement.first}: {constant.name} = {value[:30]}: neither "
+                             "`Tuned [unit]: ... Origin: ...` nor `Given: ...`")
+    return constants, wrong
+
+
+def read_rooms(root):
+    constants, wrong = [], []
+    for room in ROOMS:
+        for path in sorted((root / room).glob("*.f90")):
+            found, bad = read_file(path.relative_to(root).as_posix(),
+                                   path.read_text(encoding="utf-8"))
+            constants += found
+            wrong += bad
+    return constants, wrong
