@@ -69,12 +69,14 @@ class Constant:
 
     def __init__(self, file, line, name, value, kind):
         self.file, self.line, self.name, self.value, self.kind = file, line, name, value, kind
-        self.given = False
+        self.again = 1  # which one, if a file has several of that name
         self.unit = self.what = self.origin = ""
 
     @property
     def key(self):
-        return f"{self.short}:{self.name}"
+        """FILE:NAME, and which one if there are several."""
+        again = f":{self.again}" if self.again > 1 else ""
+        return f"{self.short.removesuffix('.f90')}:{self.name}{again}"
 
     @property
     def short(self):
@@ -229,6 +231,7 @@ def read_file(file, text):
                 constant.what = " ".join(words.strip() for words in what if words.strip())
                 if not constant.what:
                     wrong.append(f"{file}:{statement.first}: {constant.name}: not said what it is")
+                constant.again += sum(other.name == constant.name for other in constants)
                 constants.append(constant)
             elif not GIVEN.search(text_of_tag):
                 wrong.append(f"{file}:{statement.first}: {constant.name} = {value[:30]}: neither "
