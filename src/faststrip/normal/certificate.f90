@@ -97,15 +97,19 @@ module faststrip_normal_certificate
         real(wp) :: est_err_area = 0.0_wp    !! relative, not negative
     end type certificate_t
 
+    ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: penetration_factor = 0.6_wp, penetration_middle = 3.0_wp
     real(wp), parameter :: area_factor = 1.5_wp, area_middle = 3.5_wp
     real(wp), parameter :: area_strips = 8.0_wp, area_unresolved = 0.5_wp
     real(wp), parameter :: pmax_least = 0.4_wp
 
     ! The largest pressure goes with the cube root of the load of its surroundings.
+    ! Tuned [power]: The power. Origin: a point contact of Hertz.
     real(wp), parameter :: per_load = 1.0_wp/3.0_wp
 
     ! Two-grid estimate: the order of the strips, and Roache's factor of safety for two grids.
+    ! Tuned [1]. Origin: the order of a smooth solution; Roache's factor.
     real(wp), parameter :: order = 2.0_wp, two_grid_safety = 3.0_wp
 
     !> Sums over the strips, and the largest of what their residuals ask for.

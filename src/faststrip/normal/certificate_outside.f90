@@ -14,6 +14,7 @@ module faststrip_normal_certificate_outside
     real(wp), parameter :: ahead = 1.05_wp   ! of the half-length
     real(wp), parameter :: beyond(2) = [0.25_wp, 1.0_wp] ! widths of the end strip
     integer, parameter :: scan_points = 8    ! in a stretch below D
+    ! Tuned [intervals]: Most stretches looked at. Origin: capacity.
     integer, parameter :: max_intervals = 64
 
 contains

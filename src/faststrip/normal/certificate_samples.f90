@@ -26,6 +26,7 @@ module faststrip_normal_certificate_samples
     end type samples_t
 
     !> Sizes that cannot overflow.
+    ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
 
 contains

@@ -53,15 +53,23 @@ module faststrip_normal_lattice
     public :: lattice_errors, lattice_errors_t, forget_lattice_errors, most_lattice_strips
 
     !> More strips across the largest patch are not used, however many are asked for.
+    !> Tuned [strips]. Origin: capacity.
     integer, parameter :: most_lattice_strips = 101
 
+    ! Tuned [cells]: Most cells. Origin: cost: it rises with its cube.
     integer, parameter :: most_cells = 110       ! all patches together
+    ! Tuned [cells]: Cells. Origin: chosen: patches are narrower than the ranges they lie in.
     real(wp), parameter :: cells_per_strip = 1.5_wp ! all patches together, of the strips asked
+    ! Tuned [cells]. Origin: chosen, for small further patches.
     integer, parameter :: spare_cells = 10       ! and so many more
+    ! Tuned [cells]. Origin: cost of the first solution.
     integer, parameter :: coarse_cells = 15      ! at most across the widest range of the first
     integer, parameter :: fewest_lattices = 3, max_lattices = 5
+    ! Tuned [cells]. Origin: chosen: within what the first solution leaves open.
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
+    ! Tuned [1]. Origin: as tolerated_overlap of the strips.
     real(wp), parameter :: named_overlap = 0.01_wp ! the same, told to the caller
+    ! Tuned [mm]: Penetrations outside are refused. Origin: safeguard.
     real(wp), parameter :: smallest_penetration = 1.0e-60_wp, largest_penetration = 1.0e60_wp
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.

@@ -10,6 +10,7 @@ module faststrip_normal_lattice_overlap
 
     public :: ranges_t, add_overlaps, find_waves, overlap_tolerance
 
+    ! Tuned [1]. Origin: as that of the strips.
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
     integer, parameter :: block = 64                     ! points evaluated together
 

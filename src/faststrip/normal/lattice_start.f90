@@ -7,7 +7,9 @@ module faststrip_normal_lattice_start
 
     public :: start_depth
 
+    ! Tuned [1]. Origin: virtual penetration of a Hertz contact (Piotrowski and Kik).
     real(wp), parameter :: start_level = 0.55_wp     ! of the penetration: virtual penetration
+    ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: start_factor = 0.6_wp     ! of the plane-strain pressure
 
 contains
@@ -20,6 +22,8 @@ contains
         real(wp), intent(in) :: load           !! N
         real(wp), intent(out) :: depth         !! mm
 
+        ! Tuned [1]: Range of the search to either side. Origin: safeguard: all loads that can be
+        ! solved.
         real(wp), parameter :: reach_of_search = 2.0_wp**200
         real(wp) :: low, high, unit
         integer :: i

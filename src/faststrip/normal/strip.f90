@@ -44,6 +44,7 @@ module faststrip_normal_strip
     public :: strip_solve_demand, estimate_strips
     public :: fewest_strips, strips_auto, strips_auto_most
 
+    ! Tuned [1]. Origin: chosen; what is more is named.
     real(wp), parameter :: tolerated_overlap = 0.01_wp ! of the penetration, in rough gaps
 
 contains

@@ -25,14 +25,22 @@ module faststrip_normal_strip_coupled
 
     public :: settle_coupled
 
+    ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
+    ! Tuned [Jacobians]: Most factorings. Origin: safeguard.
     integer, parameter :: max_factorings = 6
+    ! Tuned [1]. Origin: chosen for the time: a Jacobian costs some updates.
     real(wp), parameter :: slow = 0.5_wp       ! steps that shrink less ask for a new Jacobian
+    ! Tuned [1]. Origin: chosen for the time.
     real(wp), parameter :: far = 0.5_wp        ! so does a first step this large with an old one
     real(wp), parameter :: least_scale = 0.3_wp ! of an updated step; less: a new Jacobian
+    ! Tuned [1; strip widths]: Largest steps of the logarithm of a length, the penetration over
+    ! itself, and an end. Origin: shorter than in strip_newton, as ends move too.
     real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &
                            max_end_step = 1.0_wp
+    ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
+    ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
     real(wp), parameter :: length_difference = 1.0e-6_wp
 
     !> An end of a patch.

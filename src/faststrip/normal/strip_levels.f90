@@ -25,20 +25,32 @@ module faststrip_normal_strip_levels
 
     !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
     !> resolved, up to `strips_auto_most`.
+    !> Given: number of a kind.
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
 
+    ! Tuned [strips]. Origin: chosen for the time of a cold start.
     integer, parameter :: scout_strips = 7   ! strips that find the patches
+    ! Tuned [strips]. Origin: chosen: scouting would cost as much.
     integer, parameter :: fewest_scouted = 10 ! fewer strips find the patches themselves
+    ! Tuned [strips]. Origin: chosen for the time of a cold start.
     integer, parameter :: first_level = 15   ! strips that refine them
+    ! Tuned [strips]. Origin: chosen for the time of a cold start.
     integer, parameter :: most_at_once = 20  ! more strips than these are reached by further levels,
+    ! Tuned [1]. Origin: chosen for the time of a cold start.
     integer, parameter :: level_factor = 3   ! each with at most so many times the strips
+    ! Tuned [levels]: Most levels. Origin: safeguard: more than level_factor needs for any number.
     integer, parameter :: most_levels = 9
+    ! Tuned [1]. Origin: far below what the next level changes.
     real(wp), parameter :: coarse_tolerance = 1.0e-3_wp ! of the scouting strips
+    ! Tuned [strips]: Numbers of strips tried. Origin: chosen: each about 1.6 times the last.
     integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
+    ! Tuned [strips]. Origin: chosen.
     integer, parameter :: auto_enough = 41 ! for a solution that is resolved
+    ! Tuned [1]. Origin: accuracy wanted: half a percent and a twentieth.
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
 
+    ! Tuned [strips]. Origin: chosen for time and errors of the lattice.
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
 
     ! What a level starts from.
@@ -48,7 +60,9 @@ module faststrip_normal_strip_levels
 
     !> What the user chooses.
     type :: strip_options_t
+        ! Tuned [strips]. Origin: chosen: errors against CONTACT below 2 %.
         integer :: strips_per_patch = 15  !! strips across the largest patch, or `strips_auto`
+        ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         real(wp) :: resolution_limit = default_resolution

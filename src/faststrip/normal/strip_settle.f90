@@ -34,26 +34,38 @@ module faststrip_normal_strip_settle
     integer, parameter :: state_done = 5    !! the ends rest
     integer, parameter :: state_give_up = 6 !! a limit was met
 
+    ! Tuned [passes]. Origin: safeguard.
     integer, parameter :: max_passes = 40    ! in one level
+    ! Tuned [tries]. Origin: chosen; what fails four times does not settle.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
+    ! Tuned [splits]. Origin: chosen against cycles of splitting and merging.
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
+    ! Tuned [splits]. Origin: chosen; in starts from the last solution.
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
+    ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all levels together: so much, and so many steps of all strips.
+    ! Tuned [influence numbers; steps]. Origin: chosen: bounds the time of gaps that do not settle.
     real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 60.0_wp
+    ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
+    ! Tuned [strip widths]. Origin: the coupled equations converge from there.
     real(wp), parameter :: coupling_move = 1.0_wp ! less: strips and ends are solved together
+    ! Tuned [strip widths]. Origin: ten times end_tolerance.
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
     ! Newton's tolerance while the ends still move by more than the loose tolerance, and by more
     ! than the other: what is left then is far below what the ends' moves change.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
 
+    ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
 
     !> What a level is asked for.
     type :: level_t
         integer :: strips_per_patch = 15  !! of the widest patch
         integer :: most_strips = 15       !! of all levels, for the limit of the work
+        ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
     end type level_t

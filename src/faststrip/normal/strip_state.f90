@@ -17,8 +17,10 @@ module faststrip_normal_strip_state
     public :: place_edges, place_strips, remember, mirror_old, flattest
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
+    !> Tuned [1/mm]. Origin: safeguard.
     real(wp), parameter :: flattest = 1.0e-9_wp
 
+    ! Tuned [1]. Origin: chosen for the errors of pmax and area.
     real(wp), parameter :: end_grading = 0.7_wp ! of the strip edges; 0: even, 1: as the sine
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.

@@ -74,6 +74,7 @@ module faststrip_tangential_faststrip
     public :: faststrip_tangential_solve, default_points, most_points
 
     !> Points along each strip unless told otherwise.
+    !> Tuned [points]. Origin: as many as strips.
     integer, parameter :: default_points = 15
 
 contains
