@@ -43,15 +43,22 @@ module faststrip_kalker_normal
     public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
+    ! Tuned [placings]. Origin: safeguard.
     integer, parameter :: max_placings = 12       ! of the grid, for one spacing
     ! Of the half-length, when columns are missing, at first and in the end.
+    ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: enlargement = 1.3_wp, late_enlargement = 2.0_wp
+    ! Tuned [levels]. Origin: safeguard.
     integer, parameter :: max_levels = 12         ! of spacing, for a target
+    ! Tuned [elements]. Origin: chosen: as few as show a patch.
     integer, parameter :: first_elements = 6      ! across the shorter half of the first level
+    ! Tuned [1]: Tolerance of coarser levels. Origin: far below what the next level changes.
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
     ! Height of the gap's lowest place below the elements' middles, over the penetration. A parabola
     ! has less with three rows of elements; what is more is a needle, as of a fill value.
+    ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: tolerated_miss = 0.1_wp
+    ! Tuned [mm]. Origin: the reference's grid.
     real(wp), parameter :: spacing_unit = 0.1_wp  ! mm; with a target, spacings are this by 2^k
 
     !> Everything a solution needs besides its input, and the pressures it leaves; owned by the

@@ -151,6 +151,8 @@ contains
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         type(contact_grid_t), intent(inout) :: grid !! with its heights
 
+        ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
+        ! of a Hertz contact (Piotrowski and Kik).
         real(wp), parameter :: share = 0.55_wp
         real(wp) :: lowest, low, high, depth, radius
         integer :: i
