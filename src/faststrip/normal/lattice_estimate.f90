@@ -34,6 +34,8 @@ module faststrip_normal_lattice_estimate
         real(wp) :: pmax = 0.0_wp  !! MPa
         real(wp) :: area = 0.0_wp  !! mm2
         integer :: across = 0      !! strips of the patch with the largest pressure
+        ! Tuned [1]: Of the area, by the cells at the ends. Origin: calibrated on random gaps, see
+        ! the module's head.
         real(wp) :: ends = 0.0_wp  !! area of the strips at the ends of patches, mm2
     end type lattice_figures_t
 
@@ -41,7 +43,11 @@ module faststrip_normal_lattice_estimate
     ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated on random gaps,
     ! see the module's head.
     real(wp), parameter :: difference(3) = [2.0_wp, 1.2_wp, 3.3_wp]
+    ! Tuned [1]: Of penetration and pmax: by cells, and by waves. Origin: calibrated on random gaps,
+    ! see the module's head.
     real(wp), parameter :: smooth(2) = [0.2_wp, 1.0_wp], waves(2) = [0.03_wp, 1.1_wp]
+    ! Tuned [1]: Of the area, by the cells at the ends. Origin: calibrated on random gaps, see the
+    ! module's head.
     real(wp), parameter :: ends = 0.9_wp
     ! Tuned [1]. Origin: chosen, see the module's head.
     real(wp), parameter :: high_pressure = 0.5_wp ! of pmax: a wave there counts for it
