@@ -6,14 +6,14 @@
 Every number of the solver's rooms that somebody has chosen is a named constant, a parameter or the
 default of a component, and carries a tag in the comment above it or beside it:
 
-    ! The strips that find the patches. Tuned [strips]. Origin: trial on random gaps.
+    ! Strips that find the patches. Tuned [strips]. Origin: chosen for the time of a cold start.
     integer, parameter :: scout_strips = 7
 
 The words before `Tuned` and those between `]:` and `Origin:` say what it is; what stands beside a
-name does too. A tag holds for the declarations directly below it, up to the next comment above one
-or an empty line. Numbers that nobody has chosen carry `Given: why` instead of it: coefficients of a
-published formula, dimensions of a standard, numbers of kinds. Files
-of tables are in GIVEN_FILES.
+name does too. A tag holds for one declaration. Numbers that nobody has chosen carry `Given: why` instead
+of it: coefficients of a published formula, dimensions of a standard, numbers of kinds. Above
+integers, as numbers of kinds are, it holds for all declarations without a comment between them.
+Files of tables are in GIVEN_FILES.
 
 What may stand bare in the code, and in the value of a constant made from others:
 
@@ -59,7 +59,7 @@ DECLARATION = re.compile(r"\s*(real|integer|type|complex|character|logical)\b"
 ENTITY = re.compile(r"\s*(\w+)\s*(\(.*?\))?\s*=(?!>)\s*(.*)", re.DOTALL)
 # Calls whose arguments are no subscripts.
 INTRINSIC = re.compile(r"^(?:abs|ceiling|exp|floor|int|log|log10|max|merge|min|mod|modulo|nint|real"
-                       r"|sign|spread|sqrt|if|while|case|else|elseif)$", re.IGNORECASE)
+                       r"|sign|spread|sqrt|if|while|case|elseif|parameter|call)$", re.IGNORECASE)
 TAG = re.compile(r"Tuned \[([^\]]+)\](?::\s*|\.\s*)(.*?)\s*Origin:\s*(.+)", re.DOTALL)
 GIVEN = re.compile(r"\bGiven: \w")
 
@@ -158,7 +158,8 @@ def bare_numbers(code):
         mantissa, power = (number[1], number[2]) if number[1] else (number[3], number[4])
         if float(mantissa) * 10.0 ** int(power or 0) not in PLAIN:
             found.append(number[0])
-    rest = REAL.sub(" ", code)
+    # The arguments of a call are no subscripts.
+    rest = re.sub(r"\bcall\s+[\w%]+", "call", REAL.sub(" ", code), flags=re.IGNORECASE)
     # Subscripts, bounds and lengths: brackets after a name, the inner ones first.
     before = None
     while before != rest:
@@ -192,17 +193,15 @@ def read_file(file, text):
     found = statements(text)
     if short in GIVEN_FILES:
         return [], []
-    tag, covered = [], False
+    tag, kinds = [], []
     for statement in found:
         if statement is None:
-            tag, covered = [], False
+            kinds = []
             continue
         declared = DECLARATION.match(statement.code)
-        if statement.above:
-            tag = statement.above
-        elif not (declared and covered):
-            tag = []
-        covered = bool(declared)
+        whole = bool(declared) and declared[1].lower() == "integer"
+        tag = statement.above or (kinds if whole else [])
+        kinds = tag if whole and GIVEN.search(words_of(tag)) else []
         beside = words_of(statement.beside)
         if not declared:
             if not GIVEN.search(words_of([*statement.above, *statement.beside])):
@@ -213,7 +212,7 @@ def read_file(file, text):
         text_of_tag = f"{words_of(tag)} {beside}" if tag else beside
         for part in split_at_commas(declared[4]):
             entity = ENTITY.match(part)
-            if not entity or declared[1].lower() in ("character", "logical"):
+            if not entity or declared[1].lower() == "character":
                 continue
             value = entity[3].strip()
             if not needs_a_tag(value, is_parameter):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Halve and double each tuned number in a copy and measure what that does: reference/constants.csv.
 
-    sensitivity.py [--only FILE:NAME]... [--room ROOM]... [--minutes M] [-o FILE]
+    sensitivity.py [--only FILE:NAME]... [--room ROOM]... [--minutes M] [--jobs N] [-o FILE]
 
 Tuned numbers are those that tools/constants.py finds. One after the other is halved and doubled in
 a copy of the tree, one file is compiled and the programs are linked (the machinery of
@@ -17,29 +17,32 @@ largest relative change of penetration, pmax and area on the 20 contacts, mean e
 strips after it (%), mean error of the method faststrip over mu N (%) and the largest change of a
 force by any method, the largest relative change of penetration, pmax and area of the random gaps,
 how many of them have another status, the largest change of an estimated error over the larger of
-both, the largest change of kalker_normal's and kalker_tangential's answers, and processor time over
-that without the change. Times scatter by some 10 %.
+both, the largest change of kalker_normal's and kalker_tangential's answers, and the time of the
+random gaps over that without the change, which scatters by some 10 %.
 
-What was measured for the same tree is kept in build/sensitivity and not measured again; --minutes
+What was measured for the same code, comments apart, is kept in build/sensitivity and not measured again; --minutes
 ends the run in time, and the numbers left over are not in the file. The first rooms are those of
 the strips and their forces.
 """
 
 import argparse
+import concurrent.futures
 import csv
+import hashlib
 import json
 import os
 import pathlib
+import queue
 import re
-import resource
 import shutil
 import subprocess
 import sys
+import threading
 import time
 
 import constants
 import run_mutants
-from run_mutants import Base, Job, Unfit, files_of, hash_of
+from run_mutants import Base, Job, Unfit, files_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FLAGS = "-O2 -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
@@ -66,6 +69,7 @@ def main():
     parser.add_argument("--only", action="append", metavar="FILE:NAME")
     parser.add_argument("--room", action="append", choices=ROOMS)
     parser.add_argument("--minutes", type=float, default=float("inf"))
+    parser.add_argument("--jobs", type=int, default=1, metavar="N")
     parser.add_argument("-o", type=pathlib.Path, default=ROOT / constants.MEASURED, dest="target")
     options = parser.parse_args()
     stamp = subprocess.run([str(ROOT / "bin" / "faststrip"), "--version"], check=True,
@@ -78,7 +82,7 @@ def main():
         sys.exit("sensitivity: no such number")
     end = time.monotonic() + 60.0 * options.minutes
     try:
-        rows = measure_all(chosen, end)
+        rows = measure_all(chosen, end, options.jobs)
     except Unfit as problem:
         sys.exit(f"sensitivity: {problem}")
     rows.sort(key=lambda row: (row["file"], row["name"]))
@@ -89,7 +93,7 @@ def main():
         writer = csv.DictWriter(stream, ["file", "name", "value", *names], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    print(f"sensitivity: {len(rows)} of {len(chosen)} numbers measured")
+    print(f"sensitivity: {len(rows) - 1} of {len(chosen)} numbers measured")
 
 
 def wanted(constant, options):
@@ -128,41 +132,72 @@ def changed(source, constant, factor):
     return source[:found.end()] + new + source[found.end() + len(value):]
 
 
-def measure_all(chosen, end):
-    """A row for each number, as far as the time goes."""
+def hash_of_code():
+    """Of all that is compiled, without its comments."""
+    digest = hashlib.sha256()
+    for name in files_of(ROOT):
+        if name.suffix in (".f90", ".c", ".nml") and name.parts[0] in ("src", "app", "example"):
+            text = (ROOT / name).read_text(encoding="utf-8")
+            if name.suffix == ".f90":
+                code = (constants.without_strings(line)[0].rstrip() for line in text.splitlines())
+                text = "\n".join(line for line in code if line)
+            digest.update(f"{name}\0{text}\0".encode())
+    return digest.hexdigest()
+
+
+def measure_all(chosen, end, count):
+    """A row for each number, as far as the time goes, and one without a change."""
     run_mutants.FLAGS, run_mutants.TRAPS = FLAGS, ""
     store = ROOT / "build" / "sensitivity"
     store.mkdir(parents=True, exist_ok=True)
-    tree = hash_of(ROOT, [name for name in files_of(ROOT)
-                          if name.suffix in (".f90", ".c", ".nml") and name.parts[0] != "test"])
-    record = store / f"{tree[:16]}.jsonl"
+    record = store / f"{hash_of_code()[:16]}.jsonl"
     kept = {}
     if record.exists():
         for line in record.read_text(encoding="utf-8").splitlines():
             entry = json.loads(line)
             kept[entry["key"]] = entry["row"]
-    job = plain = None
-    rows = []
-    for constant in chosen:
-        if constant.key not in kept:
-            if time.monotonic() > end:
-                continue
-            if job is None:
-                job = Job(Base(ROOT, sys.executable, "sensitivity"), 0, {})
-                job.clear()
-                plain = measure(job, store / "plain")
-                if plain is None:
-                    raise Unfit("the programs do not run without a change")
-            kept[constant.key] = row_of(job, constant, plain, store)
-            with open(record, "a", encoding="utf-8") as stream:
-                stream.write(json.dumps({"key": constant.key, "row": kept[constant.key]}) + "\n")
-            print(constant.key, *(kept[constant.key][f"{factor}_outcome"] for factor in FACTORS),
-                  flush=True)
-        rows.append(kept[constant.key])
-    return rows
+    left = [constant for constant in chosen if constant.key not in kept]
+    if "" in kept and (not left or time.monotonic() > end):
+        left = []
+    else:
+        base = Base(ROOT, sys.executable, "sensitivity")
+        jobs = queue.Queue()
+        for number_of_job in range(count):
+            job = Job(base, number_of_job, {})
+            job.clear()
+            jobs.put(job)
+        plain = measure(job, store / "plain")
+        if plain is None:
+            raise Unfit("the programs do not run without a change")
+        kept[""] = {"file": "", "name": "", "value": "",
+                    **{f"{factor}_{column}": value for factor in FACTORS
+                       for column, value in compare(plain, plain).items()}}
+    lock = threading.Lock()
+
+    def keep(key):
+        with lock, open(record, "a", encoding="utf-8") as stream:
+            stream.write(json.dumps({"key": key, "row": kept[key]}) + "\n")
+
+    def try_one(constant):
+        if time.monotonic() > end:
+            return
+        job = jobs.get()
+        try:
+            kept[constant.key] = row_of(job, constant, plain)
+        finally:
+            jobs.put(job)
+        keep(constant.key)
+        outcomes = [kept[constant.key][f"{factor}_outcome"] for factor in FACTORS]
+        print(constant.key, *outcomes, flush=True)
+
+    if left or not record.exists():
+        keep("")
+    with concurrent.futures.ThreadPoolExecutor(count) as pool:
+        list(pool.map(try_one, left))
+    return [kept[key] for key in ["", *(constant.key for constant in chosen)] if key in kept]
 
 
-def row_of(job, constant, plain, store):
+def row_of(job, constant, plain):
     row = {"file": constant.short, "name": constant.name,
            "value": " ".join(constant.value.replace("&", " ").split())}
     path = job.folder / constant.file
@@ -173,7 +208,7 @@ def row_of(job, constant, plain, store):
             path.write_text(changed(source, constant, factor), encoding="utf-8")
             job.clear()
             job.compile(constant.file)
-            results = measure(job, store / "changed")
+            results = measure(job, job.folder / "changed")
         except Unfit:
             row[f"{factor}_outcome"] = "does not compile"
             continue
@@ -188,11 +223,10 @@ def row_of(job, constant, plain, store):
 
 
 def measure(job, folder):
-    """The tables that the programs of a job write, and their processor time; None if one fails."""
+    """The tables that the programs of a job write; None if one fails."""
     job.link_programs()
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
     tables = {}
     for name, command in RUNS.items():
@@ -208,7 +242,6 @@ def measure(job, folder):
             return None
         with open(path, encoding="utf-8") as stream:
             tables[name] = list(csv.DictReader(line for line in stream if line[0] != "#"))
-    tables["time"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     return tables
 
 
@@ -233,6 +266,10 @@ def largest_change(pairs, columns):
 def mean_size(rows, column):
     values = [abs(value) for row in rows if (value := number(row[column])) is not None]
     return sum(values) / len(values) if values else float("nan")
+
+
+def total_time(tables):
+    return sum(number(row["time_us"]) or 0.0 for row in tables["random"] + tables["lattice"])
 
 
 def compare(plain, results):
@@ -262,7 +299,7 @@ def compare(plain, results):
         "random_change": largest_change(random, sizes),
         "estimate_change": largest_change(random, ("est_penetration", "est_pmax", "est_area")),
         "kalker_change": largest_change(kalker, (*sizes, "Fx_N")),
-        "time": results["time"] / plain["time"],
+        "time": total_time(results) / total_time(plain),
     }
     told = {name: f"{value:.4g}" for name, value in values.items()}
     told["random_status"] = str(sum(a["status"] != b["status"] for a, b in random))

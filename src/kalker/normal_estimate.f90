@@ -30,6 +30,7 @@ module faststrip_kalker_normal_estimate
     ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
     ! module's head.
     real(wp), parameter :: peak_share = 0.5_wp, border_share = 0.25_wp, area_order = 2.0_wp
+    ! Tuned [1]: Of the penetration, over that of pmax. Origin: calibrated, see the module's head.
     real(wp), parameter :: penetration_share = 0.1_wp
 
 contains

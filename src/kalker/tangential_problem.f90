@@ -53,6 +53,7 @@ module faststrip_kalker_tangential_problem
 
     ! Given: fitted, the plane contact of cylinders.
     real(wp), parameter :: edge_strength = 2.7046_wp
+    ! Given: fitted, the plane contact of cylinders.
     real(wp), parameter :: edge_reach = 0.174_wp
     ! Smallest place of an edge, just short of where the element carries nothing.
     ! Given: fitted, see edge_fit.

@@ -22,7 +22,9 @@ module faststrip_geometry_contact
     type :: wheelset_t
         ! Given: dimensions of standard gauge.
         real(wp) :: back_spacing = 1360.0_wp !! distance of the two flange backs, mm
+        ! Given: dimensions of the wheelset.
         real(wp) :: tread_line = 70.0_wp     !! flange back to mean tread line (y = 0), mm
+        ! Given: dimensions of the reference's wheelset.
         real(wp) :: radius = 460.0_wp        !! rolling radius r0 at the mean tread line, mm
     end type wheelset_t
 
@@ -30,6 +32,7 @@ module faststrip_geometry_contact
     type :: track_t
         ! Given: dimensions of standard gauge.
         real(wp) :: gauge = 1435.0_wp     !! distance of the two gauge faces, mm
+        ! Given: dimensions of the track.
         real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
     end type track_t
 
@@ -41,6 +44,7 @@ module faststrip_geometry_contact
         real(wp) :: z_rail = 0.0_wp  !! on the rail profile, mm
         real(wp) :: y_track = 0.0_wp !! from the track centre, mm
         real(wp) :: gamma = 0.0_wp   !! contact angle, atan(dz/dy), rad; negative on the tread
+        ! Given: dimensions of the reference's wheelset.
         real(wp) :: radius = 0.0_wp  !! rolling radius at the contact, mm
     end type rigid_contact_t
 

@@ -37,6 +37,7 @@ module faststrip_geometry_gap_smoothing
     integer, parameter :: most_intervals = 400 ! between knots
     ! Given: third differences.
     integer, parameter :: band = 3             ! upper diagonals of the system
+    ! Given: coefficients of a third difference.
     real(wp), parameter :: third_difference(0:3) = [-1.0_wp, 3.0_wp, -3.0_wp, 1.0_wp]
     ! Tuned [1]: Weight of the degrees of freedom. Origin: Kim and Gu (2004).
     real(wp), parameter :: caution = 1.4_wp    ! f

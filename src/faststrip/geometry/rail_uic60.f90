@@ -29,6 +29,7 @@ module faststrip_geometry_rail_uic60
     ! Half-width where the flank begins and where the head ends (74.3 mm wide), mm.
     ! Given: dimensions of the head; the flank is 20:1.
     real(wp), parameter :: flank_half_width = 36.0_wp, end_half_width = 37.15_wp
+    ! Given: dimensions of the head.
     real(wp), parameter :: flank_slope = 20.0_wp
 
     ! Where a canted gauge face becomes vertical the head is cut this far before, mm.

@@ -13,6 +13,8 @@ module faststrip_influence_offcentre_rules
     ! 16, 20, 24, 32, 48, 64, 96, 128, 192.
     ! Tuned [rules]: How many sizes, and which. Origin: as said with it.
     integer, parameter :: n_scalar_rules = 13
+    ! Tuned [rules' numbers]: Which of the sizes. Origin: chosen for the time: choosing one costs as
+    ! much as some nodes.
     integer, parameter :: choice(n_scalar_rules) = [1, 2, 3, 5, 7, 9, 11, 13, 16, 18, 19, 20, 21]
     !> Nodes of each rule.
     integer, parameter :: scalar_size(n_scalar_rules) = rule_size(choice)

@@ -29,6 +29,7 @@ module faststrip_normal_sub_patches
     ! faster the forces change while a neck grows.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: all_parted = 0.1_wp !! openness up to which a strip is a neck
+    ! Tuned [1]. Origin: as said with all_parted.
     real(wp), parameter :: all_joined = 0.5_wp !! openness from which it is none
 
 contains
