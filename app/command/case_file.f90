@@ -1,18 +1,18 @@
 !> One case: what is rolling on what, how it is loaded, how it is to be solved.
 module faststrip_command_case_file
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text, message_length
-    use faststrip_base_text, only: integer_text, lower_case
+    use faststrip_base_status, only: number_text
+    use faststrip_base_text, only: lower_case
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          make_points_profile, standard_cant
-    use faststrip_files_profile, only: read_points_file, read_simpack_file, simpack_wheel, &
-                                       simpack_rail
+    use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_geometry_contact_gap, only: standard_gap_step, standard_gap_height
-    use faststrip_command_console, only: fail_on_error
+    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, beside, &
+                                               path_length
+    use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &
+                                             not_given, take_list, need_as_many
     use faststrip_command_files, only: take_input
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
@@ -20,17 +20,29 @@ module faststrip_command_case_file
                                          tangential_method_name
     use faststrip_command_methods, only: numerics_t, check_numerics, one_of, word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
-                                          find_group, group_text, line_length, sets, refuse
-    use faststrip_command_namelist_values, only: refuse_values, name_length
+                                          find_group, sets, refuse
+    use faststrip_command_namelist_values, only: reading_t, next_lines, refuse_values, name_length
     implicit none
     private
 
     public :: case_t, read_case, beside
 
-    integer, parameter :: path_length = 512
     integer, parameter :: max_shifts = 1000
-    ! What stands in a list where the file gives no number.
-    real(wp), parameter :: not_given = -huge(1.0_wp)
+
+    ! The names of the groups.
+    character(len=name_length), parameter :: contact_names(*) = [character(len=name_length) :: &
+        'name', 'gap_file', 'load_N', 'penetration_mm', 'load_direction', 'shift_mm']
+    character(len=name_length), parameter :: material_names(*) = [character(len=name_length) :: &
+        'E_wheel_MPa', 'E_rail_MPa', 'nu_wheel', 'nu_rail', 'mu']
+    character(len=name_length), parameter :: motion_names(*) = [character(len=name_length) :: &
+        'creepage', 'sign_set', 'cksi', 'ceta', 'cphi_rad_per_mm']
+    character(len=name_length), parameter :: numerics_names(*) = [character(len=name_length) :: &
+        'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
+        'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
+        'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
+        'target', 'max_elements', 'resolution_limit']
+    character(len=name_length), parameter :: sweep_names(*) = [character(len=name_length) :: &
+        'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
 
     !> A case as its file tells it: a contact but for its gap, which the profiles make or another
     !> file holds. The load may be a vertical one, creepages may follow from the shift.
@@ -72,8 +84,8 @@ contains
         call read_contact_group(content, case)
         from_profiles = len(case%gap_file) == 0
         call read_material_group(content, case)
-        call read_wheel_group(content, from_profiles, case)
-        call read_rail_group(content, from_profiles, case)
+        call read_wheel_group(content, from_profiles, case%wheelset, case%wheel_name, case%wheel)
+        call read_rail_group(content, from_profiles, case%track, case%rail_name, case%rail)
         call read_motion_group(content, from_profiles, case)
         call read_numerics_group(content, case)
         call read_sweep_group(content, case)
@@ -87,12 +99,9 @@ contains
         character(len=word_length) :: load_direction
         real(wp) :: load_n, penetration_mm, shift_mm
         namelist /contact/ name, gap_file, load_n, penetration_mm, load_direction, shift_mm
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'name', 'gap_file', 'load_N', 'penetration_mm', 'load_direction', 'shift_mm']
         type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
+        type(reading_t) :: reading
+        integer :: code
 
         name = 'case'
         gap_file = ''
@@ -101,10 +110,11 @@ contains
         penetration_mm = unset()
         shift_mm = 0.0_wp
         call find_group(content, 'contact', .true., group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=contact, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
+        do
+            call next_lines(content, group, reading)
+            if (.not. allocated(reading%text)) exit
+            read (reading%text, nml=contact, iostat=code, iomsg=reading%words)
+            if (code /= 0) call refuse_values(content, group, contact_names, reading)
         end do
         case%name = trim(name)
         case%gap_file = ''
@@ -143,12 +153,9 @@ contains
 
         real(wp) :: e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
         namelist /material/ e_wheel_mpa, e_rail_mpa, nu_wheel, nu_rail, mu
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'E_wheel_MPa', 'E_rail_MPa', 'nu_wheel', 'nu_rail', 'mu']
         type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
+        type(reading_t) :: reading
+        integer :: code
 
         e_wheel_mpa = case%material%e_wheel
         e_rail_mpa = case%material%e_rail
@@ -156,10 +163,11 @@ contains
         nu_rail = case%material%nu_rail
         mu = unset()
         call find_group(content, 'material', .true., group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=material, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
+        do
+            call next_lines(content, group, reading)
+            if (.not. allocated(reading%text)) exit
+            read (reading%text, nml=material, iostat=code, iomsg=reading%words)
+            if (code /= 0) call refuse_values(content, group, material_names, reading)
         end do
         call need_positive(content, group, 'E_wheel_MPa', e_wheel_mpa)
         call need_positive(content, group, 'E_rail_MPa', e_rail_mpa)
@@ -171,103 +179,6 @@ contains
         case%mu = mu
     end subroutine read_material_group
 
-    subroutine read_wheel_group(content, from_profiles, case)
-        type(namelist_file_t), intent(in) :: content
-        logical, intent(in) :: from_profiles
-        type(case_t), intent(inout) :: case
-
-        character(len=path_length) :: profile
-        character(len=word_length) :: y_positive_to, z_positive_to
-        real(wp) :: radius_mm, back_spacing_mm, tread_line_mm
-        namelist /wheel/ profile, radius_mm, back_spacing_mm, tread_line_mm, &
-            y_positive_to, z_positive_to
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'profile', 'radius_mm', 'back_spacing_mm', 'tread_line_mm', &
-            'y_positive_to', 'z_positive_to']
-        type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
-        type(status_t) :: status
-
-        profile = ''
-        radius_mm = case%wheelset%radius
-        back_spacing_mm = case%wheelset%back_spacing
-        tread_line_mm = case%wheelset%tread_line
-        y_positive_to = 'field'
-        z_positive_to = 'down'
-        call find_group(content, 'wheel', from_profiles, group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=wheel, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
-        end do
-        if (.not. from_profiles) return
-        call need_positive(content, group, 'radius_mm', radius_mm)
-        call need_positive(content, group, 'back_spacing_mm', back_spacing_mm)
-        call need_positive(content, group, 'tread_line_mm', tread_line_mm)
-        case%wheelset = wheelset_t(back_spacing_mm, tread_line_mm, radius_mm)
-        case%wheel_name = trim(profile)
-        select case (profile)
-        case (''); call refuse(content, group, 'profile', 'is missing', '')
-        case ('s1002')
-            call make_wheel_profile('s1002', case%wheel, status)
-            call fail_on_error(status)
-        case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, &
-                             simpack_wheel, 0.0_wp, case%wheel)
-        end select
-    end subroutine read_wheel_group
-
-    subroutine read_rail_group(content, from_profiles, case)
-        type(namelist_file_t), intent(in) :: content
-        logical, intent(in) :: from_profiles
-        type(case_t), intent(inout) :: case
-
-        character(len=path_length) :: profile
-        character(len=word_length) :: y_positive_to, z_positive_to
-        real(wp) :: cant, gauge_mm, gauge_depth_mm
-        namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'profile', 'cant', 'gauge_mm', 'gauge_depth_mm', 'y_positive_to', 'z_positive_to']
-        type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
-        type(status_t) :: status
-
-        profile = ''
-        cant = unset()
-        gauge_mm = case%track%gauge
-        gauge_depth_mm = case%track%gauge_depth
-        y_positive_to = 'field'
-        z_positive_to = 'down'
-        call find_group(content, 'rail', from_profiles, group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=rail, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
-        end do
-        if (.not. from_profiles) return
-        ! A drawn profile stands upright; a measured one is taken as it stands.
-        if (.not. sets(content, group, 'cant')) &
-            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ']))
-        call need_finite(content, group, 'cant', cant)
-        call need_positive(content, group, 'gauge_mm', gauge_mm)
-        call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
-        case%track = track_t(gauge_mm, gauge_depth_mm)
-        case%rail_name = trim(profile)
-        select case (profile)
-        case (''); call refuse(content, group, 'profile', 'is missing', '')
-        case ('uic60', '60e1')
-            call make_rail_profile(trim(profile), cant, case%rail, status)
-            if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
-        case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, &
-                             simpack_rail, cant, case%rail)
-        end select
-    end subroutine read_rail_group
-
     subroutine read_motion_group(content, from_profiles, case)
         type(namelist_file_t), intent(in) :: content
         logical, intent(in) :: from_profiles
@@ -277,12 +188,9 @@ contains
         character(len=word_length) :: sign_set
         real(wp) :: cksi, ceta, cphi_rad_per_mm
         namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'creepage', 'sign_set', 'cksi', 'ceta', 'cphi_rad_per_mm']
         type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
+        type(reading_t) :: reading
+        integer :: code
 
         creepage = 'given'
         sign_set = 'B'
@@ -290,10 +198,11 @@ contains
         ceta = 0.0_wp
         cphi_rad_per_mm = 0.0_wp
         call find_group(content, 'motion', .true., group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=motion, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
+        do
+            call next_lines(content, group, reading)
+            if (.not. allocated(reading%text)) exit
+            read (reading%text, nml=motion, iostat=code, iomsg=reading%words)
+            if (code /= 0) call refuse_values(content, group, motion_names, reading)
         end do
         call need_finite(content, group, 'cksi', cksi)
         call need_finite(content, group, 'ceta', ceta)
@@ -307,11 +216,9 @@ contains
         if (case%creepage_by_formula .and. any([cksi, ceta, cphi_rad_per_mm] /= 0.0_wp)) &
             call refuse(content, group, 'creepage', &
                         'is by formula, and creepages are given as well', creepage)
-        select case (sign_set)
-        case ('A', 'a'); case%creepage_signs = creepage_set_a
-        case ('B', 'b'); case%creepage_signs = creepage_set_b
-        case default; call refuse(content, group, 'sign_set', 'must be A or B', sign_set)
-        end select
+        if (lower_case(sign_set) /= 'a' .and. lower_case(sign_set) /= 'b') &
+            call refuse(content, group, 'sign_set', 'must be A or B', sign_set)
+        case%creepage_signs = merge(creepage_set_a, creepage_set_b, lower_case(sign_set) == 'a')
     end subroutine read_motion_group
 
     subroutine read_numerics_group(content, case)
@@ -327,15 +234,9 @@ contains
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, norm_start, tolerance, target, max_elements, &
             resolution_limit
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
-            'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
-            'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
-            'target', 'max_elements', 'resolution_limit']
         type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
-        integer :: n, code
+        type(reading_t) :: reading
+        integer :: code
         character(len=:), allocatable :: what, range, value
 
         normal = normal_method_name(case%numerics%normal)
@@ -356,10 +257,11 @@ contains
         gap_height_mm = standard_gap_height
         smoothing_um = case%numerics%smoothing_um
         call find_group(content, 'numerics', .false., group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=numerics, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
+        do
+            call next_lines(content, group, reading)
+            if (.not. allocated(reading%text)) exit
+            read (reading%text, nml=numerics, iostat=code, iomsg=reading%words)
+            if (code /= 0) call refuse_values(content, group, numerics_names, reading)
         end do
         numbers%normal = normal_method(normal)
         if (numbers%normal < 0) call refuse(content, group, 'normal', 'must be ' &
@@ -399,11 +301,8 @@ contains
         real(wp) :: shifts_mm(max_shifts), load_n(max_shifts)
         real(wp) :: cksi(max_shifts), ceta(max_shifts), cphi_rad_per_mm(max_shifts)
         namelist /sweep/ shifts_mm, load_n, cksi, ceta, cphi_rad_per_mm
-        character(len=name_length), parameter :: names(*) = [character(len=name_length) :: &
-            'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
         type(group_t) :: group
-        character(len=line_length), allocatable :: text(:)
-        character(len=message_length) :: words
+        type(reading_t) :: reading
         integer :: n, code
 
         shifts_mm = not_given
@@ -412,10 +311,11 @@ contains
         ceta = not_given
         cphi_rad_per_mm = not_given
         call find_group(content, 'sweep', .false., group)
-        do n = 1, lines_of(group)
-            text = group_text(content, group, n)
-            read (text, nml=sweep, iostat=code, iomsg=words)
-            if (code /= 0) call refuse_values(content, group, n, names, words)
+        do
+            call next_lines(content, group, reading)
+            if (.not. allocated(reading%text)) exit
+            read (reading%text, nml=sweep, iostat=code, iomsg=reading%words)
+            if (code /= 0) call refuse_values(content, group, sweep_names, reading)
         end do
         call take_list(content, group, 'shifts_mm', shifts_mm, case%shifts)
         call take_list(content, group, 'load_N', load_n, case%shift_loads)
@@ -440,132 +340,4 @@ contains
         call need_as_many(content, group, 'ceta', size(case%shift_ceta), n)
         call need_as_many(content, group, 'cphi_rad_per_mm', size(case%shift_cphi), n)
     end subroutine read_sweep_group
-
-    !> The numbers a list was given, which must be its first ones without a hole.
-    subroutine take_list(content, group, name, list, values)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        real(wp), intent(in) :: list(:)
-        real(wp), allocatable, intent(out) :: values(:)
-
-        integer :: i, n
-
-        n = count(list /= not_given)
-        do i = 1, n
-            if (list(i) == not_given) call refuse(content, group, name, 'has no number at place', &
-                                                  integer_text(i))
-            if (.not. ieee_is_finite(list(i))) &
-                call refuse(content, group, name, 'is not a finite number at place ' &
-                            // integer_text(i), number_text(list(i)))
-        end do
-        values = list(:n)
-    end subroutine take_list
-
-    subroutine need_as_many(content, group, name, given, wanted)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        integer, intent(in) :: given, wanted
-
-        if (given /= wanted) &
-            call refuse(content, group, name, 'needs as many numbers as there are shifts, ' &
-                        // integer_text(wanted), integer_text(given))
-    end subroutine need_as_many
-
-    !> Number of lines of a group; 0 if it is not there.
-    pure integer function lines_of(group)
-        type(group_t), intent(in) :: group
-
-        lines_of = 0
-        if (group%first > 0) lines_of = group%last - group%first + 1
-    end function lines_of
-
-    subroutine read_points(content, group, path, y_positive_to, z_positive_to, simpack_kind, &
-                           cant, profile)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: path, y_positive_to, z_positive_to
-        integer, intent(in) :: simpack_kind
-        real(wp), intent(in) :: cant
-        type(profile_t), intent(out) :: profile
-
-        type(status_t) :: status
-        character(len=:), allocatable :: file
-        real(wp), allocatable :: y(:), z(:)
-
-        if (y_positive_to /= 'field' .and. y_positive_to /= 'gauge') &
-            call refuse(content, group, 'y_positive_to', 'must be field or gauge', &
-                        y_positive_to)
-        if (z_positive_to /= 'down' .and. z_positive_to /= 'up') &
-            call refuse(content, group, 'z_positive_to', 'must be down or up', z_positive_to)
-        file = beside(content%file, trim(path))
-        call take_input(file)
-        if (ends_with(file, '.prw') .or. ends_with(file, '.prr')) then
-            call read_simpack_file(file, simpack_kind, y, z, status)
-        else
-            call read_points_file(file, merge(1, -1, y_positive_to == 'field'), &
-                                  merge(1, -1, z_positive_to == 'down'), y, z, status)
-        end if
-        call fail_on_error(status)
-        call make_points_profile(y, z, cant, profile, status)
-        call fail_on_error(status, file)
-    end subroutine read_points
-
-    !> Does a file name end so, in upper or lower case?
-    pure logical function ends_with(file, ending)
-        character(len=*), intent(in) :: file, ending
-
-        ends_with = .false.
-        if (len(file) < len(ending)) return
-        ends_with = lower_case(file(len(file) - len(ending) + 1:)) == ending
-    end function ends_with
-
-    !> A path that is relative to the folder of another file.
-    pure function beside(file, path) result(resolved)
-        character(len=*), intent(in) :: file, path
-        character(len=:), allocatable :: resolved
-
-        resolved = path
-        if (index(path, '/') /= 1) resolved = file(:index(file, '/', back=.true.)) // path
-    end function beside
-
-    !> What a number is before the file sets it.
-    pure real(wp) function unset()
-        unset = ieee_value(unset, ieee_quiet_nan)
-    end function unset
-
-    subroutine need_finite(content, group, name, value)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        real(wp), intent(in) :: value
-
-        if (.not. ieee_is_finite(value)) &
-            call refuse(content, group, name, 'is missing or not a finite number', &
-                        number_text(value))
-    end subroutine need_finite
-
-    subroutine need_positive(content, group, name, value)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        real(wp), intent(in) :: value
-
-        call need_finite(content, group, name, value)
-        if (value <= 0.0_wp) &
-            call refuse(content, group, name, 'must be above 0', number_text(value))
-    end subroutine need_positive
-
-    subroutine need_poisson(content, group, name, value)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        real(wp), intent(in) :: value
-
-        call need_finite(content, group, name, value)
-        if (value <= -1.0_wp .or. value > 0.5_wp) &
-            call refuse(content, group, name, 'must be above -1 and at most 0.5', &
-                        number_text(value))
-    end subroutine need_poisson
 end module faststrip_command_case_file

@@ -1,12 +1,14 @@
-!> What is wrong with the values of a namelist group, in words of the group: the Fortran runtime
-!> only says that it lost its way.
+!> The values of a namelist group, line by line for the Fortran runtime, and what is wrong with them
+!> in words of the group: the runtime only says that it lost its way.
 module faststrip_command_namelist_values
+    use faststrip_base_status, only: message_length
     use faststrip_base_text, only: trim_blanks, lower_case, parse_real, parse_integer
-    use faststrip_command_namelist, only: namelist_file_t, group_t, refuse_line, word_letters
+    use faststrip_command_namelist, only: namelist_file_t, group_t, group_text, line_length, &
+                                          refuse_line, word_letters
     implicit none
     private
 
-    public :: refuse_values, name_length
+    public :: reading_t, next_lines, refuse_values, name_length
 
     !> Length of the names in a list of names.
     integer, parameter :: name_length = 16
@@ -17,28 +19,48 @@ module faststrip_command_namelist_values
     character(len=name_length), parameter :: whole_names(5) = [character(len=name_length) :: &
         'strips_per_patch', 'points_per_strip', 'fastsim_nx', 'fastsim_ny', 'max_elements']
 
+    !> How far a group was read.
+    type :: reading_t
+        character(len=line_length), allocatable :: text(:) !! to be read; not there: all was read
+        integer :: n = 0                                   !! lines of the group in it
+        character(len=message_length) :: words = ''        !! of the runtime that could not
+    end type reading_t
+
 contains
 
-    !> End the program with an error about line n of a group, which the runtime could not read.
-    subroutine refuse_values(content, group, n, names, words)
+    !> The lines of a group that are to be read next: all up to one more than the last time, so that
+    !> the line is known which the runtime cannot read.
+    subroutine next_lines(content, group, reading)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(group_t), intent(in) :: group           !! a group of it, or none
+        type(reading_t), intent(inout) :: reading    !! as it was left the last time
+
+        if (allocated(reading%text)) deallocate (reading%text)
+        if (group%first == 0 .or. reading%n > group%last - group%first) return
+        reading%n = reading%n + 1
+        reading%text = group_text(content, group, reading%n)
+    end subroutine next_lines
+
+    !> End the program with an error about the last line, which the runtime could not read.
+    subroutine refuse_values(content, group, names, reading)
         type(namelist_file_t), intent(in) :: content !! a case file
         type(group_t), intent(in) :: group           !! a group of it
-        integer, intent(in) :: n                     !! number of the line within the group
         character(len=*), intent(in) :: names(:)     !! that the group knows
-        character(len=*), intent(in) :: words        !! of the runtime
+        type(reading_t), intent(in) :: reading       !! with the runtime's words
 
         character(len=:), allocatable :: line, name, value
-        integer :: i, from, name_at, to
+        integer :: i, from, name_at, to, last
 
+        last = group%first + reading%n - 1
         name = ''
-        do i = group%first, group%first + n - 1
+        do i = group%first, last
             line = content%line(i)
             from = 1
             if (i == group%first) from = index(line, '&') + len(group%name) + 1
             do
                 call find_name(line, from, name_at, to)
                 value = without_end(line(from:name_at - 1))
-                if (i == group%first + n - 1 .and. len(name) > 0) &
+                if (i == last .and. len(name) > 0) &
                     call check_value(content, group, i, name, value, names, from == 1)
                 if (to > len(line)) exit
                 name = trim_blanks(line(name_at:to - 1))
@@ -47,8 +69,8 @@ contains
                     // ' unknown name', lower_case(name))
             end do
         end do
-        call refuse_line(content, group%first + n - 1, '&' // group%name // ' ' // trim(words), &
-                         adjustl(content%line(group%first + n - 1)))
+        call refuse_line(content, last, '&' // group%name // ' ' // trim(reading%words), &
+                         adjustl(content%line(last)))
     end subroutine refuse_values
 
     !> The next `name =` of a line: where the name starts, and where the equals sign is; both
