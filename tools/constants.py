@@ -247,3 +247,124 @@ def read_rooms(root):
             constants += found
             wrong += bad
     return constants, wrong
+
+
+def read_measured(root):
+    """The rows of the measured file by file and name; that without a change has neither."""
+    path = root / MEASURED
+    if not path.exists():
+        return {}
+    with open(path, encoding="utf-8") as stream:
+        rows = csv.DictReader(line for line in stream if not line.startswith("#"))
+        return {(row["file"], row["name"], row["value"]): row for row in rows}
+
+
+def row_for(constant, measured):
+    """What was measured for a number of that value; one that moved keeps its row."""
+    value = " ".join(constant.value.replace("&", " ").split())
+    row = measured.get((constant.short, constant.name, value))
+    if row:
+        return row
+    same = [row for (_, name, old), row in measured.items() if (name, old) == (constant.name, value)]
+    return same[0] if len(same) == 1 else None
+
+
+def percent(text):
+    value = 100.0 * float(text)
+    return f"{value:.2g} %" if value >= 0.001 else ""
+
+
+def told(row, factor, plain):
+    """What happens at half or at double, in few words."""
+    if row is None:
+        return "not measured"
+    if row[f"{factor}_outcome"] != "ok":
+        return row[f"{factor}_outcome"]
+    said = []
+    for column, words in (("change", "contacts"), ("force_change", "forces"),
+                          ("random_change", "random gaps"), ("estimate_change", "estimates"),
+                          ("kalker_change", "kalker")):
+        value = percent(row[f"{factor}_{column}"])
+        if value:
+            said.append(f"{words} {value}")
+    if int(row[f"{factor}_random_status"]):
+        said.append(f"{row[f'{factor}_random_status']} of 80 with another status")
+    for column, words in (("penetration_error", "penetration"), ("pmax_error", "pmax"),
+                          ("area_error", "area"), ("force_error", "forces")):
+        new, old = float(row[f"{factor}_{column}"]), float(plain[f"{factor}_{column}"])
+        if abs(new - old) > 0.05 * old:
+            said.append(f"error of {words} {old:.2g} to {new:.2g} %")
+    ratio = float(row[f"{factor}_time"])
+    if not 0.7 < ratio < 1.4:
+        said.append(f"time x {ratio:.1f}")
+    return ", ".join(said) or "nothing"
+
+
+def cell(text):
+    return text.replace("|", "\\|").replace("$", "").replace("[", "\\[").replace("]", "\\]")
+
+
+def page(constants, measured):
+    plain = measured.get(("", "", ""))
+    rows = {constant.key: row_for(constant, measured) for constant in constants}
+    count = sum(row is not None for row in rows.values())
+    lines = [
+        f"<!-- Written by tools/constants.py from the sources and {MEASURED}; change those, not this."
+        " -->", "",
+        "# Constants", "",
+        f"The {len(constants)} tuned numbers of the solver, by room: those that somebody has chosen."
+        " Unit and origin stand beside each in the source, where `Tuned [unit]` marks it. Origins:"
+        " *chosen* is by judgement, no measurement was kept; *safeguard* bounds what no sensible"
+        " contact reaches; *capacity* bounds memory or work; *calibrated* was fitted to errors.", "",
+        "Numbers that nobody has chosen are not here: those of published formulas, standards and"
+        " fits, and numbers of kinds; in the source they are marked `Given`. Bare may stand 0, 1, 2,"
+        " 3, 4, 0.5 and 0.25, subscripts, bounds and lengths; a test refuses all others"
+        " (`tools/constants.py`, which states the rule).", "",
+        f"What happens at half and at double: {count} were measured by `tools/sensitivity.py`, the"
+        " others were not. Told is the largest relative change of penetration, pmax and area on the"
+        " 20 contacts of the reference (contacts), of a force by any method over mu N on 441 contacts"
+        " (forces), of 80 random gaps, of estimated errors there over the larger of both, and of"
+        " the answers of kalker_normal and kalker_tangential (kalker); of mean errors against CONTACT"
+        " those that change by a twentieth; of times, which scatter, those under 0.7 or over 1.4."
+        " *nothing*: no change above 0.001 %. Random gaps that are near to two answers change much:"
+        " one of them is enough.",
+    ]
+    for room in sorted({constant.short.split("/")[0] for constant in constants}):
+        lines += ["", f"## {room}", "",
+                  "| name | file | value | unit | what | origin | half | double |",
+                  "|---|---|---|---|---|---|---|---|"]
+        for constant in constants:
+            if constant.short.split("/")[0] != room:
+                continue
+            value = re.sub(r"_(?:wp|int64)\b", "", " ".join(constant.value.replace("&", " ").split()))
+            value = value if len(value) <= 60 else value[:57] + "..."
+            row = rows[constant.key]
+            cells = [f"`{constant.name}`", cell(constant.short), f"`{value}`", cell(constant.unit),
+                     cell(constant.what), cell(constant.origin),
+                     *(told(row, factor, plain) for factor in ("half", "double"))]
+            lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="write nothing, exit 1 if stale")
+    parser.add_argument("--bare", action="store_true", help="write nothing, print what is refused")
+    parser.add_argument("--root", type=pathlib.Path, default=ROOT, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    constants, wrong = read_rooms(options.root)
+    if wrong:
+        sys.exit("\n".join(wrong))
+    if options.bare:
+        return
+    text = page(constants, read_measured(options.root))
+    path = options.root / PAGE
+    if path.exists() and path.read_text(encoding="utf-8") == text:
+        return
+    if options.check:
+        sys.exit(f"constants: {PAGE} is not as the sources say, run tools/constants.py")
+    path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

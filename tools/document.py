@@ -23,6 +23,7 @@ PAGES = (
     ("Embedding", "docs/embedding.md", "embedding.html"),
     ("Method", "docs/method.md", "method.html"),
     ("Validation", "docs/validation.md", "validation.html"),
+    ("Constants", "docs/constants.md", "constants.html"),
     ("References", "reference/README.md", "reference.html"),
     ("Architecture", "docs/architecture.md", "architecture.html"),
     ("Contributing", "CONTRIBUTING.md", "contributing.html"),
