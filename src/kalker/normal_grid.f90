@@ -153,19 +153,25 @@ contains
 
         ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
         ! of a Hertz contact (Piotrowski and Kik).
+        ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
+        ! of a Hertz contact (Piotrowski and Kik).
         real(wp), parameter :: share = 0.55_wp
         real(wp) :: lowest, low, high, depth, radius
+        ! Tuned [halvings]: of the penetration sought. Origin: chosen: far below its own error.
+        integer, parameter :: max_halvings = 40
         integer :: i
 
         lowest = minval(grid%height)
         if (demand%by_load) then
             low = 0.0_wp
             ! As if one element carried it all.
+            ! Given: a punch of that area.
             high = 0.75_wp*pi*compliance*(demand%load/sqrt(grid%dx*grid%dy/pi))
-            do i = 1, 40
+            do i = 1, max_halvings
                 depth = 0.5_wp*(low + high)
                 radius = sqrt(max(1, count(grid%height - lowest < share*depth)) &
                               *(grid%dx*grid%dy/pi))
+                ! Given: a punch of that area.
                 if (depth < 0.75_wp*pi*compliance*demand%load/radius) then
                     low = depth
                 else

@@ -25,6 +25,7 @@ module faststrip_kalker_normal_options
     type :: norm_options_t
         ! Tuned [mm]. Origin: chosen for the S1002/UIC60 contacts.
         real(wp) :: dx = 0.2_wp           !! side of the elements along x, mm
+        ! Tuned [mm]. Origin: as dx.
         real(wp) :: dy = 0.2_wp           !! side of the elements along y, mm
         real(wp) :: error_target = 0.0_wp !! estimated relative error of penetration and largest
                                           !! pressure; the sides are chosen if it is positive

@@ -99,9 +99,16 @@ module faststrip_normal_certificate
 
     ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
     ! module's head.
+    ! Tuned [1]: The penetration's factors, see the module's head. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: penetration_factor = 0.6_wp, penetration_middle = 3.0_wp
+    ! Tuned [1]: The area's factors. Origin: calibrated, see the module's head.
     real(wp), parameter :: area_factor = 1.5_wp, area_middle = 3.5_wp
+    ! Tuned [1]: The area's, with few strips and of unresolved heights. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: area_strips = 8.0_wp, area_unresolved = 0.5_wp
+    ! Tuned [1]: The largest pressure's least estimate, times n squared. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: pmax_least = 0.4_wp
 
     ! The largest pressure goes with the cube root of the load of its surroundings.

@@ -10,9 +10,13 @@ module faststrip_normal_certificate_outside
 
     public :: look_ahead, look_beyond, look_elsewhere
 
+    ! Tuned [strips]: How many. Origin: chosen.
     integer, parameter :: tips_ahead = 4     ! of a block of strips
+    ! Tuned [half-lengths]. Origin: chosen; just outside.
     real(wp), parameter :: ahead = 1.05_wp   ! of the half-length
+    ! Tuned [strip widths]. Origin: chosen; just outside, and one strip.
     real(wp), parameter :: beyond(2) = [0.25_wp, 1.0_wp] ! widths of the end strip
+    ! Tuned [points]. Origin: chosen.
     integer, parameter :: scan_points = 8    ! in a stretch below D
     ! Tuned [intervals]: Most stretches looked at. Origin: capacity.
     integer, parameter :: max_intervals = 64

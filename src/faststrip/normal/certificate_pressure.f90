@@ -14,9 +14,16 @@ module faststrip_normal_certificate_pressure
     public :: missing_pressure, section_load, inv2r_about, find_unresolved
     public :: unresolved_factor
 
+    ! Tuned [1]: The largest pressure's, of gaps at edges of strips. Origin: calibrated, see the
+    ! module's head.
     real(wp), parameter :: edge_factor = 0.3_wp, slope_factor = 0.35_wp
+    ! Tuned [1]: The largest pressure's, of gaps in sections. Origin: calibrated, see the module's
+    ! head.
     real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.5_wp
+    !> Tuned [1]. Origin: calibrated, see the head of `faststrip_normal_certificate`.
     real(wp), parameter :: unresolved_factor = 1.1_wp !! of heights that a strip does not resolve
+    ! Tuned [1]: The largest pressure's, of waves. Origin: calibrated, see the head of
+    ! `faststrip_normal_certificate`.
     real(wp), parameter :: wave_factor = 0.012_wp
 
 contains
@@ -138,7 +145,7 @@ contains
             ! At an end of the patch the neighbour's other edge serves instead.
             if (n == 4 .and. starts_patch(strips, k)) node(5) = right(k + 1)
             if (n == 4 .and. .not. starts_patch(strips, k)) node(5) = left(k - 1)
-            if (n == 4) n = 5
+            if (n == 4) n = n + 1
             pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n))
             tip = unresolved_pressure_growth(curve, compliance, left(k), right(k), node(:n)) &
                   *min(strips%half_length(k), largest)**2

@@ -12,6 +12,7 @@ module faststrip_normal_certificate_samples
     public :: samples_t, take_samples, sample, sample_centre_line
     public :: block, smallest, largest
 
+    ! Tuned [strips]. Origin: capacity: what is kept on the stack.
     integer, parameter :: block = 32         !! strips sampled together
 
     !> Gaps in a block of strips, strip i of it from 1 on, and in the strips on both its sides.

@@ -64,7 +64,11 @@ module faststrip_normal_lattice
     integer, parameter :: spare_cells = 10       ! and so many more
     ! Tuned [cells]. Origin: cost of the first solution.
     integer, parameter :: coarse_cells = 15      ! at most across the widest range of the first
-    integer, parameter :: fewest_lattices = 3, max_lattices = 5
+    ! Tuned [lattices]: How often the cells are placed. Origin: two for the error, one to find the
+    ! ranges.
+    integer, parameter :: fewest_lattices = 3
+    ! Tuned [lattices]: The same, most. Origin: safeguard.
+    integer, parameter :: max_lattices = 5
     ! Tuned [cells]. Origin: chosen: within what the first solution leaves open.
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
     ! Tuned [1]. Origin: as tolerated_overlap of the strips.
@@ -277,7 +281,7 @@ contains
         end associate
         if (overlap > named_overlap) then
             call set_status(status, st_overlap_left, 'surfaces overlap outside the patches by ' &
-                            // number_text(100.0_wp*overlap))
+                            // number_text(100.0_wp*overlap)) ! Given: per cent
             call add_words(status%message, ' % of the penetration')
         else if (strips%y_left(1) <= curve%y(1) &
                  .or. strips%y_right(strips%n) >= curve%y(curve%n)) then

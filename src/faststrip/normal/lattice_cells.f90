@@ -11,6 +11,7 @@ module faststrip_normal_lattice_cells
 
     ! Tuned [ranges]: Most ranges. Origin: capacity.
     integer, parameter :: max_ranges = 64
+    ! Tuned [1]. Origin: chosen: far below the error of a length.
     real(wp), parameter :: same = 1.0e-6_wp      ! lengths that differ by less, relatively
 
     ! Tuned [cells]. Origin: chosen.

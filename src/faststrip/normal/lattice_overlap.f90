@@ -12,6 +12,7 @@ module faststrip_normal_lattice_overlap
 
     ! Tuned [1]. Origin: as that of the strips.
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
+    ! Tuned [points]. Origin: capacity: what is kept on the stack.
     integer, parameter :: block = 64                     ! points evaluated together
 
     !> Ranges of y: patches, and overlaps between them.
@@ -79,6 +80,8 @@ contains
         real(wp), intent(out) :: deepest   ! mm
         real(wp), intent(out) :: y_deepest ! `low` if none is deeper than the tolerance
 
+        ! Tuned [points]: looked at at a time. Origin: chosen: several in each cell of the widest
+        ! stretch between ranges.
         integer, parameter :: n_even = 32
         real(wp) :: y(block)
         integer :: j, n
@@ -151,10 +154,12 @@ contains
         real(wp), intent(in) :: direction ! -1: to the left, 1: to the right
 
         real(wp) :: reach, y(1), overlap(1)
+        ! Tuned [halvings]: of the reach in which the edge is sought. Origin: chosen.
+        integer, parameter :: max_reaches = 20
         integer :: i
 
         reach = max(high - y_deepest, y_deepest - low)
-        do i = 1, 20
+        do i = 1, max_reaches
             y(1) = min(max(y_deepest + direction*reach, low), high)
             call find_overlaps(cells, curve, compliance, depth, y, overlap)
             if (overlap(1) > 0.0_wp) exit

@@ -25,6 +25,8 @@ contains
         ! Tuned [1]: Range of the search to either side. Origin: safeguard: all loads that can be
         ! solved.
         real(wp), parameter :: reach_of_search = 2.0_wp**200
+        ! Tuned [halvings]: of the range, of its logarithm. Origin: all digits.
+        integer, parameter :: max_halvings = 70
         real(wp) :: low, high, unit
         integer :: i
 
@@ -32,7 +34,7 @@ contains
         unit = sqrt(compliance*load)
         low = unit/reach_of_search
         high = unit*reach_of_search
-        do i = 1, 70
+        do i = 1, max_halvings
             depth = low*sqrt(high/low)
             if (start_load(curve, compliance, depth) < load) then
                 low = depth

@@ -93,6 +93,7 @@ contains
         real(wp), intent(in) :: value(:)
 
         ! Strips with less than this of the largest have no peak beside them.
+        ! Tuned [1]: of the largest. Origin: chosen: a strip with less has no peak beside it.
         real(wp), parameter :: near_largest = 0.9_wp
         real(wp) :: least, lower
         integer :: k, n

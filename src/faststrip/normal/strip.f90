@@ -47,6 +47,9 @@ module faststrip_normal_strip
     ! Tuned [1]. Origin: chosen; what is more is named.
     real(wp), parameter :: tolerated_overlap = 0.01_wp ! of the penetration, in rough gaps
 
+    ! Tuned [1]: larger tolerances are refused. Origin: chosen.
+    real(wp), parameter :: largest_tolerance = 1.0e-2_wp
+
 contains
 
     !> Solve the normal problem of the gap in the workspace under a load.
@@ -235,7 +238,8 @@ contains
         if (is_error(status)) return
         if (options%strips_per_patch < 1 .and. options%strips_per_patch /= strips_auto) then
             call set_status(status, st_bad_argument, 'fewer than one strip per patch asked')
-        else if (.not. (options%tolerance > 0.0_wp .and. options%tolerance <= 1.0e-2_wp)) then
+        else if (.not. (options%tolerance > 0.0_wp &
+                        .and. options%tolerance <= largest_tolerance)) then
             call set_status(status, st_bad_argument, 'the tolerance is outside (0, 0.01]: ' &
                             //number_text(options%tolerance))
         else if (workspace%curve%n == 0) then

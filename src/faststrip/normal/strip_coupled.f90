@@ -33,7 +33,10 @@ module faststrip_normal_strip_coupled
     real(wp), parameter :: slow = 0.5_wp       ! steps that shrink less ask for a new Jacobian
     ! Tuned [1]. Origin: chosen for the time.
     real(wp), parameter :: far = 0.5_wp        ! so does a first step this large with an old one
+    ! Tuned [1]. Origin: chosen: Broyden's update divides by it.
     real(wp), parameter :: least_scale = 0.3_wp ! of an updated step; less: a new Jacobian
+    ! Tuned [1; strip widths]: Largest steps of the logarithm of a length, the penetration over
+    ! itself, and an end. Origin: shorter than in strip_newton, as ends move too.
     ! Tuned [1; strip widths]: Largest steps of the logarithm of a length, the penetration over
     ! itself, and an end. Origin: shorter than in strip_newton, as ends move too.
     real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &

@@ -53,7 +53,7 @@ module faststrip_normal_strip_levels
     ! Tuned [strips]. Origin: chosen for time and errors of the lattice.
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
 
-    ! What a level starts from.
+    ! What a level starts from. Given: numbers of kinds.
     integer, parameter :: from_nothing = 1
     integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
     integer, parameter :: from_coarser = 3       ! the level before
@@ -73,6 +73,7 @@ module faststrip_normal_strip_levels
     type :: plan_t
         integer :: n = 0                !! how many levels
         integer :: strips(most_levels) = 0
+        ! Given: the first level only finds the patches.
         integer :: first_counted = 2    !! the first whose solution may be the answer
         logical :: is_auto = .false.    !! is any of them enough?
     end type plan_t

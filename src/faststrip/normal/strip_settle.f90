@@ -27,6 +27,7 @@ module faststrip_normal_strip_settle
     public :: level_t, settling_t, settle
     public :: state_place, state_newton, state_move, state_couple, state_done, state_give_up
 
+    ! Given: numbers of states.
     integer, parameter :: state_place = 1   !! cut the patches into strips
     integer, parameter :: state_newton = 2  !! solve for the strips, ends given
     integer, parameter :: state_move = 3    !! let ends move, overlaps join
@@ -63,8 +64,8 @@ module faststrip_normal_strip_settle
 
     !> What a level is asked for.
     type :: level_t
-        integer :: strips_per_patch = 15  !! of the widest patch
-        integer :: most_strips = 15       !! of all levels, for the limit of the work
+        integer :: strips_per_patch = 0   !! of the widest patch
+        integer :: most_strips = 0        !! of all levels, for the limit of the work
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
@@ -81,6 +82,7 @@ module faststrip_normal_strip_settle
         integer :: couplings = 0          !! how often strips and ends were tried together
         real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
         logical :: at_rest = .false.      !! did the ends rest in the last pass?
+        ! Given: none yet.
         real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
         logical :: settled = .false.      !! is there a pass that stands?
     end type settling_t

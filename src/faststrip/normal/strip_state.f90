@@ -19,6 +19,9 @@ module faststrip_normal_strip_state
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
     real(wp), parameter :: flattest = 1.0e-9_wp
+    ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
+    ! chosen: pressures vanish at 1.
+    real(wp), parameter :: outermost = 0.95_wp
 
     ! Tuned [1]. Origin: chosen for the errors of pmax and area.
     real(wp), parameter :: end_grading = 0.7_wp ! of the strip edges; 0: even, 1: as the sine
@@ -114,7 +117,7 @@ contains
                         q = nearest_patch(workspace%old, y)
                         ratio = (2.0_wp*y - workspace%old%at(q)%y_from - workspace%old%at(q)%y_to) &
                                 /(workspace%old%at(q)%y_to - workspace%old%at(q)%y_from)
-                        ratio = max(-0.95_wp, min(0.95_wp, ratio))
+                        ratio = max(-outermost, min(outermost, ratio))
                         call start_from_old(workspace, q, ratio, eta, i)
                         q = 0
                     end if

@@ -13,24 +13,38 @@ module faststrip_tangential_patch_law
 
     public :: patch_law_t, find_law, add_law, mean_law, same_law, smallest_force
 
-    ! Tuned; how, says `faststrip_tangential_faststrip`.
+    ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: gamma_length = 0.375_wp  ! S1; roots of roots
+    ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: asymmetry = 0.15_wp      ! S2, alpha without spin
+    ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: flattening = 0.3_wp      ! S2, m = 1 - flattening at most
+    ! Tuned [1]: Part of the spin's slope from the longitudinal flexibility. Origin: errors against
+    ! CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: longitudinal_part = 0.5_wp ! S3
+    ! Tuned [1]: Part of the flexibility moved with spin. Origin: errors against CONTACT, see the
+    ! module's head.
     real(wp), parameter :: spin_part = 0.5_wp       ! S5
+    ! Tuned [1]: The way to the flexibility of spin at full slip. Origin: errors against CONTACT,
+    ! see `faststrip_tangential_faststrip`.
     real(wp), parameter :: stiffening = 0.5_wp      ! S5
+    ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: half_saturation = 2.0_wp ! linear force over mu N at saturation 1/2
 
     ! int_{-1}^{1} (1 - s^2)^e ds for e = (2 - gamma)/2 and (3 - gamma)/2; of s^2 (1 - s^2)^e1.
     real(wp), parameter :: e1 = 0.5_wp*(2.0_wp - gamma_length)
     real(wp), parameter :: e3 = 0.5_wp*(3.0_wp - gamma_length)
+    ! Given: the root of pi, and integrals by the gamma function.
     real(wp), parameter :: root_pi = 1.772453850905516027298167483341145183_wp
+    ! Given: an integral by the gamma function.
     real(wp), parameter :: i1 = root_pi*gamma(e1 + 1.0_wp)/gamma(e1 + 1.5_wp)
+    ! Given: an integral by the gamma function.
     real(wp), parameter :: i3 = root_pi*gamma(e3 + 1.0_wp)/gamma(e3 + 1.5_wp)
+    ! Given: an integral by the gamma function.
     real(wp), parameter :: j1 = 0.5_wp*root_pi*gamma(e1 + 1.0_wp)/gamma(e1 + 2.5_wp)
 
     !> A patch or a strip that can carry less than this, N, carries nothing.
+    ! Tuned [N]. Origin: safeguard.
     real(wp), parameter :: smallest_force = 1.0e-20_wp
 
     !> What the strips of one patch, or of one sub-patch, share.
@@ -92,6 +106,7 @@ contains
         slope = c%c33*g/(2.0_wp*ellipse%b*j1)
         law%spin_slope = longitudinal_part/law%l1 + (1.0_wp - longitudinal_part)*slope
         fading = 1.0_wp - saturation**4
+        ! Given: the moment of a strip's bound.
         law%stretch_x = fading*(c%c23*sqrt(ellipse%b/ellipse%a)*g*law%l2*1.5_wp/(law%a*i3) &
                                 - 1.0_wp)
         law%stretch_y = fading*(slope/law%spin_slope - 1.0_wp)
