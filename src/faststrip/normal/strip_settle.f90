@@ -64,8 +64,10 @@ module faststrip_normal_strip_settle
 
     !> What a level is asked for.
     type :: level_t
-        integer :: strips_per_patch = 0   !! of the widest patch
-        integer :: most_strips = 0        !! of all levels, for the limit of the work
+        ! Tuned [strips]. Origin: as that of `strip_options_t`.
+        integer :: strips_per_patch = 15  !! of the widest patch
+        ! Tuned [strips]. Origin: as that of `strip_options_t`.
+        integer :: most_strips = 15       !! of all levels, for the limit of the work
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
