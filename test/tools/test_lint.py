@@ -95,6 +95,12 @@ class Lint(unittest.TestCase):
         self.found("fortitude", "src/a.f90", "module a\nend module a\n", "C001")
         self.found("fortitude", "src/a.f90", GOOD["src/a.f90"].replace("    private\n", ""), "C131")
 
+    def test_a_file_that_cannot_be_read_is_found(self):
+        (self.folder / "src/a.f90").write_bytes(GOOD["src/a.f90"].encode() + b"! \xe9\n")
+        done = self.lint("fortitude")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("a.f90:1:1: E000", done.stdout)
+
     @unittest.skipUnless(shutil.which("shellcheck"), "no shellcheck")
     def test_shellcheck(self):
         self.found("shellcheck", "run", "#!/bin/sh\nrm $1\n", "run:2:4: note: Double quote")
