@@ -178,7 +178,11 @@ class Lists(unittest.TestCase):
                 self.assertTrue(mutant.why.strip())
                 self.assertTrue(mutant.id.startswith(f"{mutant.room}-"))
                 self.assertRegex(mutant.file, rf"^((src/faststrip|src|app)/)?{mutant.room}/")
-                self.assertTrue(mutant.first is None or (ROOT / mutant.first).is_file())
+                if mutant.first and mutant.first.endswith(".py"):
+                    self.assertTrue((ROOT / mutant.first).is_file())
+                elif mutant.first:
+                    module = mutant.first.split("::")[0]
+                    self.assertTrue(list((ROOT / "test" / "pf").glob(f"{module}*.pf")))
                 self.assertNotEqual(mutant.equivalent, "")
 
     def test_every_stage_has_tests(self):
