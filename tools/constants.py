@@ -10,8 +10,8 @@ default of a component, and carries a tag in the comment above it or beside it:
     integer, parameter :: scout_strips = 7
 
 The words before `Tuned` and those between `]:` and `Origin:` say what it is; what stands beside a
-name does too. A tag holds for one declaration. Numbers that nobody has chosen carry `Given: why` instead
-of it: coefficients of a published formula, dimensions of a standard, numbers of kinds. Above
+name does too. A tag holds for one declaration. Numbers that nobody has chosen carry `Given: why`
+instead of it: coefficients of a published formula, dimensions of a standard, numbers of kinds. Above
 integers, as numbers of kinds are, it holds for all declarations without a comment between them.
 Files of tables are in GIVEN_FILES.
 
@@ -265,7 +265,8 @@ def row_for(constant, measured):
     row = measured.get((constant.short, constant.name, value))
     if row:
         return row
-    same = [row for (_, name, old), row in measured.items() if (name, old) == (constant.name, value)]
+    same = [row for (_, name, old), row in measured.items()
+            if (name, old) == (constant.name, value)]
     return same[0] if len(same) == 1 else None
 
 
@@ -309,22 +310,28 @@ def page(constants, measured):
     rows = {constant.key: row_for(constant, measured) for constant in constants}
     count = sum(row is not None for row in rows.values())
     lines = [
-        f"<!-- Written by tools/constants.py from the sources and {MEASURED}; change those, not this."
+        f"<!-- Written by tools/constants.py from the sources and {MEASURED}; change those,"
+        f" not this."
         " -->", "",
         "# Constants", "",
-        f"The {len(constants)} tuned numbers of the solver, by room: those that somebody has chosen."
+        f"The {len(constants)} tuned numbers of the solver, by room: those that somebody has"
+        f" chosen."
         " Unit and origin stand beside each in the source, where `Tuned [unit]` marks it. Origins:"
         " *chosen* is by judgement, no measurement was kept; *safeguard* bounds what no sensible"
-        " contact reaches; *capacity* bounds memory or work; *calibrated* was fitted to errors.", "",
+        " contact reaches; *capacity* bounds memory or work; *calibrated* was fitted to"
+        " errors.", "",
         "Numbers that nobody has chosen are not here: those of published formulas, standards and"
-        " fits, and numbers of kinds; in the source they are marked `Given`. Bare may stand 0, 1, 2,"
+        " fits, and numbers of kinds; in the source they are marked `Given`. Bare may stand"
+        " 0, 1, 2,"
         " 3, 4, 0.5 and 0.25, subscripts, bounds and lengths; a test refuses all others"
         " (`tools/constants.py`, which states the rule).", "",
         f"What happens at half and at double: {count} were measured by `tools/sensitivity.py`, the"
         " others were not. Told is the largest relative change of penetration, pmax and area on the"
-        " 20 contacts of the reference (contacts), of a force by any method over mu N on 441 contacts"
+        " 20 contacts of the reference (contacts), of a force by any method over mu N on 441"
+        " contacts"
         " (forces), of 80 random gaps, of estimated errors there over the larger of both, and of"
-        " the answers of kalker_normal and kalker_tangential (kalker); of mean errors against CONTACT"
+        " the answers of kalker_normal and kalker_tangential (kalker); of mean errors against"
+        " CONTACT"
         " those that change by a twentieth, and so of iterations of the random gaps, where counted."
         " *nothing*: no change above 0.001 %. Random gaps that are near to two answers change much:"
         " one of them is enough.",
@@ -336,7 +343,8 @@ def page(constants, measured):
         for constant in constants:
             if constant.short.split("/")[0] != room:
                 continue
-            value = re.sub(r"_(?:wp|int64)\b", "", " ".join(constant.value.replace("&", " ").split()))
+            value = " ".join(constant.value.replace("&", " ").split())
+            value = re.sub(r"_(?:wp|int64)\b", "", value)
             value = value if len(value) <= 60 else value[:57] + "..."
             row = rows[constant.key]
             cells = [f"`{constant.name}`", cell(constant.short), f"`{value}`", cell(constant.unit),

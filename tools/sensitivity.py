@@ -21,8 +21,8 @@ both, the largest change of kalker_normal's and kalker_tangential's answers, and
 the random gaps over those without the change, a measure of time that does not depend on what else
 the machine does.
 
-What was measured for the same code, comments apart, is kept in build/sensitivity and not measured again; --minutes
-ends the run in time, and the numbers left over are not in the file. The first rooms are those of
+What was measured for the same code, comments apart, is kept in build/sensitivity and not measured
+again; --minutes ends the run in time, and the numbers left over are not in the file. The first rooms are those of
 the strips and their forces.
 """
 
@@ -52,7 +52,8 @@ FIRST = ("normal/strip", "normal/certificate", "normal/lattice", "normal/sub_pat
          "normal/limitations", "tangential/faststrip")
 FACTORS = ("half", "double")
 COLUMNS = ("outcome", "change", "penetration_error", "pmax_error", "area_error", "force_error",
-           "force_change", "random_change", "random_status", "estimate_change", "kalker_change", "iterations")
+           "force_change", "random_change", "random_status", "estimate_change",
+           "kalker_change", "iterations")
 RUNS = {
     "accuracy": "bin/faststrip-lab bench accuracy -o {}",
     "forces": "bin/faststrip-lab bench forces -o {}",
