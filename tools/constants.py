@@ -11,9 +11,9 @@ default of a component, and carries a tag in the comment above it or beside it:
 
 The words before `Tuned` and those between `]:` and `Origin:` say what it is; what stands beside a
 name does too. A tag holds for one declaration. Numbers that nobody has chosen carry `Given: why`
-instead of it: coefficients of a published formula, dimensions of a standard, numbers of kinds. Above
-integers, as numbers of kinds are, it holds for all declarations without a comment between them.
-Files of tables are in GIVEN_FILES.
+instead of it: coefficients of a published formula, dimensions of a standard, numbers of kinds.
+Above integers, as numbers of kinds are, it holds for all declarations without a comment between
+them. Files of tables are in GIVEN_FILES.
 
 What may stand bare in the code, and in the value of a constant made from others:
 

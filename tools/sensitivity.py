@@ -22,8 +22,8 @@ the random gaps over those without the change, a measure of time that does not d
 the machine does.
 
 What was measured for the same code, comments apart, is kept in build/sensitivity and not measured
-again; --minutes ends the run in time, and the numbers left over are not in the file. The first rooms are those of
-the strips and their forces.
+again; --minutes ends the run in time, and the numbers left over are not in the file. The first
+rooms are those of the strips and their forces.
 """
 
 import argparse
