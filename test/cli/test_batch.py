@@ -45,7 +45,11 @@ class Batch(ProgramTest):
     def test_against_contact(self):
         rows, results = self.batch_of_gaps()
         self.assertEqual([row["case"] for row in results], [row["yw_mm"] for row in rows])
-        self.assertEqual({row["status"] for row in results}, {"ok"})
+        # With 15 strips the estimate of one contact, at the rail's kink, is above the limit.
+        for row in results:
+            self.assertEqual(row["status"], "under_resolved" if float(row["est_err_pmax"]) > 0.1
+                             else "ok", row["case"])
+        self.assertGreaterEqual([row["status"] for row in results].count("ok"), len(results) - 1)
         self.assertEqual(list(results[0]), BATCH_COLUMNS.split(",") + RESULT_COLUMNS)
 
         def errors(name, wanted, scale):

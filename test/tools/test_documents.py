@@ -37,7 +37,7 @@ CONSTANTS = (
     ("certificate.f90", "area_middle", "3.5", "t + 3.5\\, \\mathrm{mean} \\lvert m"),
     ("limitations.f90", "default_resolution", "0.1", "(10 % unless told otherwise)"),
     ("limitations.f90", "doubtful_slope", "0.2", "slopes above 0.2"),
-    ("faststrip.f90", "gamma_length", "0.375", "$\\gamma = 3/8$"),
+    ("patch_law.f90", "gamma_length", "0.375", "$\\gamma = 3/8$"),
 )
 
 

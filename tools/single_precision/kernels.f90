@@ -15,7 +15,7 @@ program kernels
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_tangential_faststrip, only: faststrip_solve
+    use faststrip_tangential_faststrip, only: faststrip_tangential_solve
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_normal_types, only: normal_result_t
     implicit none
@@ -104,7 +104,7 @@ contains
                     call put(case, 'strips', 'A/B', ratio, 'load_N', load, 'area', &
                              result%area, status)
                     if (is_error(status)) cycle
-                    call faststrip_solve(strips, material_t(), 0.25_wp, &
+                    call faststrip_tangential_solve(strips, material_t(), 0.25_wp, &
                                          creepage_t(scale(1.0_wp, -10), scale(1.0_wp, -11), &
                                                     0.0_wp), 15, forces, status)
                     call put(case, 'faststrip', 'A/B', ratio, 'load_N', load, 'Fx', &
