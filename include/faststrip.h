@@ -123,7 +123,7 @@ typedef struct faststrip_result {
     double fx;             /* longitudinal force on the rail, N */
     double fy;             /* lateral force on the rail, N */
     double mz;             /* moment on the rail about the reference point, N mm */
-    double friction_power; /* heat over rolling speed, N */
+    double friction_power; /* frictional work per distance rolled (T gamma), N */
     double stick_fraction; /* share of the area in adhesion */
     int n_patches;
     int n_strips;

@@ -10,7 +10,7 @@ module faststrip_command_result_csv
     implicit none
     private
 
-    public :: result_columns, put_result, put_strips, put_field, put_smoothing
+    public :: result_columns, put_result, put_strips, put_field, put_notes
 
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(23) = [character(len=19) :: &
@@ -82,15 +82,18 @@ contains
         end subroutine put_known
     end subroutine put_result
 
-    !> The comment line that says that gaps are smoothed, if they are.
-    subroutine put_smoothing(writer, smoothing_um)
+    !> The comment lines on columns: what the friction power is, and that gaps are smoothed, if
+    !> they are.
+    subroutine put_notes(writer, smoothing_um)
         type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
         real(wp), intent(in) :: smoothing_um        !! noise that was stated, um; 0: none
 
+        call put_comment(writer, 'friction_power_N is the frictional work per distance rolled, ' &
+                         // 'T gamma')
         if (smoothing_um <= 0.0_wp) return
         call put_comment(writer, 'gap smoothed for a noise of ' // trim(number_text(smoothing_um)) &
                          // ' um, rms; gap_change_um is by how much it changed, rms')
-    end subroutine put_smoothing
+    end subroutine put_notes
 
     !> The strips of a contact, one row a strip.
     subroutine put_strips(writer, case_name, strips, forces)

@@ -8,7 +8,7 @@ module faststrip_command_sweep_csv
                                          tangential_method_name
     use faststrip_command_scene, only: scene_t
     use faststrip_command_solver, only: outcome_t
-    use faststrip_command_result_csv, only: result_columns, put_result, put_smoothing
+    use faststrip_command_result_csv, only: result_columns, put_result, put_notes
     implicit none
     private
 
@@ -32,7 +32,7 @@ contains
         else
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
         end if
-        call put_smoothing(writer, case%numerics%smoothing_um)
+        call put_notes(writer, case%numerics%smoothing_um)
         call put_header(writer, [scene_columns, result_columns])
     end subroutine put_sweep_header
 

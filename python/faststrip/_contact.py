@@ -117,7 +117,7 @@ class Result:
     mz: float
     """moment about the reference point, N mm"""
     friction_power: float
-    """heat over rolling speed, N"""
+    """frictional work per distance rolled (T gamma), N"""
     stick_fraction: float
     n_patches: int
     n_strips: int

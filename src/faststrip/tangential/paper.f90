@@ -68,7 +68,7 @@ module faststrip_tangential_paper
         real(wp) :: a = 0.0_wp  !! semi-axis of the virtual ellipse (27), mm
         real(wp) :: b = 0.0_wp  !! semi-axis (26), mm
         integer :: points = 0   !! points along each strip
-        real(wp) :: power = 0.0_wp   !! heat over rolling speed, N
+        real(wp) :: power = 0.0_wp   !! frictional work per distance rolled, N
         real(wp) :: stuck = 0.0_wp   !! area in adhesion, mm^2
         real(wp) :: covered = 0.0_wp !! area, mm^2
     end type march_sum_t

@@ -26,7 +26,8 @@ module faststrip_tangential_types
         real(wp) :: fy = 0.0_wp !! lateral force, N
         real(wp) :: mz = 0.0_wp !! moment about the reference point, int(x py - y px), N mm
         real(wp) :: friction_power = 0.0_wp
-            !! heat over rolling speed, -int(p . s), s = slip over rolling speed, N; never negative
+            !! frictional work per distance rolled (T gamma), -int(p . s), s = slip over rolling
+            !! speed, N; never negative
         real(wp) :: stick_fraction = 0.0_wp !! share of the contact area in adhesion, 0 to 1
     end type tangential_result_t
 
@@ -51,7 +52,7 @@ module faststrip_tangential_types
         integer :: n = 0                           !! number of strips
         real(wp), allocatable :: fx(:)             !! longitudinal force, N
         real(wp), allocatable :: fy(:)             !! lateral force, N
-        real(wp), allocatable :: friction_power(:) !! heat over rolling speed, N
+        real(wp), allocatable :: friction_power(:) !! frictional work per distance, N
     end type strip_forces_t
 
 contains
