@@ -255,6 +255,12 @@ contains
         associate (cells => workspace%cells)
             most = min(cells%capacity, size(strips%p0), nint(cells_per_strip*wanted) + spare_cells)
             call first_ranges(cells, curve, depth)
+            if (cells%n_ranges == 0) then
+                ! So little beside the heights that no number lies between.
+                call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
+                                'penetration ' // trim(number_text(depth)) // ' mm')
+                return
+            end if
             cells%n = 0
             do lattice = 1, max_lattices
                 if (lattice == 1) then
