@@ -8,7 +8,8 @@ could be handed on as it is, but for what hosts of other languages need and what
 
 - Only public names are visible: what `use faststrip` gives, and the C and F77 faces. No host can
   come to depend on a procedure behind them, or clash with it. Local names do not reach across
-  files, so the archive is linked into one object first.
+  files, so what the public names need of the archive is linked into one object first. The rest,
+  words for the packages above, stays out, and with it variables of the compiler's.
 - F77's procedures have second names without underscore, for hosts that are compiled with
   -fno-underscoring, and for C.
 - The shared library has a soname, which changes when programs have to be linked anew, and a
@@ -81,12 +82,13 @@ def public_names(archive):
 
 
 def link_object(archive, names, aliases, target):
-    """One object of the whole archive, in which only the names and the second ones are visible."""
+    """One object of what the names need, in which only they and the second ones are visible."""
     listed = target.with_suffix(".names")
     listed.write_text("".join(f"{name}\n" for name in sorted(names | plain(aliases))),
                       encoding="utf-8")
+    needed = [word for name in sorted(names) for word in ("-u", name)]
     second = [f"--defsym={name[:-1]}={name}" for name in sorted(aliases)]
-    command("ld", "-r", *second, "--whole-archive", archive, "-o", target)
+    command("ld", "-r", *needed, *second, archive, "-o", target)
     command("objcopy", f"--keep-global-symbols={listed}", target)
 
 
