@@ -26,7 +26,7 @@ module faststrip_command_norm_stage
     ! Strips to start from where their number is left to the solver.
     integer, parameter :: start_strips = 15
 
-    !> The method with the capacity it needs.
+    !> The method with its workspace.
     type :: norm_stage_t
         type(norm_workspace_t) :: workspace          !! with the grid of the last contact
         type(workspace_t), private :: start          ! strips to start from
@@ -53,7 +53,7 @@ contains
     !> Solve the normal problem, from a coarser grid or from strips; if these fail, from the
     !> coarser grid.
     subroutine solve_by_norm(stage, numerics, contact, curve, normal, certificate, status)
-        type(norm_stage_t), intent(inout) :: stage   !! with capacity for the gap
+        type(norm_stage_t), intent(inout) :: stage   !! reserved for the gap
         type(numerics_t), intent(in) :: numerics     !! sides of the elements, what to start from
         type(contact_case_t), intent(in) :: contact  !! material, load or penetration
         type(gap_curve_t), intent(in) :: curve       !! its gap

@@ -1,4 +1,4 @@
-!> The normal problem of one contact by the core's methods: capacity for it, and how wrong it is.
+!> The normal problem of one contact by the core's methods: its workspace, and how wrong it is.
 module faststrip_command_normal_stage
     use faststrip_base_status, only: status_t, is_error, st_under_resolved
     use faststrip_base_material, only: normal_compliance

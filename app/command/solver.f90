@@ -30,7 +30,7 @@ module faststrip_command_solver
 
     public :: solver_t, release_solver, outcome_t, make_solver, solve
 
-    !> Methods with the capacity they need, used for one contact after the other.
+    !> Methods with their workspaces, used for one contact after the other.
     type :: solver_t
         type(numerics_t) :: numerics        !! what was asked for
         type(numerics_t) :: chosen          !! what the last contact was solved by
@@ -246,11 +246,11 @@ contains
         type(solver_t), intent(inout) :: solver
         type(status_t), intent(inout) :: status
 
-        type(status_t) :: capacity
+        type(status_t) :: reserved
 
         call reserve_field(solver%field, max(solver%workspace%strips%n &
                                              *solver%chosen%points_per_strip, &
-                                             size(solver%field%x)), capacity)
-        if (is_error(capacity)) status = capacity
+                                             size(solver%field%x)), reserved)
+        if (is_error(reserved)) status = reserved
     end subroutine grow_field
 end module faststrip_command_solver

@@ -20,7 +20,7 @@ module faststrip_command_tang_stage
     public :: tang_stage_t, release_tang_stage, solve_by_tang
 
 
-    !> The method with the capacity it needs.
+    !> The method with its workspace.
     type :: tang_stage_t
         type(tang_workspace_t), private :: workspace
         type(contact_grid_t), private :: grid ! pressures, unless they are NORM's

@@ -219,7 +219,7 @@ class _Workspace:
 
 
 class Contact:
-    """One wheel on one rail: methods, the capacity they need, the gap, the last solution.
+    """One wheel on one rail: methods, their workspace, the gap, the last solution.
 
     normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
     each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
@@ -258,7 +258,7 @@ class Contact:
         def make() -> Tuple[int, _Workspace]:
             return library.faststrip_new(*arguments), workspace
 
-        # Much capacity is a matter of seconds too.
+        # A large workspace is a matter of seconds too.
         elements = case.fastsim_nx * case.fastsim_ny if case.with_elements else 0
         long = case.strips_per_patch > 100 or elements > LONG_GRID or max_points > LONG_GAP
         status, _ = interruptible(make, self._abandon) if long else make()

@@ -55,7 +55,7 @@ module faststrip_lab_bench_normal
     integer, parameter :: fastsim_elements = 50
     real(wp), parameter :: mu = 0.3_wp
 
-    !> Two contacts that follow each other, and the capacity to solve them.
+    !> Two contacts that follow each other, and what solves them.
     type :: bench_t
         type(material_t) :: material
         type(bench_case_t), allocatable :: cases(:)

@@ -45,7 +45,7 @@ module faststrip_lab_bench_reference
 
     integer, parameter :: fewest_runs = 3, most_runs = 200
 
-    !> The contacts, and the capacity to solve them.
+    !> The contacts, and what solves them.
     type :: bench_t
         type(material_t) :: material
         type(bench_case_t), allocatable :: cases(:)

@@ -11,7 +11,7 @@ module faststrip_base_text
     character(len=1), parameter :: tab = achar(9)
 
     ! The first 20 significant digits of half-way between the largest double and the next one
-    ! that there is no capacity for, and the power of ten of its first digit.
+    ! that cannot be represented, and the power of ten of its first digit.
     character(len=*), parameter :: overflow_digits = '17976931348623158079'
     integer, parameter :: overflow_exponent = 308, underflow_exponent = -330
 

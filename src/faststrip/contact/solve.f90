@@ -1,6 +1,6 @@
 !> One contact from gap to forces: the call an embedding program makes.
 !>
-!> A workspace, one per thread, is given capacity once; after that nothing is allocated, and every
+!> A workspace, one per thread, is reserved once; after that nothing is allocated, and every
 !> call leaves the host's floating-point flags, traps and rounding as they were. The workspace
 !> remembers the gap and, for warm starts, the last solution; copying it (by assignment) saves both,
 !> for steps that are taken back.
@@ -79,7 +79,7 @@ module faststrip_contact_solve
     !> Everything a solution needs beside the case; owned by the caller, one per thread.
     type :: workspace_t
         type(strip_workspace_t) :: solver
-            !! the gap (`solver%curve`) and the strip solver's capacity
+            !! the gap (`solver%curve`) and the strip solver's workspace
         type(contact_strips_t) :: strips  !! of the last contact
         type(hertz_t) :: hertz            !! of the last contact, if by Hertz
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
