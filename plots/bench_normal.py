@@ -89,7 +89,8 @@ def draw_times(axes, runs, fastsim):
             if np.isfinite(slope):
                 middle = part[len(part) // 2]
                 up = start == "cold"
-                axes.annotate(f"∝ $N^{{{slope:.1f}}}$", (run["strips"][middle], run["us"][middle]),
+                axes.annotate(f"∝ $N^{{{slope:.1f}}}$",
+                              (run["strips"][middle], run["us"][middle]),
                               (-8.0, 8.0) if up else (8.0, -8.0), textcoords="offset points",
                               ha="right" if up else "left", va="bottom" if up else "top",
                               color=look.colour)

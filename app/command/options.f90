@@ -9,7 +9,8 @@ module faststrip_command_options
     private
 
     public :: command_t, option_t, argument_t
-    public :: command_argument, parse_command, given, option_text, option_number, &
+    public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
+        option_text, option_number, &
         option_integer, option_word, refuse_value
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
@@ -51,6 +52,19 @@ contains
         allocate (character(len=length) :: text)
         if (length > 0) call get_command_argument(i, text)
     end function command_argument
+
+    !> End the program with a usage error if the command line has a second word.
+    subroutine need_nothing_more()
+        if (command_argument_count() > 1) &
+            call usage_error('too many arguments: ' // command_argument(2), '')
+    end subroutine need_nothing_more
+
+    !> End the program with a usage error: its first word is neither a subcommand nor an option.
+    subroutine refuse_subcommand()
+        if (index(command_argument(1), '-') == 1) &
+            call usage_error('unknown option: ' // command_argument(1), '')
+        call usage_error('unknown subcommand: ' // command_argument(1), '')
+    end subroutine refuse_subcommand
 
     !> Read the command line from its second word on. Prints the help and ends the program if
     !> asked for it; ends it with a usage error for an unknown option, a missing value, a wrong

@@ -1,7 +1,7 @@
 !> The command line of faststrip.
 program faststrip_main
     use faststrip_command_console, only: say, usage_error, version_text
-    use faststrip_command_options, only: command_argument
+    use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
     use faststrip_command_integral, only: run_integral
     use faststrip_command_contact, only: run_contact
     use faststrip_command_batch, only: run_batch
@@ -23,17 +23,10 @@ program faststrip_main
         call need_nothing_more()
         call say(version_text())
     case default
-        if (index(command_argument(1), '-') == 1) &
-            call usage_error('unknown option: ' // command_argument(1), '')
-        call usage_error('unknown subcommand: ' // command_argument(1), '')
+        call refuse_subcommand()
     end select
 
 contains
-
-    subroutine need_nothing_more()
-        if (command_argument_count() > 1) &
-            call usage_error('too many arguments: ' // command_argument(2), '')
-    end subroutine need_nothing_more
 
     subroutine print_help()
         call say('usage: faststrip SUBCOMMAND [arguments] [options]')

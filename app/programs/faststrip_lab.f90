@@ -1,7 +1,7 @@
 !> The command line of the laboratory: what measures and tries faststrip inside its own checkout.
 program faststrip_lab
     use faststrip_command_console, only: say, usage_error, version_text, name_program
-    use faststrip_command_options, only: command_argument
+    use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
     use faststrip_lab_fuzz, only: run_fuzz
     use faststrip_lab_errata, only: run_errata
     use faststrip_lab_bench, only: run_bench
@@ -22,17 +22,10 @@ program faststrip_lab
         call need_nothing_more()
         call say(version_text())
     case default
-        if (index(command_argument(1), '-') == 1) &
-            call usage_error('unknown option: ' // command_argument(1), '')
-        call usage_error('unknown subcommand: ' // command_argument(1), '')
+        call refuse_subcommand()
     end select
 
 contains
-
-    subroutine need_nothing_more()
-        if (command_argument_count() > 1) &
-            call usage_error('too many arguments: ' // command_argument(2), '')
-    end subroutine need_nothing_more
 
     subroutine print_help()
         call say('usage: faststrip-lab SUBCOMMAND [arguments] [options]')

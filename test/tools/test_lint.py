@@ -15,7 +15,7 @@ GOOD = {
     "run": "#!/bin/sh\necho \"$1\"\n",
     "src/a.f90": "!> A module.\nmodule a\n    implicit none\n    private\n\n    public :: n\n\n"
                  "    integer, parameter :: n = 1\nend module a\n",
-    "test/a.pf": "x" * 120 + "\n",
+    "test/a.pf": "x" * 100 + "\n  @assert" + "x" * 111 + "\n",
     "a.md": "x" * 100 + "\n| " + "x" * 200 + " |\n[words](https://" + "x" * 100 + ")\n",
     "build/b.py": "import os, sys\t\n" + "x" * 200,
     "data.csv": "x" * 200 + "\t\n",
@@ -68,9 +68,11 @@ class Lint(unittest.TestCase):
 
     def test_columns(self):
         for name, most in (("a.py", 100), ("src/a.f90", 100), ("run", 100), ("x.sh", 100),
-                           ("a.md", 100), ("test/a.pf", 120)):
+                           ("a.md", 100), ("test/a.pf", 100)):
             self.found("columns", name, "\n" + (most + 1) * "x" + "\n",
                        f"{name}:2: {most + 1} columns, at most {most}")
+        self.found("columns", "test/a.pf", "  @assert" + "x" * 112 + "\n",
+                   "test/a.pf:1: 121 columns, at most 120")
         # Characters, not bytes.
         self.write("a.md", "ü" * 100 + "\n")
         self.assertEqual(self.lint("columns").returncode, 0)
