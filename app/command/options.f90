@@ -10,8 +10,7 @@ module faststrip_command_options
 
     public :: command_t, option_t, argument_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
-        option_text, option_number, &
-        option_integer, option_word, refuse_value
+        option_text, option_number, option_integer, option_word, refuse_value
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
