@@ -7,15 +7,10 @@ module faststrip_interop_c
                                            c_null_char, c_associated, c_f_pointer
     use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_ok, &
                                      st_bad_argument, st_workspace_too_small
-    use faststrip_base_material, only: material_t
-    use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_hertz, only: hertz_t
-    use faststrip_tangential_kalker, only: kalker_coefficients_t
-    use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: contact_case_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
+    use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, read_result, &
+                                      strip_count, read_strips, read_elements
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
@@ -191,35 +186,12 @@ contains
             call set_status(handle%status, st_bad_argument, 'the result is missing')
         code = handle%status%code
         if (is_error(handle%status)) return
-        call take_case(fields, handle%case)
-        call handle_solve(handle, fields%with_elements /= 0)
+        call fill_case(fields%choices, fields%numbers, handle%case)
+        handle%case%estimate = fields%estimate /= 0
+        handle%case%resolution_limit = fields%resolution_limit
+        call handle_solve(handle, wants_elements(fields%choices))
         code = handle%status%code
-        associate (normal => handle%result%normal, tangential => handle%result%tangential, &
-                   certificate => handle%result%certificate)
-            figures%load = normal%load
-            figures%penetration = normal%penetration
-            figures%area = normal%area
-            figures%pmax = normal%pmax
-            figures%y_min = normal%y_min
-            figures%y_max = normal%y_max
-            figures%x_max = normal%x_max
-            figures%fx = tangential%fx
-            figures%fy = tangential%fy
-            figures%mz = tangential%mz
-            figures%friction_power = tangential%friction_power
-            figures%stick_fraction = tangential%stick_fraction
-            figures%n_patches = normal%n_patches
-            figures%n_strips = merge(handle%workspace%strips%n, 0, normal%n_patches > 0)
-            figures%n_elements = handle%field%n
-            figures%iterations = normal%iterations
-            figures%is_estimated = merge(1, 0, handle%result%is_estimated)
-            figures%strips_across = normal%strips_across
-            figures%est_err_penetration = certificate%est_err_penetration
-            figures%est_err_pmax = certificate%est_err_pmax
-            figures%est_err_area = certificate%est_err_area
-            figures%residual_inside = certificate%residual_inside
-            figures%overlap_outside = certificate%overlap_outside
-        end associate
+        call read_result(handle, figures%figures, figures%counts, figures%errors)
         call write_result(figures, fields%size, result)
     end function faststrip_solve
 
@@ -240,18 +212,13 @@ contains
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        associate (strips => handle%workspace%strips)
-            count = merge(strips%n, 0, handle%workspace%solved_by > 0)
-            call check_capacity(handle, capacity, count, n, [y_left, y_right, half_length, p0, &
-                                                             patch])
-            code = handle%status%code
-            if (is_error(handle%status)) return
-            call put_numbers(strips%y_left(:count), y_left)
-            call put_numbers(strips%y_right(:count), y_right)
-            call put_numbers(strips%half_length(:count), half_length)
-            call put_numbers(strips%p0(:count), p0)
-            call put_integers(strips%patch(:count), patch)
-        end associate
+        count = strip_count(handle)
+        call check_capacity(handle, capacity, count, n, [y_left, y_right, half_length, p0, patch])
+        code = handle%status%code
+        if (is_error(handle%status)) return
+        call read_strips(handle, numbers_at(y_left, count), numbers_at(y_right, count), &
+                         numbers_at(half_length, count), numbers_at(p0, count), &
+                         integers_at(patch, count))
     end function faststrip_get_strips
 
     !> The elements of the last contact, if they were asked for.
@@ -275,21 +242,15 @@ contains
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        associate (field => handle%field)
-            count = field%n
-            call check_capacity(handle, capacity, count, n, [x, y, area, pn, px, py, sx, sy, state])
-            code = handle%status%code
-            if (is_error(handle%status) .or. count == 0) return
-            call put_numbers(field%x(:count), x)
-            call put_numbers(field%y(:count), y)
-            call put_numbers(field%area(:count), area)
-            call put_numbers(field%pn(:count), pn)
-            call put_numbers(field%px(:count), px)
-            call put_numbers(field%py(:count), py)
-            call put_numbers(field%sx(:count), sx)
-            call put_numbers(field%sy(:count), sy)
-            call put_integers(field%state(:count), state)
-        end associate
+        count = handle%field%n
+        call check_capacity(handle, capacity, count, n, [x, y, area, pn, px, py, sx, sy, state])
+        code = handle%status%code
+        if (is_error(handle%status) .or. count == 0) return
+        call read_elements(handle, numbers_at(x, count), numbers_at(y, count), &
+                           numbers_at(area, count), numbers_at(pn, count), &
+                           numbers_at(px, count), numbers_at(py, count), &
+                           numbers_at(sx, count), numbers_at(sy, count), &
+                           integers_at(state, count))
     end function faststrip_get_elements
 
     !> FASTSIM with the caller's ellipse and creepage coefficients.
@@ -304,15 +265,13 @@ contains
         integer(c_int), value :: nx, ny           !! points along a row, rows
         type(c_ptr), value :: forces              !! Fx, Fy, Mz on the rail, N, N, N mm, written
 
-        type(tangential_result_t) :: result
         type(status_t) :: status
 
         code = st_bad_argument
         if (.not. c_associated(forces)) return
-        call classic_fastsim(a, b, g, kalker_coefficients_t(c11, c22, c23, 0.0_c_double), &
-                             creepage_t(cksi, ceta, cphi), mu, load, nx, ny, result, status)
+        call classic_fastsim([a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load], nx, ny, &
+                             numbers_at(forces, 3), status)
         code = status%code
-        call put_numbers([result%fx, result%fy, result%mz], forces)
     end function faststrip_fastsim
 
     !> Hertz's ellipse of two curvatures.
@@ -324,15 +283,13 @@ contains
         real(c_double), value :: load              !! normal force, N
         type(c_ptr), value :: figures  !! a, b, penetration, pmax: mm, mm, mm, MPa, written
 
-        type(hertz_t) :: hertz
         type(status_t) :: status
 
         code = st_bad_argument
         if (.not. c_associated(figures)) return
-        call classic_hertz(material_t(e_wheel, e_rail, nu_wheel, nu_rail), inv2r_x, inv2r_y, load, &
-                           hertz, status)
+        call classic_hertz([e_wheel, e_rail, nu_wheel, nu_rail], inv2r_x, inv2r_y, load, &
+                           numbers_at(figures, 4), status)
         code = status%code
-        call put_numbers([hertz%a, hertz%b, hertz%penetration, hertz%pmax], figures)
     end function faststrip_hertz
 
     !> Kalker's creepage coefficients.
@@ -341,14 +298,12 @@ contains
         real(c_double), value :: nu       !! combined Poisson's ratio
         type(c_ptr), value :: coefficients !! c11, c22, c23, c33, written
 
-        type(kalker_coefficients_t) :: c
         type(status_t) :: status
 
         code = st_bad_argument
         if (.not. c_associated(coefficients)) return
-        call classic_kalker(a_over_b, nu, c, status)
+        call classic_kalker(a_over_b, nu, numbers_at(coefficients, 4), status)
         code = status%code
-        call put_numbers([c%c11, c%c22, c%c23, c%c33], coefficients)
     end function faststrip_kalker
 
     !> A workspace for a case; 0, and an error, if there cannot be one.
@@ -363,31 +318,9 @@ contains
         number = 0
         call read_case(case, fields, status)
         if (is_error(status)) return
-        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, number, status)
+        call new_handle(flat_methods(fields%choices), max_points, wants_elements(fields%choices), &
+                        number, status)
     end subroutine make_workspace
-
-    pure type(contact_methods_t) function methods_of(fields) result(methods)
-        type(c_case_t), intent(in) :: fields
-
-        methods = contact_methods_t(fields%normal, fields%tangential, fields%strips_per_patch, &
-                                    fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
-    end function methods_of
-
-    pure subroutine take_case(fields, case)
-        type(c_case_t), intent(in) :: fields
-        type(contact_case_t), intent(inout) :: case
-
-        case%material = material_t(fields%e_wheel, fields%e_rail, fields%nu_wheel, fields%nu_rail)
-        case%mu = fields%mu
-        case%by_load = fields%by_load /= 0
-        case%load = fields%load
-        case%penetration = fields%penetration
-        case%creepage = creepage_t(fields%cksi, fields%ceta, fields%cphi)
-        case%methods = methods_of(fields)
-        case%warm_start = fields%warm_start /= 0
-        case%estimate = fields%estimate /= 0
-        case%resolution_limit = fields%resolution_limit
-    end subroutine take_case
 
     !> Tell how many there are, and refuse arrays that are missing or too short.
     subroutine check_capacity(handle, capacity, count, n, arrays)
@@ -418,25 +351,23 @@ contains
         end do
     end subroutine check_capacity
 
-    subroutine put_numbers(values, address)
-        real(c_double), intent(in) :: values(:)
+    !> The caller's numbers at an address.
+    function numbers_at(address, n) result(numbers)
         type(c_ptr), intent(in) :: address
+        integer, intent(in) :: n
+        real(c_double), pointer :: numbers(:)
 
-        real(c_double), pointer :: array(:)
+        call c_f_pointer(address, numbers, [n])
+    end function numbers_at
 
-        call c_f_pointer(address, array, [size(values)])
-        array = values
-    end subroutine put_numbers
-
-    subroutine put_integers(values, address)
-        integer, intent(in) :: values(:)
+    !> The caller's integers at an address.
+    function integers_at(address, n) result(integers)
         type(c_ptr), intent(in) :: address
+        integer, intent(in) :: n
+        integer(c_int), pointer :: integers(:)
 
-        integer(c_int), pointer :: array(:)
-
-        call c_f_pointer(address, array, [size(values)])
-        array = values
-    end subroutine put_integers
+        call c_f_pointer(address, integers, [n])
+    end function integers_at
 
     !> Write words and the closing zero; what does not fit is cut.
     integer(c_int) function put_text(words, address, length) result(code)

@@ -11,32 +11,29 @@ module faststrip_interop_c_structs
                                            c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
     use faststrip_contact_solve, only: contact_case_t
+    use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
+                                      flat_default
     implicit none
     private
 
     public :: c_case_t, c_result_t, releases
     public :: write_default_case, read_case, write_result
 
-    !> `faststrip_case` of the header.
+    !> `faststrip_case` of the header; members of one type that follow each other are one row.
     type, bind(c) :: c_case_t
         integer(c_size_t) :: size
-        integer(c_int) :: normal, tangential, strips_per_patch, points_per_strip
-        integer(c_int) :: fastsim_nx, fastsim_ny, by_load, warm_start, with_elements
-        real(c_double) :: e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration
-        real(c_double) :: cksi, ceta, cphi
+        integer(c_int) :: choices(n_choices) !! `normal` to `with_elements`
+        real(c_double) :: numbers(n_numbers) !! `e_wheel` to `cphi`
         integer(c_int) :: estimate
         real(c_double) :: resolution_limit
     end type c_case_t
 
-    !> `faststrip_result` of the header.
+    !> `faststrip_result` of the header, likewise.
     type, bind(c) :: c_result_t
         integer(c_size_t) :: size
-        real(c_double) :: load, penetration, area, pmax, y_min, y_max, x_max
-        real(c_double) :: fx, fy, mz, friction_power, stick_fraction
-        integer(c_int) :: n_patches, n_strips, n_elements, iterations
-        integer(c_int) :: is_estimated, strips_across
-        real(c_double) :: est_err_penetration, est_err_pmax, est_err_area
-        real(c_double) :: residual_inside, overlap_outside
+        real(c_double) :: figures(n_figures) !! `load` to `stick_fraction`
+        integer(c_int) :: counts(n_counts)   !! `n_patches` to `strips_across`
+        real(c_double) :: errors(n_errors)   !! `est_err_penetration` to `overlap_outside`
     end type c_result_t
 
     !> Bytes of case and result in every release that changed them, rising.
@@ -133,25 +130,7 @@ contains
         type(contact_case_t) :: defaults
 
         fields%size = releases(1, size(releases, 2))
-        fields%normal = defaults%methods%normal
-        fields%tangential = defaults%methods%tangential
-        fields%strips_per_patch = defaults%methods%strips_per_patch
-        fields%points_per_strip = defaults%methods%points_per_strip
-        fields%fastsim_nx = defaults%methods%fastsim_nx
-        fields%fastsim_ny = defaults%methods%fastsim_ny
-        fields%by_load = merge(1, 0, defaults%by_load)
-        fields%warm_start = merge(1, 0, defaults%warm_start)
-        fields%with_elements = 0
-        fields%e_wheel = defaults%material%e_wheel
-        fields%e_rail = defaults%material%e_rail
-        fields%nu_wheel = defaults%material%nu_wheel
-        fields%nu_rail = defaults%material%nu_rail
-        fields%mu = defaults%mu
-        fields%load = defaults%load
-        fields%penetration = defaults%penetration
-        fields%cksi = defaults%creepage%cksi
-        fields%ceta = defaults%creepage%ceta
-        fields%cphi = defaults%creepage%cphi
+        call flat_default(fields%choices, fields%numbers)
         fields%estimate = merge(1, 0, defaults%estimate)
         fields%resolution_limit = defaults%resolution_limit
     end function default_case

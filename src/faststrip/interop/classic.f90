@@ -10,6 +10,7 @@ module faststrip_interop_classic
     use faststrip_tangential_fastsim, only: fastsim_coefficients_solve
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_interop_flat, only: flat_material
     implicit none
     private
 
@@ -18,52 +19,63 @@ module faststrip_interop_classic
 contains
 
     !> FASTSIM with the caller's ellipse and creepage coefficients.
-    subroutine classic_fastsim(a, b, g, c, creepage, mu, load, nx, ny, result, status)
-        real(wp), intent(in) :: a, b                 !! semi-axes along x and y, mm
-        real(wp), intent(in) :: g                    !! combined shear modulus, MPa
-        type(kalker_coefficients_t), intent(in) :: c !! c11, c22, c23
-        type(creepage_t), intent(in) :: creepage     !! rail relative to wheel
-        real(wp), intent(in) :: mu                   !! coefficient of friction
-        real(wp), intent(in) :: load                 !! normal force, N
-        integer, intent(in) :: nx, ny                !! points along a row, rows
-        type(tangential_result_t), intent(out) :: result !! forces on the rail
-        type(status_t), intent(out) :: status        !! those of `fastsim_coefficients_solve`
+    subroutine classic_fastsim(numbers, nx, ny, forces, status)
+        real(wp), intent(in) :: numbers(11)
+            !! semi-axes along x and y, mm; combined shear modulus, MPa; c11, c22, c23; creepages,
+            !! -, -, rad/mm; coefficient of friction; normal force, N
+        integer, intent(in) :: nx, ny          !! points along a row, rows
+        real(wp), intent(inout) :: forces(3)   !! Fx, Fy, Mz on the rail, N, N, N mm
+        type(status_t), intent(out) :: status  !! those of `fastsim_coefficients_solve`
 
         type(environment_t) :: environment
+        type(tangential_result_t) :: result
 
         call hold_environment(environment)
-        call fastsim_coefficients_solve(a, b, load, g, c, mu, creepage, nx, ny, result, status)
+        associate (a => numbers(1), b => numbers(2), g => numbers(3), mu => numbers(10), &
+                   load => numbers(11))
+            call fastsim_coefficients_solve(a, b, load, g, kalker_coefficients_t(numbers(4), &
+                                            numbers(5), numbers(6), 0.0_wp), mu, &
+                                            creepage_t(numbers(7), numbers(8), numbers(9)), nx, &
+                                            ny, result, status)
+        end associate
+        forces = [result%fx, result%fy, result%mz]
         call restore_environment(environment)
     end subroutine classic_fastsim
 
     !> Hertz's ellipse of two curvatures.
-    subroutine classic_hertz(material, inv2r_x, inv2r_y, load, hertz, status)
-        type(material_t), intent(in) :: material  !! moduli in MPa
+    subroutine classic_hertz(numbers, inv2r_x, inv2r_y, load, figures, status)
+        real(wp), intent(in) :: numbers(4)        !! moduli, MPa, and Poisson's ratios
         real(wp), intent(in) :: inv2r_x, inv2r_y  !! gap per x^2 and per y^2, 1/mm
         real(wp), intent(in) :: load              !! normal force, N
-        type(hertz_t), intent(out) :: hertz       !! the contact
+        real(wp), intent(inout) :: figures(4)     !! a, b, penetration, pmax: mm, mm, mm, MPa
         type(status_t), intent(out) :: status     !! those of `check_material`, `hertz_solve`
 
         type(environment_t) :: environment
+        type(material_t) :: material
+        type(hertz_t) :: hertz
 
         call hold_environment(environment)
+        material = flat_material(numbers)
         call check_material(material, status)
         if (.not. is_error(status)) call hertz_solve(normal_compliance(material), inv2r_x, &
                                                      inv2r_y, load, hertz, status)
+        figures = [hertz%a, hertz%b, hertz%penetration, hertz%pmax]
         call restore_environment(environment)
     end subroutine classic_hertz
 
     !> Kalker's coefficients of an ellipse.
-    subroutine classic_kalker(a_over_b, nu, c, status)
-        real(wp), intent(in) :: a_over_b              !! semi-axis along x over that along y
-        real(wp), intent(in) :: nu                    !! combined Poisson's ratio
-        type(kalker_coefficients_t), intent(out) :: c !! zero when there is an error
-        type(status_t), intent(out) :: status         !! those of `kalker_coefficients`
+    subroutine classic_kalker(a_over_b, nu, coefficients, status)
+        real(wp), intent(in) :: a_over_b           !! semi-axis along x over that along y
+        real(wp), intent(in) :: nu                 !! combined Poisson's ratio
+        real(wp), intent(inout) :: coefficients(4) !! c11, c22, c23, c33; zero after an error
+        type(status_t), intent(out) :: status      !! those of `kalker_coefficients`
 
         type(environment_t) :: environment
+        type(kalker_coefficients_t) :: c
 
         call hold_environment(environment)
         call kalker_coefficients(a_over_b, nu, c, status)
+        coefficients = [c%c11, c%c22, c%c23, c%c33]
         call restore_environment(environment)
     end subroutine classic_kalker
 end module faststrip_interop_classic

@@ -39,16 +39,12 @@ module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
     use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
                                      st_workspace_too_small
-    use faststrip_base_material, only: material_t
-    use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_hertz, only: hertz_t
-    use faststrip_tangential_kalker, only: kalker_coefficients_t
-    use faststrip_tangential_types, only: tangential_result_t
     use faststrip_normal_limitations, only: check_resolution
-    use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: contact_case_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
+    use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
+                                      flat_default, flat_methods, wants_elements, fill_case, &
+                                      read_result, strip_count, read_strips, read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     implicit none
     private
@@ -56,7 +52,10 @@ module faststrip_interop_f77
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fscopy, fsfree, fsmsg, fslast
 
-    integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14, n_err = 7
+    ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
+    ! whether it is known and the strips across.
+    integer, parameter :: n_iopt = n_choices, n_par = n_numbers - 1
+    integer, parameter :: n_res = n_figures + 2, n_err = n_errors + 2
 
     ! A workspace array: two marks around the handle.
     integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
@@ -78,14 +77,14 @@ contains
         real(c_double), intent(out) :: fx, fy, mz      !! on the rail, N, N, N mm
         integer(c_int), intent(out) :: info            !! status
 
-        type(tangential_result_t) :: result
         type(status_t) :: status
+        real(c_double) :: forces(3)
 
-        call classic_fastsim(a, b, g, kalker_coefficients_t(c11, c22, c23, 0.0_c_double), &
-                             creepage_t(cksi, ceta, cphi), mu, load, nx, ny, result, status)
-        fx = result%fx
-        fy = result%fy
-        mz = result%mz
+        call classic_fastsim([a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load], nx, ny, forces, &
+                             status)
+        fx = forces(1)
+        fy = forces(2)
+        mz = forces(3)
         info = status%code
     end subroutine fstsim
 
@@ -98,11 +97,9 @@ contains
         real(c_double), intent(out) :: c(4)    !! C11, C22, C23, C33
         integer(c_int), intent(out) :: info    !! status
 
-        type(kalker_coefficients_t) :: coefficients
         type(status_t) :: status
 
-        call classic_kalker(a_over_b, nu, coefficients, status)
-        c = [coefficients%c11, coefficients%c22, coefficients%c23, coefficients%c33]
+        call classic_kalker(a_over_b, nu, c, status)
         info = status%code
     end subroutine fskalk
 
@@ -118,15 +115,14 @@ contains
         real(c_double), intent(out) :: pmax              !! MPa
         integer(c_int), intent(out) :: info              !! status
 
-        type(hertz_t) :: hertz
         type(status_t) :: status
+        real(c_double) :: figures(4)
 
-        call classic_hertz(material_t(par(1), par(2), par(3), par(4)), inv2r_x, inv2r_y, load, &
-                           hertz, status)
-        a = hertz%a
-        b = hertz%b
-        penetration = hertz%penetration
-        pmax = hertz%pmax
+        call classic_hertz(par, inv2r_x, inv2r_y, load, figures, status)
+        a = figures(1)
+        b = figures(2)
+        penetration = figures(3)
+        pmax = figures(4)
         info = status%code
     end subroutine fsherz
 
@@ -137,16 +133,10 @@ contains
         integer(c_int), intent(out) :: iopt(n_iopt) !! choices
         real(c_double), intent(out) :: par(n_par)   !! numbers
 
-        type(contact_case_t) :: case
+        real(c_double) :: numbers(n_numbers)
 
-        associate (methods => case%methods)
-            iopt = [methods%normal, methods%tangential, methods%strips_per_patch, &
-                    methods%points_per_strip, methods%fastsim_nx, methods%fastsim_ny, 1, 0, 0]
-        end associate
-        par(:4) = [case%material%e_wheel, case%material%e_rail, case%material%nu_wheel, &
-                   case%material%nu_rail]
-        par(5) = case%mu
-        par(6:) = 0.0_c_double
+        call flat_default(iopt, numbers)
+        par = [numbers(:6), numbers(8:)]
     end subroutine fsdflt
 
     !> CALL FSINIT(IOPT, MPTS, IWORK, LIWORK, INFO)
@@ -173,7 +163,7 @@ contains
             return
         end if
         iwork(:n_iwork) = 0
-        call new_handle(methods_of(iopt), max_points, iopt(9) /= 0, number, status)
+        call new_handle(flat_methods(iopt), max_points, wants_elements(iopt), number, status)
         info = status%code
         if (is_error(status)) return
         iwork(1) = first_mark
@@ -214,30 +204,18 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
+        real(c_double) :: figures(n_figures), errors(n_errors)
+        integer(c_int) :: counts(n_counts)
 
         res = 0.0_c_double
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        associate (case => handle%case)
-            case%material = material_t(par(1), par(2), par(3), par(4))
-            case%mu = par(5)
-            case%by_load = iopt(7) /= 0
-            case%load = par(6)
-            case%penetration = par(6)
-            case%creepage = creepage_t(par(7), par(8), par(9))
-            case%methods = methods_of(iopt)
-            case%warm_start = iopt(8) /= 0
-        end associate
-        call handle_solve(handle, iopt(9) /= 0)
+        call fill_case(iopt, [par(:6), par(6:)], handle%case)
+        call handle_solve(handle, wants_elements(iopt))
         info = handle%status%code
         if (is_error(handle%status)) return
-        associate (normal => handle%result%normal, tangential => handle%result%tangential)
-            res = [normal%load, normal%penetration, normal%area, normal%pmax, normal%y_min, &
-                   normal%y_max, normal%x_max, tangential%fx, tangential%fy, tangential%mz, &
-                   tangential%friction_power, tangential%stick_fraction, &
-                   real(normal%n_patches, c_double), &
-                   real(handle%workspace%strips%n, c_double)]
-        end associate
+        call read_result(handle, figures, counts, errors)
+        res = [figures, real(counts(:2), c_double)]
     end subroutine fssolv
 
     !> CALL FSCONT(IWORK, N, Y, H, A, IOPT, PAR, RES, INFO)
@@ -276,19 +254,12 @@ contains
         n = 0
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        if (handle%workspace%solved_by == 0) return
-        associate (strips => handle%workspace%strips)
-            n = strips%n
-            if (capacity < n) then
-                info = st_workspace_too_small
-                return
-            end if
-            y_left(:n) = strips%y_left(:n)
-            y_right(:n) = strips%y_right(:n)
-            half_length(:n) = strips%half_length(:n)
-            p0(:n) = strips%p0(:n)
-            patch(:n) = strips%patch(:n)
-        end associate
+        n = strip_count(handle)
+        if (capacity < n) then
+            info = st_workspace_too_small
+            return
+        end if
+        call read_strips(handle, y_left(:n), y_right(:n), half_length(:n), p0(:n), patch(:n))
     end subroutine fsstrp
 
     !> CALL FSELEM(IWORK, M, N, X, Y, AREA, PN, PX, PY, SX, SY, ISTATE, INFO)
@@ -312,20 +283,11 @@ contains
         n = 0
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        associate (field => handle%field)
-            n = field%n
-            if (capacity < n) info = st_workspace_too_small
-            if (n == 0 .or. capacity < n) return
-            x(:n) = field%x(:n)
-            y(:n) = field%y(:n)
-            area(:n) = field%area(:n)
-            pn(:n) = field%pn(:n)
-            px(:n) = field%px(:n)
-            py(:n) = field%py(:n)
-            sx(:n) = field%sx(:n)
-            sy(:n) = field%sy(:n)
-            state(:n) = field%state(:n)
-        end associate
+        n = handle%field%n
+        if (capacity < n) info = st_workspace_too_small
+        if (n == 0 .or. capacity < n) return
+        call read_elements(handle, x(:n), y(:n), area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), &
+                           state(:n))
     end subroutine fselem
 
     !> CALL FSLIMT(IWORK, IEST, RLIM, INFO)
@@ -360,17 +322,14 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
+        real(c_double) :: figures(n_figures), errors(n_errors)
+        integer(c_int) :: counts(n_counts)
 
         err = 0.0_c_double
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        associate (certificate => handle%result%certificate)
-            err = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                   certificate%est_err_area, certificate%residual_inside, &
-                   certificate%overlap_outside, &
-                   merge(1.0_c_double, 0.0_c_double, handle%result%is_estimated), &
-                   real(handle%result%normal%strips_across, c_double)]
-        end associate
+        call read_result(handle, figures, counts, errors)
+        err = [errors, real(counts(5:), c_double)]
     end subroutine fserrs
 
     !> CALL FSCOPY(IFROM, ITO, INFO)
@@ -454,12 +413,6 @@ contains
         if (iwork(1) == first_mark .and. iwork(n_iwork) == last_mark) &
             number_of = transfer(iwork(2:n_iwork - 1), number_of)
     end function number_of
-
-    pure type(contact_methods_t) function methods_of(iopt) result(methods)
-        integer(c_int), intent(in) :: iopt(n_iopt)
-
-        methods = contact_methods_t(iopt(1), iopt(2), iopt(3), iopt(4), iopt(5), iopt(6))
-    end function methods_of
 
     subroutine put_text(words, text, length)
         character(len=*), intent(in) :: words
