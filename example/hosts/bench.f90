@@ -151,7 +151,7 @@ contains
             call system_clock(from)
             do k = 1, calls
                 cksi = 1.0e-3_wp + 1.0e-9_wp*k
-                call fastsim_coefficients_solve(a, b, load, g, c, 0.3_wp, &
+                call fastsim_coefficients_solve(hertz_t(a=a, b=b, load=load), g, c, 0.3_wp, &
                     creepage_t(cksi, 5.0e-4_wp, 1.0e-4_wp), n, n, forces, status)
                 total = total + forces%fx
             end do

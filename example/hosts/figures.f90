@@ -150,8 +150,8 @@ contains
             read (*, *) x, nx, ny
             c = kalker_coefficients_t(c11=x(4), c22=x(5), c23=x(6), c33=0.0_wp)
             creepage = creepage_t(cksi=x(7), ceta=x(8), cphi=x(9))
-            call fastsim_coefficients_solve(x(1), x(2), x(11), x(3), c, x(10), creepage, nx, ny, &
-                                            forces, status)
+            hertz = hertz_t(a=x(1), b=x(2), load=x(11))
+            call fastsim_coefficients_solve(hertz, x(3), c, x(10), creepage, nx, ny, forces, status)
             call put('fastsim_status', i, 0, real(status%code, wp))
             call put('fastsim_fx', i, 0, forces%fx)
             call put('fastsim_fy', i, 0, forces%fy)

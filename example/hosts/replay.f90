@@ -33,8 +33,9 @@ program replay
             call solve_contact(workspace, case, result, status)
             forces = result%tangential
         else
-            call fastsim_coefficients_solve(hertz%a, hertz%b, case%load, g, c, case%mu, &
-                                            case%creepage, 15, 15, forces, status)
+            hertz%load = case%load
+            call fastsim_coefficients_solve(hertz, g, c, case%mu, case%creepage, 15, 15, forces, &
+                                            status)
         end if
         rows(method) = rows(method) + 1
         if (any([forces%fx, forces%fy, forces%mz] /= f)) different(method) = different(method) + 1

@@ -36,6 +36,15 @@ module faststrip_lab_bench_rolling
         real(wp) :: total(3) = 0.0_wp, largest(3) = 0.0_wp, seconds = 0.0_wp
     end type group_t
 
+    !> One contact to compare with CONTACT.
+    type :: contact_t
+        character(len=:), allocatable :: group_name, name
+        integer :: edges = edges_sampled
+        real(wp) :: load = 0.0_wp, area = 0.0_wp  ! N, mm^2
+        type(creepage_t) :: creepage
+        real(wp) :: forces(3) = 0.0_wp            ! Fx, Fy, Mz of CONTACT, N, N, N mm
+    end type contact_t
+
 contains
 
     !> Solve everything, write the CSV and say the mean and the largest errors.
@@ -74,10 +83,13 @@ contains
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
         type(status_t) :: status
+        type(contact_t) :: contact
         integer :: i, k, points, side
 
         call read_bench_cases(folder, cases, status, signs)
         call fail_on_error(status)
+        contact%group_name = 'paper_' // signs
+        contact%edges = edges_of_norm
         points = 0
         do i = 1, size(cases)
             points = max(points, size(cases(i)%gap%y))
@@ -94,10 +106,13 @@ contains
                     call norm_solve(norm, normal_compliance(material_t()), cases(i)%load, &
                                     norm_options, normal, status)
                 call fail_on_error(status)
+                contact%name = cases(i)%name
+                contact%load = cases(i)%load
+                contact%area = cases(i)%truth%area
+                contact%creepage = cases(i)%creepage
+                contact%forces = cases(i)%forces
                 do k = 1, size(schemes)
-                    call compare('paper_' // signs, cases(i)%name, k, norm%grid, edges_of_norm, &
-                                 cases(i)%load, cases(i)%truth%area, cases(i)%creepage, &
-                                 cases(i)%forces, tang, groups(k), writer)
+                    call compare(contact, k, norm%grid, tang, groups(k), writer)
                 end do
             end do
             do k = 1, size(schemes)
@@ -120,8 +135,10 @@ contains
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
         type(status_t) :: status
+        type(contact_t) :: contact
         integer :: i, k, n, case_column
 
+        contact%group_name = 'hertz'
         call read_csv(folder // '/hertz_creep.csv', table, status)
         call fail_on_error(status)
         allocate (values(table%n_rows, size(names)), source=0.0_wp)
@@ -139,11 +156,14 @@ contains
                     call sample_ellipse(a, b, 0.0_wp, load, sides(n), sides(n), most_elements, &
                                         grid, status)
                     call fail_on_error(status)
+                    contact%name = cell_text(table, i, case_column) // ' a/b ' // &
+                                   trim(number_text(a/b))
+                    contact%load = load
+                    contact%area = pi*a*b
+                    contact%creepage = creepage_t(values(i, 4), values(i, 5), values(i, 6))
+                    contact%forces = values(i, 7:9)
                     do k = 1, size(schemes)
-                        call compare('hertz', cell_text(table, i, case_column) // ' a/b ' // &
-                                     trim(number_text(a/b)), k, grid, edges_sampled, load, &
-                                     pi*a*b, creepage_t(values(i, 4), values(i, 5), values(i, 6)), &
-                                     values(i, 7:9), tang, groups(k), writer)
+                        call compare(contact, k, grid, tang, groups(k), writer)
                     end do
                 end associate
             end do
@@ -155,13 +175,10 @@ contains
     end subroutine ellipses
 
     !> Solve one contact and write its row.
-    subroutine compare(group_name, name, k, grid, edges, load, area, creepage, forces, tang, &
-                       group, writer)
-        character(len=*), intent(in) :: group_name, name
-        integer, intent(in) :: k, edges
+    subroutine compare(contact, k, grid, tang, group, writer)
+        type(contact_t), intent(in) :: contact
+        integer, intent(in) :: k !! of the schemes
         type(contact_grid_t), intent(in) :: grid
-        real(wp), intent(in) :: load, area, forces(3)
-        type(creepage_t), intent(in) :: creepage
         type(tang_workspace_t), intent(inout) :: tang
         type(group_t), intent(inout) :: group
         type(csv_writer_t), intent(inout) :: writer
@@ -173,12 +190,12 @@ contains
         integer :: j
 
         options%scheme = schemes(k)
-        options%edges = edges
+        options%edges = contact%edges
         call cpu_time(before)
-        call tang_solve(tang, grid, material_t(), mu, creepage, options, result, status)
+        call tang_solve(tang, grid, material_t(), mu, contact%creepage, options, result, status)
         call cpu_time(after)
-        call put_cell(writer, group_name)
-        call put_cell(writer, name)
+        call put_cell(writer, contact%group_name)
+        call put_cell(writer, contact%name)
         call put_cell(writer, trim(scheme_names(k)))
         call put_cell(writer, grid%dx)
         call put_cell(writer, grid%dy)
@@ -190,8 +207,8 @@ contains
                 call put_cell(writer, '')
             end do
         else
-            errors = 100.0_wp*([result%fx, result%fy, result%mz] - forces) &
-                     /(mu*load*[1.0_wp, 1.0_wp, sqrt(area/pi)])
+            errors = 100.0_wp*([result%fx, result%fy, result%mz] - contact%forces) &
+                     /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%area/pi)])
             do j = 1, 3
                 call put_cell(writer, errors(j))
             end do

@@ -31,13 +31,11 @@ contains
         type(tangential_result_t) :: result
 
         call hold_environment(environment)
-        associate (a => numbers(1), b => numbers(2), g => numbers(3), mu => numbers(10), &
-                   load => numbers(11))
-            call fastsim_coefficients_solve(a, b, load, g, kalker_coefficients_t(numbers(4), &
-                                            numbers(5), numbers(6), 0.0_wp), mu, &
-                                            creepage_t(numbers(7), numbers(8), numbers(9)), nx, &
-                                            ny, result, status)
-        end associate
+        call fastsim_coefficients_solve(hertz_t(a=numbers(1), b=numbers(2), load=numbers(11)), &
+                                        numbers(3), kalker_coefficients_t(numbers(4), &
+                                        numbers(5), numbers(6), 0.0_wp), numbers(10), &
+                                        creepage_t(numbers(7), numbers(8), numbers(9)), nx, ny, &
+                                        result, status)
         forces = [result%fx, result%fy, result%mz]
         call restore_environment(environment)
     end subroutine classic_fastsim

@@ -105,19 +105,17 @@ contains
         if (is_error(status)) return
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
-        call add_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, c, &
+        call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
                          combined_shear_modulus(material), mu, creepage, nx, ny, chosen(variant), &
                          result, areas, field)
         result%stick_fraction = areas%stuck/areas%covered
     end subroutine fastsim_solve
 
-    !> Forces by FASTSIM on an ellipse about the reference point with creepage coefficients the
-    !> caller has, what vehicle codes keep in tables.
-    pure subroutine fastsim_coefficients_solve(a, b, load, g, c, mu, creepage, nx, ny, result, &
-                                               status, field)
-        real(wp), intent(in) :: a                    !! semi-axis along x, mm
-        real(wp), intent(in) :: b                    !! semi-axis along y, mm
-        real(wp), intent(in) :: load                 !! N, >= 0
+    !> Forces by FASTSIM on an ellipse with creepage coefficients the caller has, what vehicle codes
+    !> keep in tables.
+    pure subroutine fastsim_coefficients_solve(hertz, g, c, mu, creepage, nx, ny, result, status, &
+                                               field)
+        type(hertz_t), intent(in) :: hertz           !! `a`, `b`, `y` and `load` count
         real(wp), intent(in) :: g                    !! combined shear modulus, MPa
         type(kalker_coefficients_t), intent(in) :: c !! c11, c22, c23 > 0; c33 is not used
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -136,15 +134,17 @@ contains
 
         call check_input(mu, creepage, nx, ny, 1, status, field)
         if (is_error(status)) return
-        if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b) .and. ieee_is_finite(load) &
+        if (.not. (ieee_is_finite(hertz%a) .and. ieee_is_finite(hertz%b) &
+                   .and. ieee_is_finite(hertz%y) .and. ieee_is_finite(hertz%load) &
                    .and. ieee_is_finite(g) .and. ieee_is_finite(c%c11) &
                    .and. ieee_is_finite(c%c22) .and. ieee_is_finite(c%c23))) then
             call set_status(status, st_not_finite, 'ellipse, load, shear modulus or creepage ' // &
                             'coefficients are not finite')
-        else if (a <= 0.0_wp .or. b <= 0.0_wp .or. load < 0.0_wp) then
+        else if (hertz%a <= 0.0_wp .or. hertz%b <= 0.0_wp .or. hertz%load < 0.0_wp) then
             call set_status(status, st_bad_argument, 'no ellipse with a load: a ' // &
-                            trim(number_text(a)) // ' mm, b ' // trim(number_text(b)) // &
-                            ' mm, load ' // trim(number_text(load)) // ' N')
+                            trim(number_text(hertz%a)) // ' mm, b ' // &
+                            trim(number_text(hertz%b)) // ' mm, load ' // &
+                            trim(number_text(hertz%load)) // ' N')
         else if (g <= 0.0_wp) then
             call set_status(status, st_bad_material, 'shear modulus is not positive: ' // &
                             trim(number_text(g)) // ' MPa')
@@ -152,13 +152,13 @@ contains
             call set_status(status, st_bad_argument, 'creepage coefficients are not positive: ' // &
                             trim(number_text(c%c11)) // ', ' // trim(number_text(c%c22)) // &
                             ', ' // trim(number_text(c%c23)))
-        else if (max(a, b, g, load, c%c11, c%c22, c%c23) > largest .or. &
-                 min(a, b, g, c%c11, c%c22, c%c23) < 1.0_wp/largest) then
+        else if (max(hertz%a, hertz%b, abs(hertz%y), g, hertz%load, c%c11, c%c22, c%c23) > largest &
+                 .or. min(hertz%a, hertz%b, g, c%c11, c%c22, c%c23) < 1.0_wp/largest) then
             call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage' // &
                             ' coefficients beyond all proportion')
         else
-            call add_ellipse(a, b, 0.0_wp, load, c, g, mu, creepage, nx, ny, fastsim_variant_t(), &
-                             result, areas, field)
+            call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
+                             creepage, nx, ny, fastsim_variant_t(), result, areas, field)
             result%stick_fraction = areas%stuck/areas%covered
         end if
     end subroutine fastsim_coefficients_solve
@@ -204,8 +204,7 @@ contains
                 result = tangential_result_t()
                 return
             end if
-            call add_ellipse(ellipse%a, ellipse%b, ellipse%y, ellipse%load, c, &
-                             combined_shear_modulus(material), mu, creepage, nx, ny, &
+            call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, nx, ny, &
                              chosen(variant), result, areas, field)
         end do
         if (areas%covered > 0.0_wp) result%stick_fraction = areas%stuck/areas%covered
@@ -238,11 +237,8 @@ contains
     end function chosen
 
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(a, b, y0, load, c, g, mu, creepage, nx, ny, variant, result, &
-                                areas, field)
-        real(wp), intent(in) :: a, b                 !! semi-axes along x and y, mm
-        real(wp), intent(in) :: y0                   !! middle of the ellipse, mm
-        real(wp), intent(in) :: load                 !! N
+    pure subroutine add_ellipse(ellipse, c, g, mu, creepage, nx, ny, variant, result, areas, field)
+        type(patch_ellipse_t), intent(in) :: ellipse !! where it is and what it carries
         type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
         real(wp), intent(in) :: g                    !! combined shear modulus, MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction
@@ -253,14 +249,18 @@ contains
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
 
-        real(wp) :: l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound, size_squared, step
-        real(wp) :: cksi, slope_x, slope_y, px, py, sx, sy, cell, place, ahead_x, ahead_y
+        real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
+        real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
+        real(wp) :: ahead_x, ahead_y
         integer :: i, j, state
 
+        a = ellipse%a
+        b = ellipse%b
+        y0 = ellipse%y
         l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
         l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
         l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
-        pmax = 1.5_wp*load/(pi*a*b) ! Given: Hertz
+        pmax = 1.5_wp*ellipse%load/(pi*a*b) ! Given: Hertz
         width = 2.0_wp*b/ny
         ! Motion at the middle of the ellipse.
         cksi = creepage%cksi - y0*creepage%cphi
@@ -269,7 +269,7 @@ contains
             l2 = l1
             l3 = l1
         end if
-        peak_bound = mu*load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
+        peak_bound = mu*ellipse%load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
