@@ -1,5 +1,8 @@
 !> The influence integral in twice the usual precision: the judge where GSL has no more digits.
 !>
+!> Where a compiler has no reals of 30 digits (flang on x86-64) it is in the usual precision: the
+!> bound of its error says so, and so does `judge_name`.
+!>
 !> Each side of the field point X is an integral over tau (as in faststrip_tables_quadrature:
 !> no difference of near numbers), taken by the double-exponential rule `tau = a/(1 + exp(-pi sinh
 !> t))` with its step halved until nothing changes any more. The kernel is `2 atanh((cr - cl)/(s_r
@@ -9,20 +12,26 @@ module faststrip_lab_bench_exact_influence
     implicit none
     private
 
-    public :: exact_influence, qp
+    public :: exact_influence, judge_name, qp
 
-    integer, parameter :: qp = selected_real_kind(30)
+    integer, parameter :: quad = selected_real_kind(30)
+    !> The widest kind there is, of 30 digits or the usual one.
+    integer, parameter :: qp = merge(quad, wp, quad > 0)
+    !> What judges in tables.
+    character(len=*), parameter :: judge_name = trim(merge('quad  ', 'double', quad > 0))
 
     real(qp), parameter :: pi_q = acos(-1.0_qp)
     real(qp), parameter :: last_t = 4.75_qp       ! tau from 1e-78 a on
     real(qp), parameter :: first_step = 0.25_qp
     integer, parameter :: most_halvings = 8
     real(qp), parameter :: enough = 1.0e-21_qp    ! relative change by the last halving
+    ! What the sums round is not known to be less, relative.
+    real(wp), parameter :: rounding = merge(0.0_wp, 64*epsilon(1.0_wp), quad > 0)
 
 contains
 
     !> G(X, c_right) - G(X, c_left), edges and X as they are, and a bound of its relative error:
-    !> what the last halving changed.
+    !> what the last halving changed, or what the usual precision rounds.
     subroutine exact_influence(x, c_left, c_right, value, error)
         real(wp), intent(in) :: x        !! X, field point along the strip over the half-length
         real(qp), intent(in) :: c_left   !! left edge over the half-length, >= 0 or -c_right
@@ -43,7 +52,7 @@ contains
             sum_ = sum_ + nodes(x_q, c_left, c_right, 0.5_qp*step, step)
             step = 0.5_qp*step
             value = step*sum_
-            error = real(abs(value - former)/abs(value), wp)
+            error = max(real(abs(value - former)/abs(value), wp), rounding)
             if (error <= enough) exit
         end do
         if (c_left < 0) value = 2*value

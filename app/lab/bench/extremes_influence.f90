@@ -17,7 +17,7 @@ module faststrip_lab_bench_extremes_influence
     use faststrip_tables_polynomials, only: basis_chebyshev, polynomial_value
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_console, only: fail_on_error, progress
-    use faststrip_lab_bench_exact_influence, only: exact_influence, qp
+    use faststrip_lab_bench_exact_influence, only: exact_influence, judge_name, qp
     implicit none
     private
 
@@ -161,7 +161,7 @@ contains
             call exact_influence(0.0_wp, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &
                                  uncertainty)
             row = row_t(chapter=chapter, case='centre', x_name='b', x=b, y_name='n', &
-                        y=real(n, wp), quantity='rel_err', judge='quad')
+                        y=real(n, wp), quantity='rel_err', judge=judge_name)
             call clear_status(status)
             call put('closed', strip_influence(n, b))
             if (n <= table_last_distance) call put('column', column(n))
@@ -204,7 +204,7 @@ contains
             cr = (2*n + 1)*b
             do j = 1, size(places), merge(2, 1, quick)
                 row = row_t(chapter=chapter, x_name='b', x=b, y_name='X', y=places(j), &
-                            quantity='rel_err', judge='quad')
+                            quantity='rel_err', judge=judge_name)
                 write (row%case, '(a, i0)') 'n = ', n
                 call exact_influence(places(j), real(cl, qp), real(cr, qp), exact, uncertainty)
                 call clear_status(status)
@@ -252,7 +252,7 @@ contains
                 call exact_influence(x(i), (2*n(i) - 1)*real(b(i), qp), &
                                      (2*n(i) + 1)*real(b(i), qp), &
                                      exact, uncertainty)
-                row%method = 'quad'
+                row%method = judge_name
                 row%value = abs(real(exact/truth(i) - 1, wp)) + uncertainty
                 call put_row(writer, row)
                 row%method = 'closed'

@@ -16,6 +16,7 @@ module faststrip_lab_bench_integral
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_lsq
     use faststrip_influence_row, only: influence_column
+    use faststrip_lab_bench_exact_influence, only: qp
     use faststrip_lab_bench_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_console, only: fail_on_error, put_origin
     use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
@@ -23,8 +24,6 @@ module faststrip_lab_bench_integral
     private
 
     public :: bench_integral
-
-    integer, parameter :: qp = selected_real_kind(30)
 
     ! Scalar cases: every n with every b, each b a little different at each call.
     integer, parameter :: n_list(3) = [0, 1, 10]
@@ -236,7 +235,7 @@ contains
         seconds_since = real(now - start, wp)/real(rate, wp)
     end function seconds_since
 
-    !> Against 30-digit quadrature, for every eighth b.
+    !> Against quadrature in the widest precision there is, for every eighth b.
     real(wp) function largest_error(values, first, final, b)
         integer, intent(in) :: first, final
         real(wp), intent(in) :: values(first:final, n_arguments), b(n_arguments)
@@ -254,7 +253,7 @@ contains
     end function largest_error
 
     !> i_n(b) by the double-exponential rule, `u = 1/(1 + exp(-pi sinh t))`, of the kernel
-    !> `asinh(cr/u) - asinh(cl/u)` in a form that does not cancel, in twice the usual precision.
+    !> `asinh(cr/u) - asinh(cl/u)` in a form that does not cancel, in the widest precision there is.
     real(qp) function exact_influence(n, b) result(value)
         integer, intent(in) :: n
         real(wp), intent(in) :: b
