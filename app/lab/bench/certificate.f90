@@ -151,11 +151,11 @@ contains
                           + 0.37_wp*(l - 1)*hertz%b, k=1, ellipse_points)]
                 gap%h = b*gap%y**2
                 gap%inv2r = a
-                contact = contact_t(gap=gap, load=loads(l), name='hertz_' // integer_text(i) &
-                                    // '_' // integer_text(l))
+                contact = named('hertz_' // integer_text(i) // '_' // integer_text(l), loads(l))
+                contact%gap = gap
                 call solve_contact(study, contact)
                 call enter(study, contact, set_ellipses, &
-                           truth_t(figure=[hertz%penetration, hertz%pmax, hertz%area]))
+                           figures_alone([hertz%penetration, hertz%pmax, hertz%area]))
             end do
         end do
     end subroutine try_ellipses
@@ -209,17 +209,33 @@ contains
         call column_numbers(table, 'area_extrap_mm2', area, status)
         call fail_on_error(status)
         do i = 1, table%n_rows
-            contact = contact_t(load=load(i), name='shift_' // cell_text(table, i, 1))
+            contact = named('shift_' // cell_text(table, i, 1), load(i))
             call read_gap_file(folder // 'gaps/' // contact%name // '.csv', contact%gap, status)
             call fail_on_error(status)
             call solve_contact(study, contact)
             call find(study, norm, contact, truth, is_found)
             if (is_found) call enter(study, contact, set_gaps, truth)
-            truth = truth_t(figure=[penetration(i) - contact%h_lowest, pmax(i), area(i)])
+            truth = figures_alone([penetration(i) - contact%h_lowest, pmax(i), area(i)])
             call enter(study, contact, set_contact, truth)
         end do
         call release_norm(norm)
     end subroutine try_gaps
+
+    !> A contact of which all but name and load is as it is without being told.
+    type(contact_t) function named(name, load) result(contact)
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: load
+
+        contact%name = name
+        contact%load = load
+    end function named
+
+    !> A truth without doubts.
+    type(truth_t) function figures_alone(figure) result(truth)
+        real(wp), intent(in) :: figure(3)
+
+        truth%figure = figure
+    end function figures_alone
 
     !> So many of each family as there is a truth for, out of so many that are drawn.
     subroutine try_random(study)
@@ -240,8 +256,8 @@ contains
             f = findloc(random_families == all_families(random%family), .true., dim=1)
             if (f == 0) cycle
             if (found(f) >= per_family .or. size(random%gap%y) > most_random_points) cycle
-            contact = contact_t(gap=random%gap, load=random%load, &
-                                name='fuzz_' // integer_text(number))
+            contact = named('fuzz_' // integer_text(number), random%load)
+            contact%gap = random%gap
             call solve_contact(study, contact)
             if (.not. any(contact%is_smooth)) cycle
             call find(study, norm, contact, truth, is_found)
