@@ -41,7 +41,8 @@ contains
         m(3) = pi/n*m2
     end subroutine far_moments
 
-    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm.
+    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm; a loop
+    !> of its own as in faststrip_influence_offcentre_near.
     pure subroutine narrow_far_moments(n, u, x, cl, cr, m)
         integer, intent(in) :: n
         real(wp), intent(in) :: u(n)

@@ -4,8 +4,8 @@ module faststrip_influence_offcentre_near
     use faststrip_numerics_logarithm, only: log_1p
     use faststrip_influence_angle_rules, only: cosine, sine
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
-    use faststrip_influence_offcentre_rules, only: demand_t, least_near_rule, scalar_size, &
-                                                   scalar_start
+    use faststrip_influence_offcentre_rules, only: demand_t, interval, least_near_rule, &
+                                                   scalar_size, scalar_start
     implicit none
     private
 
@@ -19,13 +19,10 @@ contains
         type(demand_t), intent(in) :: demand
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: t_left, t_right, mid, half
+        real(wp) :: mid, half
         integer :: rule
 
-        t_left = asinh(-(1.0_wp + x)/c)
-        t_right = asinh((1.0_wp - x)/c)
-        mid = 0.5_wp*(t_right + t_left)
-        half = 0.5_wp*(t_right - t_left)
+        call interval(x, c, mid, half)
         rule = least_near_rule(half, demand)
         if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
             call narrow_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
@@ -69,7 +66,8 @@ contains
         m(3) = pi/n*half*m2
     end subroutine near_sums
 
-    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm.
+    !> The same for strips so narrow, for their distance, that the kernel needs no logarithm. With
+    !> one loop for both kernels a number takes 1.7 times as long.
     pure subroutine narrow_near_sums(n, cos_phi, sin_phi, x, cl, cr, c, mid, half, m)
         integer, intent(in) :: n
         real(wp), intent(in) :: cos_phi(n), sin_phi(n)
@@ -106,19 +104,16 @@ contains
         m(3) = pi/n*half*m2
     end subroutine narrow_near_sums
 
-    !> The same, trapezium rule in phi.
+    !> The part ln(c + s) of the kernel of an edge on the field point, trapezium rule in phi.
     pure subroutine smooth_near_moments(x, c, demand, m)
         real(wp), intent(in) :: x, c
         type(demand_t), intent(in) :: demand
         real(wp), intent(out) :: m(3)
 
-        real(wp) :: t_left, t_right, mid, half
+        real(wp) :: mid, half
         integer :: rule
 
-        t_left = asinh(-(1.0_wp + x)/c)
-        t_right = asinh((1.0_wp - x)/c)
-        mid = 0.5_wp*(t_right + t_left)
-        half = 0.5_wp*(t_right - t_left)
+        call interval(x, c, mid, half)
         ! The nearest singularities are twice as far as those of a kernel with two edges.
         rule = least_near_rule(0.5_wp*half, demand)
         call smooth_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &

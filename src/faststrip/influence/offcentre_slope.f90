@@ -4,8 +4,8 @@ module faststrip_influence_offcentre_slope
                                              ieee_positive_inf
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_angle_rules, only: cosine, sine
-    use faststrip_influence_offcentre_rules, only: for_value, least_far_rule, least_near_rule, &
-                                                   scalar_size, scalar_start
+    use faststrip_influence_offcentre_rules, only: for_value, interval, least_far_rule, &
+                                                   least_near_rule, scalar_size, scalar_start
     implicit none
     private
 
@@ -101,13 +101,10 @@ contains
     pure real(wp) function near_slope(x, c) result(slope)
         real(wp), intent(in) :: x, c
 
-        real(wp) :: t_left, t_right, mid, half, delta
+        real(wp) :: mid, half, delta
         integer :: rule, j
 
-        t_left = asinh(-(1.0_wp + x)/c)
-        t_right = asinh((1.0_wp - x)/c)
-        mid = 0.5_wp*(t_right + t_left)
-        half = 0.5_wp*(t_right - t_left)
+        call interval(x, c, mid, half)
         rule = least_near_rule(0.5_wp*half, for_value)
         slope = 0.0_wp
         do j = scalar_start(rule), scalar_start(rule) + scalar_size(rule) - 1
