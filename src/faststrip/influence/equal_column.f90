@@ -18,7 +18,7 @@ module faststrip_influence_equal_column
 
     ! Up to n = table_end: ln(2n + 1), (n - 1/2) ln((2n + 1)/(2n - 1)), (2n + 1)^2,
     ! (2n + 1)^2 - (2n + 1)(2n - 1) + ..., and for the far form the same of the reciprocals.
-        real(wp), parameter :: log_odd(table_end) = [(log(2.0_wp*k_ + 1.0_wp), k_=1, table_end)]
+    real(wp), parameter :: log_odd(table_end) = [(log(2.0_wp*k_ + 1.0_wp), k_=1, table_end)]
     real(wp), parameter :: left_log(table_end) = [((2*k_ - 1)*atanh(0.5_wp/k_), k_=1, table_end)]
     real(wp), parameter :: odd_square(0:table_end) = [((2.0_wp*k_ + 1.0_wp)**2, k_=0, table_end)]
     real(wp), parameter :: step_square(table_end) = [(4.0_wp*k_*(2*k_ + 1), k_=1, table_end)]
@@ -77,6 +77,9 @@ contains
 
     !> i_n(b) for n from `first` to `last`, (2n + 1) b <= c_near, by
     !> `c [A(c^2) - B(c^2) ln c]`; even and odd powers apart as in faststrip_influence_closed.
+    !>
+    !> Its divided differences stand in each of the four loops: from one procedure, of constant or
+    !> any degree, a column takes 1.25 to 1.45 times as long, for all points at once 1.8 times.
     pure subroutine near_column_short(first, last, b, values)
         integer, intent(in) :: first, last
         real(wp), intent(in) :: b
