@@ -58,7 +58,7 @@ contains
         call start_random(seed + own_series, number, random)
         case%number = number
         case%family = pick(random, size(field_family_names))
-        case%strips = 4 + pick(random, 37)
+        case%methods%strips_per_patch = 4 + pick(random, 37)
         case%load = log_uniform(random, 1.0e2_wp, 1.0e6_wp)
         call draw_base(random, case%family, case%load, base)
         call draw_points(random, case%family, base, case%gap)

@@ -5,7 +5,6 @@
 module faststrip_lab_fuzz_force_judges
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_types, only: tangential_result_t
@@ -13,7 +12,8 @@ module faststrip_lab_fuzz_force_judges
                                          tangential_fastsim_elliptic, &
                                          tangential_fastsim_weighted
     use faststrip_contact_solve, only: contact_case_t, workspace_t, solve_contact_tangential
-    use faststrip_lab_fuzz_gaps, only: random_t, start_random, log_uniform, chance
+    use faststrip_lab_fuzz_gaps, only: fuzz_case_t, random_t, start_random, log_uniform, &
+                                       chance
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_bound, &
                                          judge_moment, judge_power, judge_saturation, &
                                          judge_force_mirror, judge_force_sign
@@ -36,78 +36,62 @@ module faststrip_lab_fuzz_force_judges
     real(wp), parameter :: largest_creepage = 1.0e5_wp
     real(wp), parameter :: arm_factor = 1.25_wp      ! virtual ellipses are longer than their strips
 
+    !> What forces and creepages of a case are measured in.
+    type :: scales_t
+        real(wp) :: force = 0.0_wp    ! mu N, N
+        real(wp) :: moment = 0.0_wp   ! of mu p at the rim, N mm
+        real(wp) :: length = 0.0_wp   ! square root of the area, mm
+        real(wp) :: creepage = 0.0_wp ! at which linear forces reach mu N
+    end type scales_t
+
 contains
 
     !> Judge the forces on the strips of a workspace.
-    subroutine judge_forces(seed, number, fault, material, load, workspace, verdict)
-        integer, intent(in) :: seed, number            !! of the case
+    subroutine judge_forces(seed, case, fault, workspace, verdict)
+        integer, intent(in) :: seed                    !! of the series
+        type(fuzz_case_t), intent(in) :: case          !! number, moduli, load
         character(len=*), intent(in) :: fault          !! planted, or blank
-        type(material_t), intent(in) :: material
-        real(wp), intent(in) :: load                   !! N
         type(workspace_t), intent(inout) :: workspace  !! with a solution; as it was afterwards
         type(verdict_t), intent(inout) :: verdict
 
-        type(random_t) :: random
-        type(contact_case_t) :: case
+        type(scales_t) :: scales
+        type(contact_case_t) :: asked
         type(tangential_result_t) :: forces, other
         type(contact_strips_t) :: kept
-        real(wp) :: most, most_moment, unit, length, input
 
-        call start_random(seed, number, random)
-        associate (strips => workspace%strips)
-            length = sqrt(2.0_wp*sum(strips%half_length(:strips%n) &
-                                     *(strips%y_right(:strips%n) - strips%y_left(:strips%n))))
-            most_moment = mu*sum(0.5_wp*pi*strips%p0(:strips%n)*strips%half_length(:strips%n) &
-                                 *(strips%y_right(:strips%n) - strips%y_left(:strips%n)) &
-                                 *hypot(strips%half_length(:strips%n), &
-                                        max(abs(strips%y_left(:strips%n)), &
-                                            abs(strips%y_right(:strips%n)))))
-        end associate
-        most = mu*load
-        unit = most*(1.0_wp + material%nu_rail)/(material%e_rail*length**2)
-        case%material = material
-        case%mu = mu
-        case%methods%tangential = methods(1 + modulo(number/2, size(methods)))
-        case%methods%fastsim_nx = 20
-        case%methods%fastsim_ny = 20
-        case%creepage = creepage_t(draw(unit), draw(unit), draw(unit/length))
+        scales = scales_of(case, workspace%strips)
+        asked = case%contact_case_t
+        asked%mu = mu
+        asked%methods%tangential = methods(1 + modulo(case%number/2, size(methods)))
+        asked%methods%fastsim_nx = 20
+        asked%methods%fastsim_ny = 20
+        call draw_creepage(seed, case%number, scales, asked%creepage)
+        if (.not. found(asked, forces)) return
+        call judge_size(forces, scales, verdict)
+        call judge_dissipation(asked, forces, scales, verdict)
 
-        if (.not. found(case, forces)) return
-        call report_badness(verdict, judge_bound, hypot(forces%fx, forces%fy) &
-                            /(most*(1.0_wp + rounding)))
-        call report_badness(verdict, judge_moment, abs(forces%mz)/(arm_factor*most_moment))
-        associate (c => case%creepage)
-            input = -(forces%fx*c%cksi + forces%fy*c%ceta + forces%mz*c%cphi)
-            unit = max(most*(abs(c%cksi) + abs(c%ceta)) + most_moment*abs(c%cphi), &
-                       tiny(unit)/rounding)
-        end associate
-        call report_badness(verdict, judge_power, &
-                            max(-input, -forces%friction_power)/(rounding*unit))
-        if (case%methods%tangential == tangential_faststrip) &
-            call report_badness(verdict, judge_power, abs(input - forces%friction_power) &
-                                /(rounding*unit))
-
-        case%creepage = creepage_t(-case%creepage%cksi, -case%creepage%ceta, -case%creepage%cphi)
-        if (.not. found(case, other)) return
+        asked%creepage = creepage_t(-asked%creepage%cksi, -asked%creepage%ceta, &
+                                    -asked%creepage%cphi)
+        if (.not. found(asked, other)) return
         call report_badness(verdict, judge_force_sign, max( &
-            hypot(forces%fx + other%fx, forces%fy + other%fy)/most, &
-            abs(forces%mz + other%mz)/most_moment)/same)
+            hypot(forces%fx + other%fx, forces%fy + other%fy)/scales%force, &
+            abs(forces%mz + other%mz)/scales%moment)/same)
 
         ! Back to the first signs of ceta and cphi under y -> -y.
-        case%creepage%cksi = -case%creepage%cksi
+        asked%creepage%cksi = -asked%creepage%cksi
         kept = workspace%strips
         call mirror_strips(kept, workspace%strips)
-        if (found(case, other)) &
+        if (found(asked, other)) &
             call report_badness(verdict, judge_force_mirror, max( &
-                hypot(forces%fx - other%fx, forces%fy + other%fy)/most, &
-                abs(forces%mz + other%mz)/most_moment)/same)
+                hypot(forces%fx - other%fx, forces%fy + other%fy)/scales%force, &
+                abs(forces%mz + other%mz)/scales%moment)/same)
         workspace%strips = kept
 
-        unit = most*(1.0_wp + material%nu_rail)/(material%e_rail*length**2)
-        case%creepage = creepage_t(min(large*unit*slenderness(workspace%strips), &
-                                       largest_creepage), 0.0_wp, 0.0_wp)
-        if (.not. found(case, other)) return
-        call report_badness(verdict, judge_saturation, abs(other%fx + most)/(saturated*most))
+        asked%creepage = creepage_t(min(large*scales%creepage*slenderness(workspace%strips), &
+                                        largest_creepage), 0.0_wp, 0.0_wp)
+        if (.not. found(asked, other)) return
+        call report_badness(verdict, judge_saturation, &
+                            abs(other%fx + scales%force)/(saturated*scales%force))
 
     contains
 
@@ -123,8 +107,40 @@ contains
             if (.not. found) call report_badness(verdict, judge_answer, huge(1.0_wp))
             call plant_force_fault(fault, answer)
         end function found
+    end subroutine judge_forces
 
-        !> A creepage about its unit, or none.
+    !> The scales of a case on its strips.
+    pure type(scales_t) function scales_of(case, strips) result(scales)
+        class(contact_case_t), intent(in) :: case
+        type(contact_strips_t), intent(in) :: strips
+
+        associate (n => strips%n)
+            scales%length = sqrt(2.0_wp*sum(strips%half_length(:n) &
+                                            *(strips%y_right(:n) - strips%y_left(:n))))
+            scales%moment = mu*sum(0.5_wp*pi*strips%p0(:n)*strips%half_length(:n) &
+                                   *(strips%y_right(:n) - strips%y_left(:n)) &
+                                   *hypot(strips%half_length(:n), &
+                                          max(abs(strips%y_left(:n)), abs(strips%y_right(:n)))))
+        end associate
+        scales%force = mu*case%load
+        scales%creepage = scales%force*(1.0_wp + case%material%nu_rail) &
+                          /(case%material%e_rail*scales%length**2)
+    end function scales_of
+
+    !> Creepages about their scales, of either sign; a quarter of them vanish.
+    subroutine draw_creepage(seed, number, scales, creepage)
+        integer, intent(in) :: seed, number ! of the case
+        type(scales_t), intent(in) :: scales
+        type(creepage_t), intent(out) :: creepage
+
+        type(random_t) :: random
+
+        call start_random(seed, number, random)
+        creepage = creepage_t(draw(scales%creepage), draw(scales%creepage), &
+                              draw(scales%creepage/scales%length))
+
+    contains
+
         real(wp) function draw(about)
             real(wp), intent(in) :: about
 
@@ -132,7 +148,39 @@ contains
             if (chance(random, 0.5_wp)) draw = -draw
             if (chance(random, 0.25_wp)) draw = 0.0_wp
         end function draw
-    end subroutine judge_forces
+    end subroutine draw_creepage
+
+    !> At most mu N, and what that can turn.
+    pure subroutine judge_size(forces, scales, verdict)
+        type(tangential_result_t), intent(in) :: forces
+        type(scales_t), intent(in) :: scales
+        type(verdict_t), intent(inout) :: verdict
+
+        call report_badness(verdict, judge_bound, hypot(forces%fx, forces%fy) &
+                            /(scales%force*(1.0_wp + rounding)))
+        call report_badness(verdict, judge_moment, abs(forces%mz)/(arm_factor*scales%moment))
+    end subroutine judge_size
+
+    !> The forces take power out, and FASTSTRIP's friction power is just that.
+    pure subroutine judge_dissipation(asked, forces, scales, verdict)
+        type(contact_case_t), intent(in) :: asked
+        type(tangential_result_t), intent(in) :: forces
+        type(scales_t), intent(in) :: scales
+        type(verdict_t), intent(inout) :: verdict
+
+        real(wp) :: input, unit
+
+        associate (c => asked%creepage)
+            input = -(forces%fx*c%cksi + forces%fy*c%ceta + forces%mz*c%cphi)
+            unit = max(scales%force*(abs(c%cksi) + abs(c%ceta)) + scales%moment*abs(c%cphi), &
+                       tiny(unit)/rounding)
+        end associate
+        call report_badness(verdict, judge_power, &
+                            max(-input, -forces%friction_power)/(rounding*unit))
+        if (asked%methods%tangential == tangential_faststrip) &
+            call report_badness(verdict, judge_power, abs(input - forces%friction_power) &
+                                /(rounding*unit))
+    end subroutine judge_dissipation
 
     !> Length over width of the slimmest strip's patch or the reverse, at least one: slim patches
     !> are soft.

@@ -166,7 +166,7 @@ contains
         call put_comment(writer, 'random gap ' // integer_text(case%number) // ' of seed ' &
                          // integer_text(seed) // ': ' // trim(all_families(case%family)) &
                          // ', load ' // trim(adjustl(load)) // ' N, ' &
-                         // integer_text(case%strips) // ' strips')
+                         // integer_text(case%methods%strips_per_patch) // ' strips')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, size(case%gap%y)
             call put_cell(writer, case%gap%y(i))

@@ -36,7 +36,6 @@ module faststrip_lab_fuzz_gaps
     type, extends(contact_case_t) :: fuzz_case_t
         integer :: number = 0      !! from 1
         integer :: family = 0      !! index of `family_names`
-        integer :: strips = 0      !! strips across the largest patch
     end type fuzz_case_t
 
     !> State of the random numbers: L'Ecuyer's MRG32k3a (Operations Research 47, 1999, 159-164),
@@ -79,7 +78,7 @@ contains
         fuzz_case%number = number
         fuzz_case%family = pick(random, size(family_names))
         fuzz_case%load = log_uniform(random, 1.0e-3_wp, 1.0e8_wp)
-        fuzz_case%strips = draw_strips(random)
+        fuzz_case%methods%strips_per_patch = draw_strips(random)
         ! Half of the wheel's radii are those of railways.
         a0 = log_uniform(random, 1.0e-5_wp, 1.0e-1_wp)
         if (chance(random, 0.5_wp)) a0 = log_uniform(random, 5.0e-4_wp, 2.0e-3_wp)

@@ -6,11 +6,13 @@
 module faststrip_lab_fuzz_norm_judge
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       release_norm, set_norm_gap, norm_solve
+                                       release_norm, set_norm_curve, norm_solve_demand
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_norm_depth, &
                                          judge_norm_pmax, judge_norm_area
     implicit none
@@ -26,11 +28,10 @@ module faststrip_lab_fuzz_norm_judge
 contains
 
     !> Solve the case on a grid and compare; where no grid holds the contact nothing is judged.
-    subroutine judge_by_norm(gap, h_lowest, compliance, load, strips, verdict)
-        type(gap_t), intent(in) :: gap
-        real(wp), intent(in) :: h_lowest         !! lowest height of the gap, mm
-        real(wp), intent(in) :: compliance, load !! 1/MPa, N
-        type(contact_strips_t), intent(in) :: strips
+    subroutine judge_by_norm(case, curve, strips, verdict)
+        class(contact_case_t), intent(in) :: case    !! material, demand
+        type(gap_curve_t), intent(in) :: curve       !! its gap
+        type(contact_strips_t), intent(in) :: strips !! its solution
         type(verdict_t), intent(inout) :: verdict
 
         type(norm_workspace_t) :: workspace
@@ -49,13 +50,14 @@ contains
         options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
         options%dy = narrowest/elements_across
         options%most_elements = most_elements
-        call reserve_norm(workspace, size(gap%y), status)
-        if (.not. is_error(status)) call set_norm_gap(workspace, gap, status)
+        call reserve_norm(workspace, curve%n, status)
+        if (.not. is_error(status)) call set_norm_curve(workspace, curve, status)
         if (.not. is_error(status)) &
-            call norm_solve(workspace, compliance, load, options, norm, status, strips)
+            call norm_solve_demand(workspace, normal_compliance(case%material), case%demand_t, &
+                                   options, norm, status, strips)
         if (.not. is_error(status) .and. workspace%is_estimated) then
-            depth = verdict%result%penetration - h_lowest
-            norm_depth = norm%penetration - h_lowest
+            depth = verdict%result%penetration - curve%h_lowest
+            norm_depth = norm%penetration - curve%h_lowest
             own = [workspace%certificate%est_err_penetration, workspace%certificate%est_err_pmax, &
                    workspace%certificate%est_err_area]
             call compare(judge_norm_depth, 1, depth/norm_depth)

@@ -5,7 +5,6 @@
 module faststrip_lab_fuzz_relations
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: is_error, st_ok
-    use faststrip_base_material, only: material_t
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_fuzz_cases, only: fuzz_case_t
@@ -35,13 +34,12 @@ module faststrip_lab_fuzz_relations
 contains
 
     !> The case that a relation is about.
-    subroutine related_case(relation, case, curve, result, other, material, has_one)
+    subroutine related_case(relation, case, curve, result, other, has_one)
         integer, intent(in) :: relation            !! one of `relations`
         type(fuzz_case_t), intent(in) :: case
         type(gap_curve_t), intent(in) :: curve     !! of its gap
         type(normal_result_t), intent(in) :: result !! its solution
         type(fuzz_case_t), intent(out) :: other
-        type(material_t), intent(inout) :: material !! of the case; changed with it
         logical, intent(out) :: has_one            !! is there such a case?
 
         real(wp) :: depth
@@ -61,8 +59,8 @@ contains
             other%gap%inv2r = case%gap%inv2r/length_factor
             other%load = length_factor**2*case%load
         case (judge_stiffness)
-            material%e_wheel = stiffness_factor*material%e_wheel
-            material%e_rail = stiffness_factor*material%e_rail
+            other%material%e_wheel = stiffness_factor*case%material%e_wheel
+            other%material%e_rail = stiffness_factor*case%material%e_rail
             other%load = stiffness_factor*case%load
         case (judge_monotone)
             other%load = load_factor*case%load

@@ -6,12 +6,13 @@ module faststrip_lab_fuzz_run
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used, &
                                      st_out_of_range
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
-    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve, estimate_strips
+    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve_demand, &
+                                      estimate_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_patch_curves, only: curve_integral, curve_peak
     use faststrip_contact_methods, only: normal_strip
@@ -52,35 +53,32 @@ contains
         type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(out) :: verdict
 
-        type(material_t) :: material
         type(gap_curve_t) :: curve
         type(contact_strips_t) :: strips
         integer :: r
 
-        call solve_case(case, material, .false., work, verdict)
+        call solve_case(case, .false., work, verdict)
         if (is_error(verdict%status) .or. verdict%badness(judge_finite) > 1.0_wp) return
         associate (workspace => work%workspace)
-            call judge_figures(case%load, case%gap, workspace%strips, verdict%result, verdict)
+            call judge_figures(case, workspace%strips, verdict%result, verdict)
             if (any(verdict%badness > 1.0e8_wp)) return
             call judge_gap_curve(case%gap, workspace%solver%curve, verdict%result%penetration, &
                                  verdict)
-            call judge_contact(material, workspace%solver%curve, workspace%strips, &
+            call judge_contact(case, workspace%solver%curve, workspace%strips, &
                                verdict%result, verdict)
             ! An answer to no contact says nothing further.
             if (verdict%badness(judge_depth) > 1.0_wp) return
-            call estimate(material, workspace, verdict)
+            call estimate(case, workspace, verdict)
             call judge_estimates(verdict)
-            call judge_forces(seed, case%number, work%fault, material, case%load, workspace, &
-                              verdict)
+            call judge_forces(seed, case, work%fault, workspace, verdict)
             curve = workspace%solver%curve
             strips = workspace%strips
         end associate
         if (work%thorough .or. has_norm(case%number, verdict%status%code == st_fallback_used)) &
-            call judge_by_norm(case%gap, curve%h_lowest, normal_compliance(material), case%load, &
-                               strips, verdict)
+            call judge_by_norm(case, curve, strips, verdict)
         do r = 1, size(relations)
             if (work%thorough .or. modulo(case%number/2, size(relations)) == r - 1) &
-                call try_relation(relations(r), case, material, curve, work, verdict)
+                call try_relation(relations(r), case, curve, work, verdict)
         end do
     end subroutine try_case
 
@@ -94,33 +92,28 @@ contains
     end function has_norm
 
     !> Solve the related case and compare.
-    subroutine try_relation(relation, case, material, curve, work, verdict)
+    subroutine try_relation(relation, case, curve, work, verdict)
         integer, intent(in) :: relation
         type(fuzz_case_t), intent(in) :: case
-        type(material_t), intent(in) :: material
         type(gap_curve_t), intent(in) :: curve
         type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
 
         type(fuzz_case_t) :: other_case
-        type(material_t) :: other_material
         type(verdict_t) :: other
         logical :: has_one
 
-        other_material = material
-        call related_case(relation, case, curve, verdict%result, other_case, other_material, &
-                          has_one)
+        call related_case(relation, case, curve, verdict%result, other_case, has_one)
         if (.not. has_one) return
-        call solve_case(other_case, other_material, .true., work, other)
-        if (.not. is_error(other%status)) call estimate(other_material, work%workspace, other)
+        call solve_case(other_case, .true., work, other)
+        if (.not. is_error(other%status)) call estimate(other_case, work%workspace, other)
         call judge_relation(relation, verdict, curve, other, work%workspace%solver%curve)
     end subroutine try_relation
 
     !> Solve a case, note how long it took, and plant the fault. The call for embedding keeps the
     !> floating-point flags to itself; what it calls shows them.
-    subroutine solve_case(case, material, embedded, work, verdict)
+    subroutine solve_case(case, embedded, work, verdict)
         type(fuzz_case_t), intent(in) :: case
-        type(material_t), intent(in) :: material
         logical, intent(in) :: embedded ! by the call for embedding, or by what it calls?
         type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
@@ -129,30 +122,27 @@ contains
         integer(int64) :: before, after, rate
         integer :: max_strips
 
+        contact = case%contact_case_t
         contact%estimate = .false. ! `estimate` does
-        contact%material = material
-        contact%load = case%load
-        contact%gap = case%gap
-        contact%methods%normal = normal_strip
-        contact%methods%strips_per_patch = case%strips
-        call reserve_workspace(work%workspace, contact%methods, size(case%gap%y), verdict%status)
+        call reserve_workspace(work%workspace, case%methods, size(case%gap%y), verdict%status)
         if (work%solver == 'lattice') then
-            max_strips = 3*case%strips + 150
+            max_strips = 3*case%methods%strips_per_patch + 150
             call reserve_strips(work%workspace%strips, max_strips, verdict%status)
             call reserve_lattice(work%lattice, max_strips, verdict%status)
         end if
         call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
         call system_clock(before, rate)
         if (work%solver == 'lattice') then
-            call solve_by_lattice(case, material, work, verdict)
+            call solve_by_lattice(case, work, verdict)
         else if (embedded) then
             call solve_contact_normal(work%workspace, contact, verdict%result, verdict%status)
         else
             call set_strip_gap(work%workspace%solver, case%gap, verdict%status)
             if (.not. is_error(verdict%status)) &
-                call strip_solve(work%workspace%solver, normal_compliance(material), case%load, &
-                                 strip_options_t(strips_per_patch=case%strips), &
-                                 work%workspace%strips, verdict%result, verdict%status)
+                call strip_solve_demand( &
+                    work%workspace%solver, normal_compliance(case%material), case%demand_t, &
+                    strip_options_t(strips_per_patch=case%methods%strips_per_patch), &
+                    work%workspace%strips, verdict%result, verdict%status)
         end if
         call system_clock(after)
         verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
@@ -187,9 +177,8 @@ contains
         end select
     end function may_be_refused
 
-    subroutine solve_by_lattice(case, material, work, verdict)
+    subroutine solve_by_lattice(case, work, verdict)
         type(fuzz_case_t), intent(in) :: case
-        type(material_t), intent(in) :: material
         type(workspaces_t), intent(inout) :: work
         type(verdict_t), intent(inout) :: verdict
 
@@ -200,8 +189,9 @@ contains
             call reserve_gap_curve(curve, size(case%gap%y), verdict%status)
             call set_gap_curve(curve, case%gap, verdict%status)
             if (is_error(verdict%status)) return
-            call lattice_solve(work%lattice, curve, normal_compliance(material), case%load, &
-                               case%strips, strips, result%penetration, verdict%status)
+            call lattice_solve(work%lattice, curve, normal_compliance(case%material), case%load, &
+                               case%methods%strips_per_patch, strips, result%penetration, &
+                               verdict%status)
             if (is_error(verdict%status)) return
             ! As its answers are always named.
             call add_limitation(verdict%status, st_fallback_used, 'fixed lattice')
@@ -227,15 +217,15 @@ contains
     end subroutine solve_by_lattice
 
     !> What the solution's certificate estimates of its errors.
-    subroutine estimate(material, workspace, verdict)
-        type(material_t), intent(in) :: material
+    subroutine estimate(case, workspace, verdict)
+        class(contact_case_t), intent(in) :: case
         type(workspace_t), intent(in) :: workspace
         type(verdict_t), intent(inout) :: verdict
 
         type(certificate_t) :: certificate
         type(status_t) :: status
 
-        call estimate_strips(workspace%solver, normal_compliance(material), &
+        call estimate_strips(workspace%solver, normal_compliance(case%material), &
                              workspace%strips, verdict%result, certificate, status)
         if (is_error(status)) return
         verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &

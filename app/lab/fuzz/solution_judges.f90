@@ -7,11 +7,11 @@
 module faststrip_lab_fuzz_solution_judges
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_material, only: material_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_fuzz_influence, only: displacement
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_finite, judge_order, &
                                          judge_load, judge_pmax, judge_area, judge_ends, &
@@ -37,12 +37,18 @@ module faststrip_lab_fuzz_solution_judges
 
     integer, parameter :: most_strips_judged = 24, scan_places = 1000, places_in_interval = 3
 
+    !> Bodies pressed together.
+    type :: deformed_t
+        real(wp) :: penetration = 0.0_wp ! D, from h = 0, mm
+        real(wp) :: depth = 0.0_wp       ! D - h_lowest, mm
+        real(wp) :: compliance = 0.0_wp  ! from the moduli, 1/MPa
+    end type deformed_t
+
 contains
 
     !> The figures against the strips they were made of.
-    pure subroutine judge_figures(load, gap, strips, result, verdict)
-        real(wp), intent(in) :: load                 !! that was asked, N
-        type(gap_t), intent(in) :: gap
+    pure subroutine judge_figures(case, strips, result, verdict)
+        class(contact_case_t), intent(in) :: case    !! load that was asked, gap
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
         type(verdict_t), intent(inout) :: verdict
@@ -63,15 +69,15 @@ contains
             call say_whether(verdict, judge_finite, good)
             if (.not. good) return
             good = all(p0 > 0.0_wp) .and. all(half_length > 0.0_wp) .and. all(right > left) &
-                   .and. all(left(2:) >= right(:n - 1)) .and. left(1) >= gap%y(1) &
-                   .and. right(n) <= gap%y(size(gap%y))
+                   .and. all(left(2:) >= right(:n - 1)) .and. left(1) >= case%gap%y(1) &
+                   .and. right(n) <= case%gap%y(size(case%gap%y))
             call say_whether(verdict, judge_order, good)
             if (.not. good) return
             carried = 0.5_wp*pi*sum(p0*half_length*(right - left))
-            verdict%load_error = carried/load - 1.0_wp
+            verdict%load_error = carried/case%load - 1.0_wp
             call report_badness(verdict, judge_load, &
-                                max(abs(carried - load), abs(result%load - load)) &
-                                /(load_tolerance*load))
+                                max(abs(carried - case%load), abs(result%load - case%load)) &
+                                /(load_tolerance*case%load))
             call judge_peak(result%pmax, maxval(p0), p0, strips, judge_pmax, verdict)
             call judge_peak(result%x_max, maxval(half_length), half_length, strips, judge_ends, &
                             verdict)
@@ -184,21 +190,51 @@ contains
     end function unevenness
 
     !> The strips against the gap: closed in the patches, open outside.
-    subroutine judge_contact(material, curve, strips, result, verdict)
-        type(material_t), intent(in) :: material
-        type(gap_curve_t), intent(in) :: curve       !! of the gap
+    subroutine judge_contact(case, curve, strips, result, verdict)
+        class(contact_case_t), intent(in) :: case    !! moduli
+        type(gap_curve_t), intent(in) :: curve       !! of its gap
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
         type(verdict_t), intent(inout) :: verdict
 
-        real(wp) :: depth, compliance, y, middle, weight, weights, h, inv2r, shift, play
+        type(deformed_t) :: deformed
+
+        deformed%penetration = result%penetration
+        deformed%depth = result%penetration - curve%h_lowest
+        call say_whether(verdict, judge_depth, deformed%depth > 0.0_wp)
+        if (.not. deformed%depth > 0.0_wp) return
+        associate (material => case%material)
+            deformed%compliance = ((1.0_wp - material%nu_wheel**2)/material%e_wheel &
+                                   + (1.0_wp - material%nu_rail**2)/material%e_rail)/pi
+        end associate
+        call judge_patches(deformed, curve, strips, verdict)
+        call judge_surroundings(deformed, curve, strips, verdict)
+    end subroutine judge_contact
+
+    !> Distance of the deformed surfaces at a place over D - h_lowest.
+    real(wp) function opening(deformed, curve, strips, x, y)
+        type(deformed_t), intent(in) :: deformed
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        real(wp), intent(in) :: x, y ! mm
+
+        real(wp) :: h, inv2r
+
+        call gap_at(curve, y, h, inv2r)
+        opening = (h + inv2r*x**2 - deformed%penetration &
+                   + deformed%compliance*displacement(strips, x, y))/deformed%depth
+    end function opening
+
+    !> Closed in the patches: at the middles and tips of strips, and nearly so between them.
+    subroutine judge_patches(deformed, curve, strips, verdict)
+        type(deformed_t), intent(in) :: deformed
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        type(verdict_t), intent(inout) :: verdict
+
+        real(wp) :: y, middle, weight, weights, shift, play
         integer :: k, stride, first, last
 
-        depth = result%penetration - curve%h_lowest
-        call say_whether(verdict, judge_depth, depth > 0.0_wp)
-        if (.not. depth > 0.0_wp) return
-        compliance = ((1.0_wp - material%nu_wheel**2)/material%e_wheel &
-                      + (1.0_wp - material%nu_rail**2)/material%e_rail)/pi
         stride = 1 + (strips%n - 1)/most_strips_judged
         middle = 0.0_wp
         weights = 0.0_wp
@@ -213,65 +249,68 @@ contains
             ! On a step in a patch (a fill value of 1e10 mm) the height moves by many penetrations
             ! over the width to which the strip's place is known; elsewhere by next to nothing.
             shift = place_tolerance*(strips%y_right(last) - strips%y_left(first))
-            play = abs(height_at(y + shift) - height_at(y - shift))/depth
+            play = abs(height_at(y + shift) - height_at(y - shift))/deformed%depth
             associate (xd => strips%half_length(k))
-                call report_badness(verdict, judge_centre, abs(opening(0.0_wp, y)) &
+                call report_badness(verdict, judge_centre, abs(opened(0.0_wp)) &
                                     /(closed_tolerance + play))
-                call report_badness(verdict, judge_tip, abs(opening(xd, y)) &
+                call report_badness(verdict, judge_tip, abs(opened(xd)) &
                                     /(closed_tolerance + play))
                 weight = strips%y_right(k) - strips%y_left(k)
-                middle = middle + weight*max(abs(opening(0.5_wp*xd, y)) - play, 0.0_wp)
+                middle = middle + weight*max(abs(opened(0.5_wp*xd)) - play, 0.0_wp)
                 weights = weights + weight
             end associate
         end do
         call report_badness(verdict, judge_middle, middle/(weights*middle_tolerance))
-        call scan()
 
     contains
 
-        !> Distance of the deformed surfaces over D - h_lowest.
-        real(wp) function opening(x, at)
-            real(wp), intent(in) :: x, at
+        !> On the strip's middle line.
+        real(wp) function opened(x)
+            real(wp), intent(in) :: x
 
-            call gap_at(curve, at, h, inv2r)
-            opening = (h + inv2r*x**2 - result%penetration &
-                       + compliance*displacement(strips, x, at))/depth
-        end function opening
+            opened = opening(deformed, curve, strips, x, y)
+        end function opened
 
         real(wp) function height_at(at)
             real(wp), intent(in) :: at
 
-            call gap_at(curve, at, h, inv2r)
-            height_at = h
+            real(wp) :: inv2r
+
+            call gap_at(curve, at, height_at, inv2r)
         end function height_at
+    end subroutine judge_patches
 
-        !> Places on the line x = 0, more than half an end strip away from the patches: what is
-        !> nearer belongs to where the ends are.
-        subroutine scan()
-            real(wp) :: at, gap
-            integer :: i, next
+    !> Open outside, at places on the line x = 0, more than half an end strip away from the patches:
+    !> what is nearer belongs to where the ends are.
+    subroutine judge_surroundings(deformed, curve, strips, verdict)
+        type(deformed_t), intent(in) :: deformed
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        type(verdict_t), intent(inout) :: verdict
 
-            call report_badness(verdict, judge_outside, 0.0_wp)
-            next = 1
-            do i = 0, scan_places
-                at = curve%y(1) + (curve%y(curve%n) - curve%y(1))*real(i, wp)/scan_places
-                call gap_at(curve, at, h, inv2r)
-                if (h >= result%penetration) cycle
-                do while (next <= strips%n)
-                    if (1.5_wp*strips%y_right(next) - 0.5_wp*strips%y_left(next) >= at) exit
-                    next = next + 1
-                end do
-                if (next <= strips%n) then
-                    if (1.5_wp*strips%y_left(next) - 0.5_wp*strips%y_right(next) <= at) cycle
-                end if
-                gap = opening(0.0_wp, at)
-                call report_badness(verdict, judge_outside, -gap/overlap_tolerance)
-                if (-gap <= verdict%overlap) cycle
-                verdict%overlap = -gap
-                verdict%overlap_y = at
+        real(wp) :: at, h, inv2r, gap
+        integer :: i, next
+
+        call report_badness(verdict, judge_outside, 0.0_wp)
+        next = 1
+        do i = 0, scan_places
+            at = curve%y(1) + (curve%y(curve%n) - curve%y(1))*real(i, wp)/scan_places
+            call gap_at(curve, at, h, inv2r)
+            if (h >= deformed%penetration) cycle
+            do while (next <= strips%n)
+                if (1.5_wp*strips%y_right(next) - 0.5_wp*strips%y_left(next) >= at) exit
+                next = next + 1
             end do
-        end subroutine scan
-    end subroutine judge_contact
+            if (next <= strips%n) then
+                if (1.5_wp*strips%y_left(next) - 0.5_wp*strips%y_right(next) <= at) cycle
+            end if
+            gap = opening(deformed, curve, strips, 0.0_wp, at)
+            call report_badness(verdict, judge_outside, -gap/overlap_tolerance)
+            if (-gap <= verdict%overlap) cycle
+            verdict%overlap = -gap
+            verdict%overlap_y = at
+        end do
+    end subroutine judge_surroundings
 
     !> The curve against its points: it passes through them, and between two of them it dips by no
     !> more than twice what the smaller of the bends there makes, or the bend at a point that is

@@ -282,7 +282,7 @@ contains
         call put_cell(writer, case%number)
         call put_cell(writer, trim(all_families(case%family)))
         call put_cell(writer, case%load)
-        call put_cell(writer, case%strips)
+        call put_cell(writer, case%methods%strips_per_patch)
         call put_cell(writer, size(case%gap%y))
         call put_cell(writer, trim(status_word(verdict%status%code)))
         call put_cell(writer, broken_judges(verdict))
