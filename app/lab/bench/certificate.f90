@@ -25,7 +25,7 @@ module faststrip_lab_bench_certificate
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_strip, only: strip_workspace_t, strip_options_t, strips_auto, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
     use faststrip_normal_certificate, only: certificate_t, certify_strips, richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
@@ -283,13 +283,13 @@ contains
         do i = 1, n_tried
             n = strips_tried(i)
             if (n /= strips_auto) then
-                call solve_with(study, contact%load, half_of(n), coarse, status)
+                call solve_with(study, contact, half_of(n), coarse, status)
                 contact%is_halved(i) = is_smooth(status)
             end if
-            call solve_with(study, contact%load, n, contact%result(i), status)
+            call solve_with(study, contact, n, contact%result(i), status)
             contact%is_smooth(i) = is_smooth(status)
             if (.not. is_smooth(status)) cycle
-            call certify_strips(study%workspace%curve, normal_compliance(material_t()), &
+            call certify_strips(study%workspace%curve, normal_compliance(contact%material), &
                                 study%strips, contact%result(i), contact%certificate(i), status)
             call fail_on_error(status)
             if (.not. contact%is_halved(i)) cycle
@@ -299,7 +299,7 @@ contains
         end do
     end subroutine solve_contact
 
-    !> The truth of a contact, on grids of the size of its strips.
+    !> The truth of a contact that was just solved, on grids of the size of its strips.
     subroutine find(study, norm, contact, truth, is_found)
         type(study_t), intent(inout) :: study
         type(norm_workspace_t), intent(inout) :: norm
@@ -311,11 +311,9 @@ contains
         type(status_t) :: status
 
         is_found = .false.
-        call solve_with(study, contact%load, extent_strips, ignored, status)
+        call solve_with(study, contact, extent_strips, ignored, status)
         if (.not. is_error(status)) &
-            call find_truth(norm, contact%gap, contact%h_lowest, &
-                            normal_compliance(material_t()), contact%load, study%strips, truth, &
-                            is_found)
+            call find_truth(norm, contact, study%workspace%curve, study%strips, truth, is_found)
     end subroutine find
 
     !> Did all strips settle? A half-space that is doubtful is a half-space.
@@ -332,15 +330,17 @@ contains
         half_of = (n + 1)/2
     end function half_of
 
-    subroutine solve_with(study, load, n, result, status)
+    !> By a number of strips, on the gap that was set.
+    subroutine solve_with(study, contact, n, result, status)
         type(study_t), intent(inout) :: study
-        real(wp), intent(in) :: load
+        class(contact_case_t), intent(in) :: contact
         integer, intent(in) :: n
         type(normal_result_t), intent(out) :: result
         type(status_t), intent(out) :: status
 
-        call strip_solve(study%workspace, normal_compliance(material_t()), load, &
-                         strip_options_t(strips_per_patch=n), study%strips, result, status)
+        call strip_solve_demand(study%workspace, normal_compliance(contact%material), &
+                                contact%demand_t, strip_options_t(strips_per_patch=n), &
+                                study%strips, result, status)
     end subroutine solve_with
 
     !> Enter what the estimates of a contact are worth.

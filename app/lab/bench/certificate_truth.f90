@@ -6,12 +6,14 @@
 module faststrip_lab_bench_certificate_truth
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+                                       set_norm_curve, norm_solve_demand
+    use faststrip_contact_case, only: contact_case_t
     implicit none
     private
 
@@ -39,11 +41,10 @@ contains
 
     !> Solve a contact on both grids. No truth is found where a grid does not hold the contact, or
     !> where it runs to the end of the gap data.
-    subroutine find_truth(workspace, gap, h_lowest, compliance, load, strips, truth, is_found)
+    subroutine find_truth(workspace, contact, curve, strips, truth, is_found)
         type(norm_workspace_t), intent(inout) :: workspace
-        type(gap_t), intent(in) :: gap
-        real(wp), intent(in) :: h_lowest           !! lowest height of the gap, mm
-        real(wp), intent(in) :: compliance, load   !! 1/MPa, N
+        class(contact_case_t), intent(in) :: contact !! material, demand
+        type(gap_curve_t), intent(in) :: curve       !! its gap
         type(contact_strips_t), intent(in) :: strips !! a solution, for the size of the grids
         type(truth_t), intent(out) :: truth
         logical, intent(out) :: is_found
@@ -51,26 +52,29 @@ contains
         type(norm_options_t) :: options
         type(normal_result_t) :: fine
         type(status_t) :: status
-        real(wp) :: coarse_figure(3), fine_figure(3)
+        real(wp) :: compliance, coarse_figure(3), fine_figure(3)
 
         is_found = .false.
         options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
         options%dy = (strips%y_right(strips%n) - strips%y_left(1))/elements_across
         options%most_elements = most_elements
-        call reserve_norm(workspace, size(gap%y), status)
-        if (.not. is_error(status)) call set_norm_gap(workspace, gap, status)
+        compliance = normal_compliance(contact%material)
+        call reserve_norm(workspace, curve%n, status)
+        if (.not. is_error(status)) call set_norm_curve(workspace, curve, status)
         if (is_error(status)) return
-        call norm_solve(workspace, compliance, load, options, truth%coarse, status)
+        call norm_solve_demand(workspace, compliance, contact%demand_t, options, truth%coarse, &
+                               status)
         if (status%code /= st_ok .or. .not. workspace%is_estimated) return
         truth%estimated = workspace%certificate
         options%dx = 0.5_wp*options%dx
         options%dy = 0.5_wp*options%dy
         options%two_levels = .false.
         options%warm_start = .true.
-        call norm_solve(workspace, compliance, load, options, fine, status)
+        call norm_solve_demand(workspace, compliance, contact%demand_t, options, fine, status)
         if (status%code /= st_ok) return
-        coarse_figure = [truth%coarse%penetration - h_lowest, truth%coarse%pmax, truth%coarse%area]
-        fine_figure = [fine%penetration - h_lowest, fine%pmax, fine%area]
+        coarse_figure = [truth%coarse%penetration - curve%h_lowest, truth%coarse%pmax, &
+                         truth%coarse%area]
+        fine_figure = [fine%penetration - curve%h_lowest, fine%pmax, fine%area]
         truth%figure(:2) = fine_figure(:2) + (fine_figure(:2) - coarse_figure(:2))/3.0_wp
         truth%figure(3) = 2.0_wp*fine_figure(3) - coarse_figure(3)
         is_found = all(truth%figure > 0.0_wp)

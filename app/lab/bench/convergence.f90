@@ -4,12 +4,12 @@ module faststrip_lab_bench_convergence
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_base_material, only: normal_compliance
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_ellipse, only: make_ellipse
     use faststrip_command_console, only: fail_on_error, note, progress, put_origin
@@ -45,12 +45,10 @@ contains
         type(workspaces_t) :: work
         type(csv_writer_t) :: writer
         type(normal_result_t) :: truth
-        type(gap_t) :: gap
+        type(contact_case_t) :: ellipse
         type(status_t) :: status
-        real(wp) :: compliance
         integer :: i, points
 
-        compliance = normal_compliance(material_t())
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
         points = hertz_points
@@ -72,32 +70,43 @@ contains
             call progress('contacts', i, size(cases) + size(ratios))
             call set_strip_gap(work%workspace, cases(i)%gap, status)
             call fail_on_error(status, cases(i)%name)
-            call strip_solve(work%workspace, compliance, cases(i)%load, &
-                             strip_options_t(strips_per_patch=true_strips), work%strips, truth, &
-                             status)
+            call solve_with(work, cases(i), true_strips, truth, status)
             if (status%code /= 0) then
                 call note(cases(i)%name // ' has no truth: ' // trim(status%message))
                 cycle
             end if
-            call put_errors(work, compliance, cases(i)%load, most_strips, cases(i)%name, &
-                            truth, writer)
+            call put_errors(work, cases(i), most_strips, cases(i)%name, truth, writer)
         end do
+        ellipse%load = hertz_load
         do i = 1, size(ratios)
             call progress('contacts', size(cases) + i, size(cases) + size(ratios))
-            call make_ellipse(compliance, ratios(i), hertz_load, hertz_points, gap, truth)
-            call set_strip_gap(work%workspace, gap, status)
+            call make_ellipse(ratios(i), hertz_points, ellipse, truth)
+            call set_strip_gap(work%workspace, ellipse%gap, status)
             call fail_on_error(status)
-            call put_errors(work, compliance, hertz_load, most_strips, 'hertz_' &
+            call put_errors(work, ellipse, most_strips, 'hertz_' &
                             // trim(number_text(ratios(i))), truth, writer)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
     end subroutine bench_convergence
 
-    !> One row for each number of strips on the gap that was set.
-    subroutine put_errors(work, compliance, load, most_strips, name, truth, writer)
+    !> By a number of strips, on the gap that was set.
+    subroutine solve_with(work, contact, n, result, status)
         type(workspaces_t), intent(inout) :: work
-        real(wp), intent(in) :: compliance, load
+        class(contact_case_t), intent(in) :: contact
+        integer, intent(in) :: n
+        type(normal_result_t), intent(out) :: result
+        type(status_t), intent(out) :: status
+
+        call strip_solve_demand(work%workspace, normal_compliance(contact%material), &
+                                contact%demand_t, strip_options_t(strips_per_patch=n), &
+                                work%strips, result, status)
+    end subroutine solve_with
+
+    !> One row for each number of strips on the gap that was set.
+    subroutine put_errors(work, contact, most_strips, name, truth, writer)
+        type(workspaces_t), intent(inout) :: work
+        class(contact_case_t), intent(in) :: contact
         integer, intent(in) :: most_strips
         character(len=*), intent(in) :: name
         type(normal_result_t), intent(in) :: truth
@@ -109,9 +118,7 @@ contains
 
         do k = 1, size(strip_counts)
             if (strip_counts(k) > most_strips) exit
-            call strip_solve(work%workspace, compliance, load, &
-                             strip_options_t(strips_per_patch=strip_counts(k)), work%strips, &
-                             result, status)
+            call solve_with(work, contact, strip_counts(k), result, status)
             call put_cell(writer, name)
             call put_cell(writer, strip_counts(k))
             call put_cell(writer, trim(status_word(status%code)))

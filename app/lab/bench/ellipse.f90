@@ -1,10 +1,12 @@
-!> Gaps whose contact is known exactly: Hertz's ellipses.
+!> Contacts that are known exactly: Hertz's ellipses.
 module faststrip_lab_bench_ellipse
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
+    use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_command_console, only: fail_on_error
     implicit none
     private
@@ -17,25 +19,26 @@ module faststrip_lab_bench_ellipse
 contains
 
     !> The gap whose contact is an ellipse of given proportions, and that contact.
-    subroutine make_ellipse(compliance, ratio, load, points, gap, truth)
-        real(wp), intent(in) :: compliance        !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: ratio             !! a/b
-        real(wp), intent(in) :: load              !! N
-        integer, intent(in) :: points             !! of the gap, >= 5
-        type(gap_t), intent(out) :: gap           !! over twice the ellipse, mm
+    subroutine make_ellipse(ratio, points, contact, truth)
+        real(wp), intent(in) :: ratio               !! a/b
+        integer, intent(in) :: points               !! of the gap, >= 5
+        class(contact_case_t), intent(inout) :: contact
+            !! with material and load; its gap becomes one over twice the ellipse, mm
         type(normal_result_t), intent(out) :: truth !! penetration, pmax, area
 
         type(hertz_t) :: hertz
         type(status_t) :: status
-        real(wp) :: low, high, middle
+        real(wp) :: compliance, low, high, middle
         integer :: i
 
         ! a/b grows with ln(B/A), by two thirds of it at the circle and by a half far from it.
+        compliance = normal_compliance(contact%material)
         low = -20.0_wp
         high = 20.0_wp
         do i = 1, 60
             middle = 0.5_wp*(low + high)
-            call hertz_solve(compliance, inv2r_x(middle), inv2r_y(middle), load, hertz, status)
+            call hertz_solve(compliance, inv2r_x(middle), inv2r_y(middle), contact%load, hertz, &
+                             status)
             call fail_on_error(status)
             if (hertz%a > ratio*hertz%b) then
                 high = middle
@@ -43,7 +46,7 @@ contains
                 low = middle
             end if
         end do
-        call make_parabola(compliance, inv2r_x(middle), inv2r_y(middle), load, points, gap, truth)
+        call make_parabola(inv2r_x(middle), inv2r_y(middle), points, contact, truth)
 
     contains
 
@@ -61,30 +64,32 @@ contains
     end subroutine make_ellipse
 
     !> The gap A x^2 + B y^2 and its Hertz contact.
-    subroutine make_parabola(compliance, inv2r_x, inv2r_y, load, points, gap, truth)
-        real(wp), intent(in) :: compliance        !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: inv2r_x           !! A, 1/mm
-        real(wp), intent(in) :: inv2r_y           !! B, 1/mm
-        real(wp), intent(in) :: load              !! N
-        integer, intent(in) :: points             !! of the gap, >= 5
-        type(gap_t), intent(out) :: gap           !! over twice the ellipse, mm
+    subroutine make_parabola(inv2r_x, inv2r_y, points, contact, truth)
+        real(wp), intent(in) :: inv2r_x             !! A, 1/mm
+        real(wp), intent(in) :: inv2r_y             !! B, 1/mm
+        integer, intent(in) :: points               !! of the gap, >= 5
+        class(contact_case_t), intent(inout) :: contact !! as `make_ellipse`
         type(normal_result_t), intent(out) :: truth !! penetration, pmax, area
 
         type(hertz_t) :: hertz
         type(status_t) :: status
         integer :: i
 
-        call hertz_solve(compliance, inv2r_x, inv2r_y, load, hertz, status)
+        call hertz_solve(normal_compliance(contact%material), inv2r_x, inv2r_y, contact%load, &
+                         hertz, status)
         call fail_on_error(status)
         truth%load = hertz%load
         truth%penetration = hertz%penetration
         truth%pmax = hertz%pmax
         truth%area = hertz%area
-        allocate (gap%y(points), gap%h(points), gap%inv2r(points))
-        do i = 1, points
-            gap%y(i) = half_range*hertz%b*(2*i - 1 - points)/(points - 1)
-        end do
-        gap%h = inv2r_y*gap%y**2
-        gap%inv2r = inv2r_x
+        contact%gap = gap_t()
+        associate (gap => contact%gap)
+            allocate (gap%y(points), gap%h(points), gap%inv2r(points))
+            do i = 1, points
+                gap%y(i) = half_range*hertz%b*(2*i - 1 - points)/(points - 1)
+            end do
+            gap%h = inv2r_y*gap%y**2
+            gap%inv2r = inv2r_x
+        end associate
     end subroutine make_parabola
 end module faststrip_lab_bench_ellipse

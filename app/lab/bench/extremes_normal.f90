@@ -5,14 +5,14 @@ module faststrip_lab_bench_extremes_normal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: normal_compliance
     use faststrip_influence_row, only: center_influence_column
     use faststrip_numerics_lapack, only: dgetrf, dgecon
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_ellipse, only: make_ellipse, make_parabola
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_console, only: fail_on_error, progress
@@ -32,7 +32,6 @@ module faststrip_lab_bench_extremes_normal
 
     !> Room for the solutions.
     type :: workspaces_t
-        real(wp) :: compliance = 0.0_wp
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
     end type workspaces_t
@@ -48,7 +47,6 @@ contains
         type(status_t) :: status
         integer :: strips
 
-        work%compliance = normal_compliance(material_t())
         strips = 2*maxval(strip_counts) + 60
         if (quick) strips = 2*most_quick + 60
         call reserve_strips(work%strips, strips, status)
@@ -66,20 +64,24 @@ contains
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(gap_t) :: gap
+        type(contact_case_t) :: contact
         type(normal_result_t) :: truth
+        type(status_t) :: set
         type(row_t) :: row
         integer :: i, j
 
+        contact%load = usual_load
         do i = 1, size(few_ratios), merge(2, 1, quick)
             call progress('ellipses with many strips', i, size(few_ratios))
-            call make_ellipse(work%compliance, few_ratios(i), usual_load, usual_points, gap, truth)
+            call make_ellipse(few_ratios(i), usual_points, contact, truth)
+            call set_strip_gap(work%workspace, contact%gap, set)
             do j = 1, size(strip_counts)
                 if (quick .and. strip_counts(j) > most_quick) exit
                 if (strip_counts(j) > most_at_every_ratio .and. 2*i - 1 /= size(few_ratios)) exit
                 row = row_t(chapter='strips', method='strip', x_name='a/b', x=few_ratios(i), &
                             y_name='N', y=real(strip_counts(j), wp), judge='hertz')
-                call put_solution(work, gap, usual_load, strip_counts(j), truth, row, writer)
+                contact%methods%strips_per_patch = strip_counts(j)
+                call put_solution(work, contact, set, truth, row, writer)
                 if (.not. row%has_value) cycle
                 row%quantity = 'condition'
                 row%judge = 'dgecon'
@@ -95,22 +97,25 @@ contains
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(gap_t) :: gap
+        type(contact_case_t) :: contact
         type(normal_result_t) :: truth
+        type(status_t) :: set
         type(row_t) :: row
-        real(wp) :: ratio, load
+        real(wp) :: ratio
         integer :: i, j, step
 
+        contact%methods%strips_per_patch = usual_strips
         step = merge(6, 1, quick)
         do i = -6, 6, step
             call progress('ellipses', i + 7, 13)
             ratio = 10.0_wp**(0.5_wp*i)
             do j = -6, 9, merge(5, 1, quick)
-                load = 10.0_wp**j
-                call make_ellipse(work%compliance, ratio, load, usual_points, gap, truth)
+                contact%load = 10.0_wp**j
+                call make_ellipse(ratio, usual_points, contact, truth)
+                call set_strip_gap(work%workspace, contact%gap, set)
                 row = row_t(chapter='ellipses', method='strip', x_name='a/b', x=ratio, &
-                            y_name='load_N', y=load, judge='hertz')
-                call put_solution(work, gap, load, usual_strips, truth, row, writer)
+                            y_name='load_N', y=contact%load, judge='hertz')
+                call put_solution(work, contact, set, truth, row, writer)
             end do
         end do
     end subroutine all_ellipses
@@ -121,32 +126,34 @@ contains
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(gap_t) :: gap
+        type(contact_case_t) :: contact
         type(normal_result_t) :: truth
+        type(status_t) :: set
         type(row_t) :: row
         real(wp) :: curvature
         integer :: i, j
 
+        contact%load = usual_load
+        contact%methods%strips_per_patch = usual_strips
         do i = -14, -4, merge(5, 1, quick)
             call progress('flat gaps', i + 15, 11)
             curvature = 10.0_wp**(0.5_wp*i)
             do j = 1, size(point_counts), merge(4, 1, quick)
-                call make_parabola(work%compliance, wheel_inv2r, 0.5_wp*curvature, usual_load, &
-                                   point_counts(j), gap, truth)
+                call make_parabola(wheel_inv2r, 0.5_wp*curvature, point_counts(j), contact, truth)
+                call set_strip_gap(work%workspace, contact%gap, set)
                 row = row_t(chapter='flat_gaps', method='strip', x_name='1/R_per_mm', &
                             x=curvature, y_name='points', y=real(point_counts(j), wp), &
                             judge='hertz')
-                call put_solution(work, gap, usual_load, usual_strips, truth, row, writer)
+                call put_solution(work, contact, set, truth, row, writer)
             end do
         end do
     end subroutine flat_gaps
 
-    !> Solve and write the errors of three figures.
-    subroutine put_solution(work, gap, load, strips, truth, row, writer)
+    !> Solve on the gap that was set, and write the errors of three figures.
+    subroutine put_solution(work, contact, set, truth, row, writer)
         type(workspaces_t), intent(inout) :: work
-        type(gap_t), intent(in) :: gap
-        real(wp), intent(in) :: load
-        integer, intent(in) :: strips
+        type(contact_case_t), intent(in) :: contact
+        type(status_t), intent(in) :: set ! how setting its gap ended
         type(normal_result_t), intent(in) :: truth
         type(row_t), intent(inout) :: row
         type(csv_writer_t), intent(inout) :: writer
@@ -154,10 +161,12 @@ contains
         type(normal_result_t) :: result
         type(status_t) :: status
 
-        call set_strip_gap(work%workspace, gap, status)
+        status = set
         if (.not. is_error(status)) &
-            call strip_solve(work%workspace, work%compliance, load, &
-                             strip_options_t(strips_per_patch=strips), work%strips, result, status)
+            call strip_solve_demand( &
+                work%workspace, normal_compliance(contact%material), contact%demand_t, &
+                strip_options_t(strips_per_patch=contact%methods%strips_per_patch), work%strips, &
+                result, status)
         call status_of(status, row)
         row%quantity = 'penetration_err'
         row%value = abs(result%penetration/truth%penetration - 1.0_wp)

@@ -8,7 +8,7 @@ module faststrip_lab_bench_extremes_tangential
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
@@ -68,8 +68,7 @@ contains
 
         contact%material = material_t(nu_wheel=nu, nu_rail=nu)
         contact%load = load
-        call make_ellipse(normal_compliance(contact%material), ratio, load, points, contact%gap, &
-                          truth)
+        call make_ellipse(ratio, points, contact, truth)
         call make_solver(numerics_t(normal=normal_strip, tangential=method%number), .false., &
                          solver, status)
         call fail_on_error(status)

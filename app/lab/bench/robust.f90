@@ -9,15 +9,16 @@ module faststrip_lab_bench_robust
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, strips_auto, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_command_console, only: fail_on_error, note, put_origin
     implicit none
@@ -37,9 +38,15 @@ module faststrip_lab_bench_robust
         type(csv_writer_t) :: writer
         type(lattice_workspace_t) :: lattice
         type(strip_workspace_t) :: workspace
-        type(gap_curve_t) :: curve
         type(contact_strips_t) :: strips
     end type bench_t
+
+    !> A contact whose answer is known.
+    type, extends(contact_case_t) :: known_t
+        character(len=:), allocatable :: name
+        type(gap_curve_t) :: curve !! of its gap
+        type(normal_result_t) :: truth
+    end type known_t
 
 contains
 
@@ -57,8 +64,6 @@ contains
         call reserve_lattice(bench%lattice, capacity, status)
         call fail_on_error(status)
         call reserve_strip_workspace(bench%workspace, capacity, points, status)
-        call fail_on_error(status)
-        call reserve_gap_curve(bench%curve, points, status)
         call fail_on_error(status)
         call open_csv(bench%writer, file, status)
         call fail_on_error(status)
@@ -82,74 +87,89 @@ contains
         character(len=*), intent(in) :: folder
 
         type(bench_case_t), allocatable :: cases(:)
+        type(known_t), allocatable :: contacts(:)
         type(status_t) :: status
-        real(wp), allocatable :: errors(:, :)
-        integer :: i, k
+        integer :: i
 
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
-        allocate (errors(2, size(cases)))
-        do k = 1, size(lattice_strips)
-            do i = 1, size(cases)
-                call try_lattice(bench, 'contact', cases(i)%name, cases(i)%gap, cases(i)%load, &
-                                 lattice_strips(k), cases(i)%truth%penetration, &
-                                 cases(i)%truth%pmax, errors(:, i))
-            end do
-            call tell('lattice, contacts', integer_text(lattice_strips(k)), errors)
+        allocate (contacts(size(cases)))
+        do i = 1, size(cases)
+            contacts(i)%contact_case_t = cases(i)%contact_case_t
+            contacts(i)%name = cases(i)%name
+            contacts(i)%truth = cases(i)%truth
         end do
+        call try_lattice(bench, 'contact', 'contacts', contacts)
     end subroutine try_contacts
 
     !> The lattice on Hertz ellipses of a/b = 0.004 to 100.
     subroutine try_ellipses(bench)
         type(bench_t), intent(inout) :: bench
 
-        type(gap_t) :: gap
+        type(known_t), allocatable :: contacts(:)
         type(hertz_t) :: hertz
         type(status_t) :: status
-        real(wp) :: b, errors(2, n_ellipses)
-        integer :: i, k
+        real(wp) :: b
+        integer :: i
 
-        do k = 1, size(lattice_strips)
-            do i = 1, n_ellipses
+        allocate (contacts(n_ellipses))
+        do i = 1, n_ellipses
+            associate (contact => contacts(i))
+                contact%load = 1.0e4_wp
                 ! a/b goes nearly as (B/A)**(2/3), less steeply far from the circle.
                 b = 1.0e-3_wp*1.0e-4_wp*1.5e7_wp**(real(i - 1, wp)/(n_ellipses - 1))
-                call hertz_solve(normal_compliance(material_t()), 1.0e-3_wp, b, 1.0e4_wp, hertz, &
-                                 status)
+                call hertz_solve(normal_compliance(contact%material), 1.0e-3_wp, b, contact%load, &
+                                 hertz, status)
                 call fail_on_error(status)
-                call make_gap(1.0e-3_wp, 3.0_wp*hertz%b, gap)
-                gap%h = b*gap%y**2
-                call try_lattice(bench, 'hertz', 'b_' // integer_text(i), gap, hertz%load, &
-                                 lattice_strips(k), hertz%penetration, hertz%pmax, errors(:, i))
-            end do
-            call tell('lattice, ellipses', integer_text(lattice_strips(k)), errors)
+                call make_gap(1.0e-3_wp, 3.0_wp*hertz%b, contact%gap)
+                contact%gap%h = b*contact%gap%y**2
+                contact%name = 'b_' // integer_text(i)
+                contact%truth%penetration = hertz%penetration
+                contact%truth%pmax = hertz%pmax
+            end associate
         end do
+        call try_lattice(bench, 'hertz', 'ellipses', contacts)
     end subroutine try_ellipses
 
-    subroutine try_lattice(bench, family, name, gap, load, strips, penetration, pmax, error)
+    !> The lattice by all numbers of strips.
+    subroutine try_lattice(bench, family, what, contacts)
         type(bench_t), intent(inout) :: bench
-        character(len=*), intent(in) :: family, name
-        type(gap_t), intent(in) :: gap
-        real(wp), intent(in) :: load, penetration, pmax
-        integer, intent(in) :: strips
-        real(wp), intent(out) :: error(2)
+        character(len=*), intent(in) :: family, what ! for the CSV, for people
+        type(known_t), intent(inout) :: contacts(:)
 
         type(status_t) :: status
-        real(wp) :: depth
+        real(wp) :: depth, errors(2, size(contacts))
+        integer :: i, k
 
-        call set_gap_curve(bench%curve, gap, status)
-        call fail_on_error(status)
-        call lattice_solve(bench%lattice, bench%curve, normal_compliance(material_t()), load, &
-                           strips, bench%strips, depth, status)
-        call fail_on_error(status)
-        error = [depth/penetration, maxval(bench%strips%p0(:bench%strips%n))/pmax] - 1.0_wp
-        call put_row(bench, family, name, 'lattice', integer_text(strips), status, error)
+        do i = 1, size(contacts)
+            call reserve_gap_curve(contacts(i)%curve, size(contacts(i)%gap%y), status)
+            call fail_on_error(status)
+            call set_gap_curve(contacts(i)%curve, contacts(i)%gap, status)
+            call fail_on_error(status)
+        end do
+        do k = 1, size(lattice_strips)
+            do i = 1, size(contacts)
+                associate (contact => contacts(i))
+                    call lattice_solve(bench%lattice, contact%curve, &
+                                       normal_compliance(contact%material), contact%load, &
+                                       lattice_strips(k), bench%strips, depth, status)
+                    call fail_on_error(status)
+                    errors(:, i) = [depth/contact%truth%penetration, &
+                                    maxval(bench%strips%p0(:bench%strips%n)) &
+                                    /contact%truth%pmax] - 1.0_wp
+                    call put_row(bench, family, contact%name, 'lattice', &
+                                 integer_text(lattice_strips(k)), status, errors(:, i))
+                end associate
+            end do
+            call tell('lattice, ' // what, integer_text(lattice_strips(k)), errors)
+        end do
     end subroutine try_lattice
 
     !> Kinks of the curvature, as between R300 and R80 of a rail, and flat tops.
     subroutine try_shapes(bench)
         type(bench_t), intent(inout) :: bench
 
-        type(gap_t) :: gap
+        type(contact_case_t) :: contact
         type(status_t) :: status
         type(normal_result_t) :: fine, result
         character(len=:), allocatable :: family, name
@@ -159,20 +179,21 @@ contains
         n = 0
         m = 0
         do i = 1, n_shapes
-            call make_shape(i, gap)
+            call make_shape(i, contact%gap)
             family = 'kink'
             if (i > 5) family = 'flat_top'
             if (i == 6) m = n
-            call set_strip_gap(bench%workspace, gap, status)
+            call set_strip_gap(bench%workspace, contact%gap, status)
             call fail_on_error(status)
             do l = 1, size(loads)
+                contact%load = loads(l)
                 name = integer_text(i) // '_' // integer_text(l)
                 n = n + 1
-                call solve_by_strips(bench, loads(l), reference_strips, fine, status)
+                call solve_by_strips(bench, contact, reference_strips, fine, status)
                 call put_row(bench, family, name, 'strip', integer_text(reference_strips), status, &
                              [0.0_wp, 0.0_wp])
                 do k = 1, size(tried)
-                    call solve_by_strips(bench, loads(l), tried(k), result, status)
+                    call solve_by_strips(bench, contact, tried(k), result, status)
                     errors(:, n, k) = [result%penetration/fine%penetration, result%pmax/fine%pmax] &
                                       - 1.0_wp
                     call put_row(bench, family, name, 'strip', trim(tried_names(k)), status, &
@@ -217,15 +238,17 @@ contains
         gap%inv2r = a
     end subroutine make_gap
 
-    subroutine solve_by_strips(bench, load, strips, result, status)
+    !> On the gap that was set.
+    subroutine solve_by_strips(bench, contact, strips, result, status)
         type(bench_t), intent(inout) :: bench
-        real(wp), intent(in) :: load
+        type(contact_case_t), intent(in) :: contact
         integer, intent(in) :: strips
         type(normal_result_t), intent(out) :: result
         type(status_t), intent(out) :: status
 
-        call strip_solve(bench%workspace, normal_compliance(material_t()), load, &
-                         strip_options_t(strips_per_patch=strips), bench%strips, result, status)
+        call strip_solve_demand(bench%workspace, normal_compliance(contact%material), &
+                                contact%demand_t, strip_options_t(strips_per_patch=strips), &
+                                bench%strips, result, status)
         call fail_on_error(status)
     end subroutine solve_by_strips
 
