@@ -36,30 +36,7 @@ contains
         integer :: rounds, most_strips, most_elements
         real(wp) :: seconds
 
-        command%name = 'bench'
-        command%usage = 'WHAT'
-        command%about = about()
-        command%options = [ &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
-                     // new_line('a') // '1 to 1000 (default 21)'), &
-            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
-                     reads=.true.), &
-            option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
-            option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
-            option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
-                     // new_line('a') // 'elements (default 6)'), &
-            option_t('--methods', 'FILE', 'trade: the methods (default' &
-                     // ' reference/trade_methods.csv)', reads=.true.), &
-            option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
-            option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
-                     // ' rounding'), &
-            option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
-                     // ' (default reference/influence)', reads=.true.), &
-            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
-                     // ' extremes, scenes: cases', reads=.true.)]
-        command%reads = .false.
-        call parse_command(command, 1)
+        call take_command(command)
         what = command%arguments(1)%text
         file = option_text(command, '-o', '-')
         rounds = option_integer(command, '--rounds', 21, least=1, most=1000)
@@ -149,6 +126,36 @@ contains
             end do
         end subroutine allow
     end subroutine run_bench
+
+    !> Which options there are, and what was given.
+    subroutine take_command(command)
+        type(command_t), intent(inout) :: command
+
+        command%name = 'bench'
+        command%usage = 'WHAT'
+        command%about = about()
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
+            option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
+                     // new_line('a') // '1 to 1000 (default 21)'), &
+            option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
+                     reads=.true.), &
+            option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
+            option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
+            option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
+                     // new_line('a') // 'elements (default 6)'), &
+            option_t('--methods', 'FILE', 'trade: the methods (default' &
+                     // ' reference/trade_methods.csv)', reads=.true.), &
+            option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
+            option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
+                     // ' rounding'), &
+            option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
+                     // ' (default reference/influence)', reads=.true.), &
+            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
+                     // ' extremes, scenes: cases', reads=.true.)]
+        command%reads = .false.
+        call parse_command(command, 1)
+    end subroutine take_command
 
     function about() result(text)
         character(len=:), allocatable :: text
