@@ -51,6 +51,17 @@ module faststrip_geometry_gap_smoothing
     ! overflow.
     real(wp), parameter :: largest_ratio = 1.0e100_wp
 
+    !> The spline through the points of a gap, and the system of its coefficients but for lambda;
+    !> heights in units of the largest.
+    type :: spline_t
+        real(wp) :: noise = 0.0_wp            !! standard deviation of the heights' errors
+        real(wp), allocatable :: basis(:, :)  !! the four B-splines at each point
+        integer, allocatable :: first(:)      !! coefficient of the first of the four
+        real(wp), allocatable :: normal(:, :) !! N, upper band
+        real(wp), allocatable :: penalty(:, :) !! D'D, upper band, scaled
+        real(wp), allocatable :: right(:)     !! B'h
+    end type spline_t
+
 contains
 
     !> Smooth the heights of a gap.
@@ -64,11 +75,10 @@ contains
             !! `st_out_of_range` (the gap bends too sharply for 400 knots to follow it within the
             !! noise), `st_linear_algebra`
 
-        real(wp), allocatable :: basis(:, :), rest(:), curve(:), normal(:, :), penalty(:, :)
-        real(wp), allocatable :: right(:)
-        integer, allocatable :: first(:)
-        real(wp) :: risk, best_risk, best_log, log_lambda, step, unit
-        integer :: i, j, n, m, info
+        type(spline_t) :: spline
+        real(wp), allocatable :: rest(:), curve(:)
+        real(wp) :: risk, log_lambda, unit
+        logical :: follows, solved
 
         rms_change = 0.0_wp
         call check_gap(gap, status)
@@ -82,11 +92,7 @@ contains
                             'the noise is not positive: '//trim(number_text(noise))//' mm')
             return
         end if
-        n = size(gap%y)
-        m = min(n, most_intervals) + 3
-        allocate (basis(0:3, n), rest(n), curve(n), normal(band + 1, m), penalty(band + 1, m), &
-                  right(m), source=0.0_wp)
-        allocate (first(n), source=0)
+        allocate (rest(size(gap%y)), curve(size(gap%y)), source=0.0_wp)
         call take_parabola(gap%y, gap%h, rest)
         unit = maxval(abs(rest))
         if (unit <= epsilon(1.0_wp)*maxval(abs(gap%h))) then
@@ -98,19 +104,44 @@ contains
             return
         end if
         rest = rest/unit
-        call fill_basis(gap%y, m - 3, basis, first)
-        call fill_system(basis, first, rest, normal, penalty, right)
+        call make_spline(gap%y, rest, noise/unit, spline)
+        call choose_lambda(spline, rest, log_lambda, follows)
+        if (.not. follows) then
+            call set_status(status, st_out_of_range, 'the gap bends too sharply to be ' &
+                            //'smoothed within a noise of '//trim(number_text(noise))//' mm')
+            return
+        end if
+        call fit(spline, rest, log_lambda, curve, risk, solved)
+        if (.not. solved) then
+            call set_status(status, st_linear_algebra, 'the smoothing system is singular')
+            return
+        end if
+        smoothed = gap
+        smoothed%h = gap%h - unit*(rest - curve)
+        rms_change = sqrt(sum((rest - curve)**2)/size(rest))*unit
+    end subroutine smooth_gap
+
+    !> The lambda with the least estimate of the curve's error: by decades, then by halvings.
+    subroutine choose_lambda(spline, rest, best_log, follows)
+        type(spline_t), intent(in) :: spline
+        real(wp), intent(in) :: rest(:)
+        real(wp), intent(out) :: best_log ! its logarithm
+        logical, intent(out) :: follows   ! can the curve follow the gap within the noise?
+
+        real(wp) :: curve(size(rest)), risk, best_risk, log_lambda, step
+        integer :: i, j
+        logical :: solved
+
+        follows = .true.
         best_risk = huge(1.0_wp)
         best_log = 0.0_wp
         step = log(10.0_wp) ! Given: a decade
         do i = first_decade, last_decade
-            call fit(i*step, risk)
-            if (info /= 0) cycle
-            if (i == first_decade .and. sum((rest - curve)**2) &
-                > n*(bad_fit*noise/unit)**2) then
-                call set_status(status, st_out_of_range, 'the gap bends too sharply to be ' &
-                                //'smoothed within a noise of '//trim(number_text(noise))//' mm')
-                return
+            call fit(spline, rest, i*step, curve, risk, solved)
+            if (.not. solved) cycle
+            if (i == first_decade) then
+                follows = .not. sum((rest - curve)**2) > size(rest)*(bad_fit*spline%noise)**2
+                if (.not. follows) return
             end if
             if (risk >= best_risk) cycle
             best_risk = risk
@@ -120,55 +151,72 @@ contains
             step = 0.5_wp*step
             do i = -1, 1, 2
                 log_lambda = best_log + i*step
-                call fit(log_lambda, risk)
-                if (info /= 0 .or. risk >= best_risk) cycle
+                call fit(spline, rest, log_lambda, curve, risk, solved)
+                if (.not. solved .or. risk >= best_risk) cycle
                 best_risk = risk
                 best_log = log_lambda
                 exit
             end do
         end do
-        call fit(best_log, risk)
-        if (info /= 0) then
-            call set_status(status, st_linear_algebra, 'the smoothing system is singular')
-            return
-        end if
-        smoothed = gap
-        smoothed%h = gap%h - unit*(rest - curve)
-        rms_change = sqrt(sum((rest - curve)**2)/n)*unit
+    end subroutine choose_lambda
 
-    contains
+    !> The curve for a lambda, and the estimate of its error.
+    subroutine fit(spline, rest, log_lambda, curve, error, solved)
+        type(spline_t), intent(in) :: spline
+        real(wp), intent(in) :: rest(:), log_lambda
+        real(wp), intent(inout) :: curve(:) ! as it was if not solved
+        real(wp), intent(out) :: error
+        logical, intent(out) :: solved
 
-        !> The curve for a lambda, and the estimate of its error.
-        subroutine fit(log_of_lambda, error)
-            real(wp), intent(in) :: log_of_lambda
-            real(wp), intent(out) :: error
+        real(wp) :: system(band + 1, size(spline%right)), degrees
+        real(wp) :: solution(size(spline%right), size(spline%right) + 1)
+        integer :: l, k, m, info
 
-            real(wp) :: system(band + 1, m), solution(m, m + 1), degrees
-            integer :: l, k
-
-            error = huge(1.0_wp)
-            system = normal + exp(log_of_lambda)*penalty
-            call dpbtrf('U', m, band, system, band + 1, info)
-            if (info /= 0) return
-            solution = 0.0_wp
-            do l = 1, m
-                do k = max(1, l - band), l
-                    solution(k, l) = normal(band + 1 + k - l, l)
-                    solution(l, k) = solution(k, l)
-                end do
+        m = size(spline%right)
+        error = huge(1.0_wp)
+        system = spline%normal + exp(log_lambda)*spline%penalty
+        call dpbtrf('U', m, band, system, band + 1, info)
+        solved = info == 0
+        if (.not. solved) return
+        solution = 0.0_wp
+        do l = 1, m
+            do k = max(1, l - band), l
+                solution(k, l) = spline%normal(band + 1 + k - l, l)
+                solution(l, k) = solution(k, l)
             end do
-            solution(:, m + 1) = right
-            call dpbtrs('U', m, band, m + 1, system, band + 1, solution, m, info)
-            degrees = 0.0_wp
-            do l = 1, m
-                degrees = degrees + solution(l, l)
+        end do
+        solution(:, m + 1) = spline%right
+        call dpbtrs('U', m, band, m + 1, system, band + 1, solution, m, info)
+        solved = info == 0
+        degrees = 0.0_wp
+        do l = 1, m
+            degrees = degrees + solution(l, l)
+        end do
+        associate (first => spline%first)
+            do l = 1, size(rest)
+                curve(l) = dot_product(spline%basis(:, l), solution(first(l):first(l) + 3, m + 1))
             end do
-            do l = 1, n
-                curve(l) = dot_product(basis(:, l), solution(first(l):first(l) + 3, m + 1))
-            end do
-            error = sum((rest - curve)**2) + 2.0_wp*caution*(noise/unit)**2*degrees
-        end subroutine fit
-    end subroutine smooth_gap
+        end associate
+        error = sum((rest - curve)**2) + 2.0_wp*caution*spline%noise**2*degrees
+    end subroutine fit
+
+    !> The spline's basis and its system for heights without their parabola.
+    subroutine make_spline(y, rest, noise, spline)
+        real(wp), intent(in) :: y(:), rest(:), noise
+        type(spline_t), intent(out) :: spline
+
+        integer :: n, m
+
+        n = size(y)
+        m = min(n, most_intervals) + 3
+        allocate (spline%basis(0:3, n), spline%normal(band + 1, m), spline%penalty(band + 1, m), &
+                  spline%right(m), source=0.0_wp)
+        allocate (spline%first(n), source=0)
+        spline%noise = noise
+        call fill_basis(y, m - 3, spline%basis, spline%first)
+        call fill_system(spline%basis, spline%first, rest, spline%normal, spline%penalty, &
+                         spline%right)
+    end subroutine make_spline
 
     !> What is left of heights without the parabola that fits them best.
     pure subroutine take_parabola(y, h, rest)

@@ -74,7 +74,6 @@ contains
         real(wp), intent(in) :: cant            !! tangent, e.g. 1/40; within +-0.1
         type(rail_head_t), intent(out) :: head  !! the head
         type(status_t), intent(out) :: status   !! `st_bad_argument`
-        real(wp) :: angle_1, angle_2, angle_flank, cant_angle, crown_y, crown_z, y_end, z_end
         logical :: valid
 
         call clear_status(status)
@@ -93,8 +92,18 @@ contains
             return
         end if
 
-        ! The chain in its own frame: a tangent joint keeps the angle of the normal.
         head%cant = cant
+        call join_arcs(transition, head)
+        call turn_head(head)
+    end subroutine make_rail_head
+
+    !> The chain in its own frame: a tangent joint keeps the angle of the normal.
+    pure subroutine join_arcs(transition, head)
+        real(wp), intent(in) :: transition
+        type(rail_head_t), intent(inout) :: head
+
+        real(wp) :: angle_1, angle_2, angle_flank
+
         head%y1 = transition
         angle_1 = asin(transition/radius(1))
         head%z1 = radius(1)*(1.0_wp - cos(angle_1))
@@ -109,10 +118,17 @@ contains
         head%z2 = head%centre_z(2) - radius(2)*cos(angle_2)
         head%centre_z(3) = head%z2 + radius(3)*cos(angle_2)
         head%z_flank = head%centre_z(3) - radius(3)*cos(angle_flank)
+    end subroutine join_arcs
+
+    !> The chain in the canted frame.
+    pure subroutine turn_head(head)
+        type(rail_head_t), intent(inout) :: head
+
+        real(wp) :: cant_angle, crown_y, crown_z, y_end, z_end
 
         ! The highest point of the canted head: on R300, or on R80 for a large cant.
-        cant_angle = atan(cant)
-        if (abs(cant_angle) <= angle_1) then
+        cant_angle = atan(head%cant)
+        if (abs(cant_angle) <= asin(head%y1/radius(1))) then
             call rotate(0.0_wp, radius(1), 0.0_wp, 0.0_wp, crown_y, crown_z)
             crown_z = crown_z - radius(1)
         else
@@ -171,7 +187,7 @@ contains
                 y = y_last
             end if
         end subroutine place_flank
-    end subroutine make_rail_head
+    end subroutine turn_head
 
     !> The canted head and its first two derivatives; the origin is its highest point.
     pure subroutine rail_head_at(head, y, z, dz, d2z, status)
