@@ -73,6 +73,18 @@ module faststrip_tangential_paper
         real(wp) :: covered = 0.0_wp !! area, mm^2
     end type march_sum_t
 
+    !> What the strips of a patch share.
+    type :: patch_t
+        logical :: carries = .false.       !! anything at all?
+        real(wp) :: y0 = 0.0_wp            !! its middle (28), mm
+        real(wp) :: c1 = 0.0_wp, c2 = 0.0_wp, c3 = 0.0_wp !! (30)
+        real(wp) :: shear_modulus = 0.0_wp !! G, MPa
+        real(wp) :: mu = 0.0_wp            !! coefficient of friction
+        real(wp) :: largest_p0 = 0.0_wp    !! MPa
+        real(wp) :: stress = 0.0_wp        !! mu N over the sum of the bounds, N
+        type(creepage_t) :: creepage       !! about y = 0
+    end type patch_t
+
     ! A patch or a strip below this area (mm^2) or force (N) carries nothing.
     ! Tuned [mm2, N]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp
@@ -217,11 +229,31 @@ contains
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
 
+        type(patch_t) :: patch
+        integer :: i
+
+        call scale_patch(strips, first, last, material, mu, reading, patch, total, status)
+        if (is_error(status) .or. .not. patch%carries) return
+        patch%creepage = creepage
+        do i = first, last
+            call march_strip(strips, i, patch, reading, total, field)
+        end do
+    end subroutine march_patch
+
+    !> What the strips of a patch share: (26) to (31), (46).
+    pure subroutine scale_patch(strips, first, last, material, mu, reading, patch, total, status)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(material_t), intent(in) :: material
+        real(wp), intent(in) :: mu
+        type(march_reading_t), intent(in) :: reading
+        type(patch_t), intent(out) :: patch        ! but for its creepage
+        type(march_sum_t), intent(inout) :: total  ! its axes and points
+        type(status_t), intent(inout) :: status
+
         type(kalker_coefficients_t) :: c
-        real(wp) :: y0, ratio, area, load, c1, c2, c3, t0, ux, uy, fx, fy, factor, sum_of_bounds
-        real(wp) :: y, width, ye, ae, step, way, xe, before, cell, sx, sy, px, py, p, stress, lever
-        real(wp) :: largest_p0, ahead_x, ahead_y, slip_x, slip_y, x
-        integer :: i, j, state
+        real(wp) :: ratio, area, load, width, sum_of_bounds
+        integer :: i
 
         area = 0.0_wp
         load = 0.0_wp
@@ -231,87 +263,104 @@ contains
             load = load + strip_load(strips%p0(i), strips%half_length(i), width)
         end do
         if (area <= smallest .or. mu*load <= smallest) return
+        patch%carries = .true.
         total%b = 0.5_wp*(strips%y_right(last) - strips%y_left(first))       ! (26)
         total%a = area/(pi*total%b)                                          ! (27)
-        y0 = 0.5_wp*(strips%y_left(first) + strips%y_right(last))            ! (28)
+        patch%y0 = 0.5_wp*(strips%y_left(first) + strips%y_right(last))      ! (28)
         ratio = min(max(total%b/total%a, 1.0_wp/largest_ratio), largest_ratio) ! (29)
         call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         ! Given: the paper's (30)
-        c1 = 9.0_wp/32.0_wp*c%c11                                            ! (30)
-        c2 = 9.0_wp/32.0_wp*c%c22 ! Given: the paper's (30)
-        c3 = 3.0_wp/pi*sqrt(ratio)*c%c23
+        patch%c1 = 9.0_wp/32.0_wp*c%c11                                      ! (30)
+        patch%c2 = 9.0_wp/32.0_wp*c%c22 ! Given: the paper's (30)
+        patch%c3 = 3.0_wp/pi*sqrt(ratio)*c%c23
         total%points = reading%points
         ! Given: the paper's (31)
         if (total%points == 0) total%points = max(int(8.0_wp*total%a), 1)    ! (31)
-        largest_p0 = maxval(strips%p0(first:last))
+        patch%shear_modulus = combined_shear_modulus(material)
+        patch%mu = mu
+        patch%largest_p0 = maxval(strips%p0(first:last))
         sum_of_bounds = 0.5_wp*pi
         if (reading%true_sum) sum_of_bounds = bounds_of_patch(strips, first, last, total)
-        do i = first, last
-            y = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
-            width = strips%y_right(i) - strips%y_left(i)
-            t0 = mu*largest_p0
-            if (reading%bound_of_strip) t0 = mu*strips%p0(i)                 ! (34)
-            if (t0*strips%half_length(i)*width <= smallest) cycle
-            ye = y/total%b                                                   ! (32)
-            if (.not. reading%from_reference) ye = (y - y0)/total%b
-            factor = combined_shear_modulus(material)/t0                     ! (35)
-            ux = factor*c1*creepage%cksi
-            uy = factor*c2*creepage%ceta
-            fx = factor*c3*total%b*creepage%cphi
-            fy = factor*c3*total%a*creepage%cphi
-            ae = strips%half_length(i)/total%a                               ! (36)
-            step = 2.0_wp*ae/total%points                                    ! (37)
-            cell = width/total%b*step                                        ! (33), (38)
-            ! (46)-(48) divide by the sum of the bounds and multiply by mu N.
-            stress = mu*load/sum_of_bounds
-            if (.not. reading%scaled) stress = total%a*total%b*t0
-            sx = ux - fx*ye                                                  ! (39)
-            px = 0.0_wp
-            py = 0.0_wp
-            before = ae
-            do j = 1, total%points
-                xe = ae - (j - 0.5_wp)*step
-                way = ae - xe
-                if (.not. reading%way_from_edge) way = before - xe
-                sy = uy + fy*(xe + 0.5_wp*way)                               ! (40)
-                px = px - sx*way                                             ! (41)
-                py = py - sy*way
-                p = sqrt(px*px + py*py)                                      ! (42)
-                state = state_adhesion
-                slip_x = 0.0_wp
-                slip_y = 0.0_wp
-                if (p > ae*ae - xe*xe) then
-                    state = state_slip
-                    ahead_x = px
-                    ahead_y = py
-                    px = px*((ae*ae - xe*xe)/p)                              ! (43)
-                    py = py*((ae*ae - xe*xe)/p)
-                    ! Slip over rolling speed: creepage per slope times the slope scaled back.
-                    slip_x = (px - ahead_x)/(way*factor*c1)
-                    slip_y = (py - ahead_y)/(way*factor*c2)
-                else
-                    total%stuck = total%stuck + cell*total%a*total%b
-                end if
-                before = xe
-                total%covered = total%covered + cell*total%a*total%b
-                total%tx = total%tx + px*cell*stress                         ! (44), (45)
-                total%ty = total%ty + py*cell*stress
-                total%power = total%power - (px*slip_x + py*slip_y)*cell*stress
-                lever = px*ye - py*xe
-                if (.not. reading%bare_moment) lever = py*xe*total%a - px*ye*total%b
-                total%mz = total%mz + lever*cell*stress
-                if (present(field)) then
-                    x = xe*total%a
-                    call add_element( &
-                        field, x, y, cell*total%a*total%b, &
-                        strips%p0(i)*sqrt(max(1.0_wp - (x/strips%half_length(i))**2, 0.0_wp)), &
-                        px*stress/(total%a*total%b), py*stress/(total%a*total%b), slip_x, slip_y, &
-                        state)
-                end if
-            end do
+        ! (46)-(48) divide by the sum of the bounds and multiply by mu N.
+        patch%stress = mu*load/sum_of_bounds
+    end subroutine scale_patch
+
+    !> March through one strip of a patch, from its leading edge: (32) to (45).
+    pure subroutine march_strip(strips, i, patch, reading, total, field)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: i
+        type(patch_t), intent(in) :: patch
+        type(march_reading_t), intent(in) :: reading
+        type(march_sum_t), intent(inout) :: total
+        type(tangential_field_t), intent(inout), optional :: field
+
+        real(wp) :: t0, ux, uy, fx, fy, factor, y, width, ye, ae, step, way, xe, before, cell
+        real(wp) :: sx, sy, px, py, p, stress, lever, ahead_x, ahead_y, slip_x, slip_y, x
+        integer :: j, state
+
+        y = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
+        width = strips%y_right(i) - strips%y_left(i)
+        t0 = patch%mu*patch%largest_p0
+        if (reading%bound_of_strip) t0 = patch%mu*strips%p0(i)               ! (34)
+        if (t0*strips%half_length(i)*width <= smallest) return
+        ye = y/total%b                                                       ! (32)
+        if (.not. reading%from_reference) ye = (y - patch%y0)/total%b
+        factor = patch%shear_modulus/t0                                      ! (35)
+        ux = factor*patch%c1*patch%creepage%cksi
+        uy = factor*patch%c2*patch%creepage%ceta
+        fx = factor*patch%c3*total%b*patch%creepage%cphi
+        fy = factor*patch%c3*total%a*patch%creepage%cphi
+        ae = strips%half_length(i)/total%a                                   ! (36)
+        step = 2.0_wp*ae/total%points                                        ! (37)
+        cell = width/total%b*step                                            ! (33), (38)
+        stress = patch%stress
+        if (.not. reading%scaled) stress = total%a*total%b*t0
+        sx = ux - fx*ye                                                      ! (39)
+        px = 0.0_wp
+        py = 0.0_wp
+        before = ae
+        do j = 1, total%points
+            xe = ae - (j - 0.5_wp)*step
+            way = ae - xe
+            if (.not. reading%way_from_edge) way = before - xe
+            sy = uy + fy*(xe + 0.5_wp*way)                                   ! (40)
+            px = px - sx*way                                                 ! (41)
+            py = py - sy*way
+            p = sqrt(px*px + py*py)                                          ! (42)
+            state = state_adhesion
+            slip_x = 0.0_wp
+            slip_y = 0.0_wp
+            if (p > ae*ae - xe*xe) then
+                state = state_slip
+                ahead_x = px
+                ahead_y = py
+                px = px*((ae*ae - xe*xe)/p)                                  ! (43)
+                py = py*((ae*ae - xe*xe)/p)
+                ! Slip over rolling speed: creepage per slope times the slope scaled back.
+                slip_x = (px - ahead_x)/(way*factor*patch%c1)
+                slip_y = (py - ahead_y)/(way*factor*patch%c2)
+            else
+                total%stuck = total%stuck + cell*total%a*total%b
+            end if
+            before = xe
+            total%covered = total%covered + cell*total%a*total%b
+            total%tx = total%tx + px*cell*stress                             ! (44), (45)
+            total%ty = total%ty + py*cell*stress
+            total%power = total%power - (px*slip_x + py*slip_y)*cell*stress
+            lever = px*ye - py*xe
+            if (.not. reading%bare_moment) lever = py*xe*total%a - px*ye*total%b
+            total%mz = total%mz + lever*cell*stress
+            if (present(field)) then
+                x = xe*total%a
+                call add_element( &
+                    field, x, y, cell*total%a*total%b, &
+                    strips%p0(i)*sqrt(max(1.0_wp - (x/strips%half_length(i))**2, 0.0_wp)), &
+                    px*stress/(total%a*total%b), py*stress/(total%a*total%b), slip_x, slip_y, &
+                    state)
+            end if
         end do
-    end subroutine march_patch
+    end subroutine march_strip
 
     !> Sum of `ae^2 - xe^2` over the elements of a patch: pi/2 on an ellipse with many.
     pure real(wp) function bounds_of_patch(strips, first, last, total) result(bounds)
