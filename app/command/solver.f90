@@ -96,9 +96,7 @@ contains
         type(outcome_t), intent(out) :: outcome     !! figures
         type(status_t), intent(out) :: status       !! an error, or a named limitation
 
-        type(status_t) :: tangential_status, choice_status
-        integer(int64) :: before, between, after
-        real(wp) :: cpu ! us
+        type(status_t) :: choice_status
 
         outcome%choice = ''
         call take_contact(solver, contact, outcome, status)
@@ -106,6 +104,25 @@ contains
         call take_methods(solver, outcome, choice_status)
         status = choice_status
         if (is_error(status)) return
+        call solve_pressures(solver, outcome, status)
+        if (is_error(status)) return
+        call solve_forces(solver, outcome, status)
+        if (status%code == st_ok) status = choice_status
+        if (is_error(status) .or. solver%chosen%normal == normal_norm) return
+        call certify(solver%workspace, solver%contact, outcome%normal, outcome%certificate, &
+                     outcome%is_certified, status)
+        outcome%is_estimated = outcome%is_certified
+    end subroutine solve
+
+    !> The normal problem, and the strips that the forces are for.
+    subroutine solve_pressures(solver, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(out) :: status
+
+        integer(int64) :: before, after
+        real(wp) :: cpu ! us
+
         call make_room(solver%workspace, solver%contact, status)
         if (is_error(status)) return
         if (solver%chosen%normal == normal_norm) &
@@ -128,18 +145,27 @@ contains
                                       curve=solver%curve)
         end if
         if (is_error(status)) return
-        call system_clock(between)
-        outcome%normal_us = outcome%normal_us + microseconds(before, between)
+        call system_clock(after)
+        outcome%normal_us = outcome%normal_us + microseconds(before, after)
         outcome%normal_cpu_us = outcome%normal_cpu_us + cpu_microseconds() - cpu
+        if (solver%chosen%normal /= normal_norm) return
+        call take_rows(solver%norm, solver%workspace, status)
+        if (is_error(status)) return
+        if (solver%with_field) call grow_field(solver, status)
+    end subroutine solve_pressures
+
+    !> The tangential problem; an error of it becomes that of the contact.
+    subroutine solve_forces(solver, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(inout) :: status
+
+        type(status_t) :: tangential_status
+        integer(int64) :: before, after
+        real(wp) :: cpu ! us
+
         cpu = cpu_microseconds()
-        if (solver%chosen%normal == normal_norm) then
-            call take_rows(solver%norm, solver%workspace, status)
-            if (is_error(status)) return
-            if (solver%with_field) call grow_field(solver, status)
-            if (is_error(status)) return
-            call system_clock(between)
-            cpu = cpu_microseconds()
-        end if
+        call system_clock(before)
         if (solver%chosen%tangential == tangential_tang) then
             call solve_by_tang(solver%tang, solver%chosen, solver%contact, solver%workspace, &
                                solver%norm, solver%with_field, outcome%tangential, solver%field, &
@@ -152,6 +178,7 @@ contains
                                           tangential_status)
         end if
         call system_clock(after)
+        outcome%tangential_us = microseconds(before, after)
         outcome%tangential_cpu_us = cpu_microseconds() - cpu
         solver%strip_forces%n = 0
         if (solver%with_strip_forces .and. solver%chosen%tangential == tangential_faststrip &
@@ -166,14 +193,8 @@ contains
         end if
         outcome%has_forces = solver%chosen%tangential /= tangential_none
         outcome%knows_stick = gives_stick(solver%chosen%tangential) .and. outcome%has_forces
-        outcome%tangential_us = microseconds(between, after)
         if (is_error(tangential_status)) status = tangential_status
-        if (status%code == st_ok) status = choice_status
-        if (is_error(status) .or. solver%chosen%normal == normal_norm) return
-        call certify(solver%workspace, solver%contact, outcome%normal, outcome%certificate, &
-                     outcome%is_certified, status)
-        outcome%is_estimated = outcome%is_certified
-    end subroutine solve
+    end subroutine solve_forces
 
     !> Check the contact, smooth its gap if that is asked for, and make it a curve once for all
     !> methods, which counts as normal time.
