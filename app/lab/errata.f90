@@ -56,6 +56,17 @@ module faststrip_lab_errata
         type(finding_t), allocatable :: list(:)
     end type findings_t
 
+    !> A Hertz contact and its strips.
+    type :: ellipse_t
+        type(hertz_t) :: hertz
+        type(contact_strips_t) :: strips
+    end type ellipse_t
+
+    !> What makes the march Kalker's FASTSIM, and creepages of every kind.
+    type(march_reading_t), parameter :: kalker = &
+        march_reading_t(.false., .false., .false., .true., .true., 40)
+    type(creepage_t), parameter :: some_creepage = creepage_t(1.5e-3_wp, -1.0e-3_wp, 1.0e-4_wp)
+
 contains
 
     !> Run the subcommand from the command line: compute all demonstrations, write them as CSV and,
@@ -239,35 +250,46 @@ contains
     subroutine compare_march(found)
         type(findings_t), intent(inout) :: found
 
-        type(contact_strips_t) :: strips
-        type(hertz_t) :: hertz
-        type(kalker_coefficients_t) :: c
-        type(tangential_result_t) :: fastsim
-        type(march_sum_t) :: total, other
-        type(march_reading_t) :: kalker
-        type(creepage_t) :: creepage
-        type(material_t) :: material
+        type(ellipse_t) :: ellipse
         type(status_t) :: status
-        integer, parameter :: points(3) = [10, 20, 0]
-        real(wp) :: force, linear
-        character(len=60) :: what
-        integer :: i
 
-        call hertz_solve(normal_compliance(material), 1.0e-3_wp, 1.0e-3_wp, load, hertz, status)
+        call hertz_solve(normal_compliance(material_t()), 1.0e-3_wp, 1.0e-3_wp, load, &
+                         ellipse%hertz, status)
         call fail_on_error(status)
-        call reserve_strips(strips, 40, status)
+        call reserve_strips(ellipse%strips, 40, status)
         call fail_on_error(status)
-        call hertz_strips(hertz, 40, strips, status)
+        call hertz_strips(ellipse%hertz, 40, ellipse%strips, status)
         call fail_on_error(status)
-        call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
-        call fail_on_error(status)
-        linear = c%c11*combined_shear_modulus(material)*hertz%a*hertz%b
-        kalker = march_reading_t(.false., .false., .false., .true., .true., 40)
+        call compare_forces(found, ellipse)
+        call compare_stiffness(found, ellipse)
+        call compare_moment(found, ellipse)
+        call compare_points(found, ellipse)
+        call compare_reference_point(found, ellipse)
+    end subroutine compare_march
 
-        creepage = creepage_t(1.5e-3_wp, -1.0e-3_wp, 1.0e-4_wp)
-        call printed_march(strips, material, mu, creepage, kalker, total, status)
+    !> The paper's march on the ellipse.
+    subroutine march(ellipse, creepage, reading, total)
+        type(ellipse_t), intent(in) :: ellipse
+        type(creepage_t), intent(in) :: creepage
+        type(march_reading_t), intent(in) :: reading
+        type(march_sum_t), intent(out) :: total
+
+        type(status_t) :: status
+
+        call printed_march(ellipse%strips, material_t(), mu, creepage, reading, total, status)
         call fail_on_error(status)
-        call fastsim_solve(hertz, material, mu, creepage, 40, 40, fastsim, status)
+    end subroutine march
+
+    subroutine compare_forces(found, ellipse)
+        type(findings_t), intent(inout) :: found
+        type(ellipse_t), intent(in) :: ellipse
+
+        type(tangential_result_t) :: fastsim
+        type(march_sum_t) :: total
+        type(status_t) :: status
+
+        call march(ellipse, some_creepage, kalker, total)
+        call fastsim_solve(ellipse%hertz, material_t(), mu, some_creepage, 40, 40, fastsim, status)
         call fail_on_error(status)
         call add(found, '(30) (42) (46)', 'Tx by (25)-(48) corrected, by FASTSIM', 'N', total%tx, &
                  fastsim%fx, 'parabolic bound and one T0 make it Kalker''s FASTSIM')
@@ -275,8 +297,21 @@ contains
                  fastsim%fy, 'the same')
         call add(found, '(30) (42) (46)', 'Mz by (25)-(48) corrected, by FASTSIM', 'N mm', &
                  total%mz, fastsim%mz, 'the same')
+    end subroutine compare_forces
 
-        creepage = creepage_t(1.0e-9_wp, 0.0_wp, 0.0_wp)
+    subroutine compare_stiffness(found, ellipse)
+        type(findings_t), intent(inout) :: found
+        type(ellipse_t), intent(in) :: ellipse
+
+        type(kalker_coefficients_t) :: c
+        type(status_t) :: status
+        real(wp) :: linear
+
+        associate (a => ellipse%hertz%a, b => ellipse%hertz%b)
+            call kalker_coefficients(a/b, combined_poisson_ratio(material_t()), c, status)
+            call fail_on_error(status)
+            linear = c%c11*combined_shear_modulus(material_t())*a*b
+        end associate
         call stiffness('(34)', 'C11 with T0 = mu p0 of each strip', &
                        march_reading_t(.true., .false., .false., .true., .true., 200), &
                        '3 pi/8 = 1.178 too stiff')
@@ -285,57 +320,80 @@ contains
                        'the way from the edge is added at every point: nx/3 too stiff')
         call stiffness('(25)-(48)', 'C11 corrected', kalker, 'the last step, Ex/2 at first')
 
-        creepage = creepage_t(1.5e-3_wp, -1.0e-3_wp, 1.0e-4_wp)
-        call printed_march(strips, material, mu, creepage, kalker, total, status)
-        call fail_on_error(status)
-        call printed_march(strips, material, mu, creepage, &
-                           march_reading_t(.false., .false., .true., .true., .true., 40), other, &
-                           status)
-        call fail_on_error(status)
-        call add(found, '(44)', 'Mz', 'N mm', other%mz, total%mz, &
-                 'coordinates of the ellipse, not mm; the sign is that of int(y px - x py)')
-
-        call printed_march(strips, material, mu, creepage, &
-                           march_reading_t(.false., .false., .false., .true., .true., 1000), &
-                           other, status)
-        call fail_on_error(status)
-        force = hypot(other%tx, other%ty)
-        do i = 1, size(points)
-            kalker%points = points(i)
-            call printed_march(strips, material, mu, creepage, kalker, total, status)
-            call fail_on_error(status)
-            write (what, '(a, i0, a)') 'force with ', total%points, &
-                ' points along a strip, with 1000'
-            call add(found, '(31)', what, 'N', hypot(total%tx, total%ty), force, &
-                     'nx = Int(8a) with a in mm; 10 to 20 suffice')
-        end do
-
-        ! The ellipse five millimetres beside the reference point, spinning about that.
-        kalker%points = 40
-        strips%y_left = strips%y_left + 5.0_wp
-        strips%y_right = strips%y_right + 5.0_wp
-        creepage = creepage_t(0.0_wp, 0.0_wp, 1.0e-9_wp)
-        call printed_march(strips, material, mu, creepage, kalker, total, status)
-        call fail_on_error(status)
-        kalker%from_reference = .false.
-        call printed_march(strips, material, mu, creepage, kalker, other, status)
-        call fail_on_error(status)
-        call add(found, '(32)', 'Tx/cphi, patch 5 mm off the reference point', 'N mm', &
-                 other%tx/creepage%cphi, total%tx/creepage%cphi, &
-                 'right as printed, y/b: y - y0 of (28) would lose the creepage -y0 phi')
-
     contains
 
         subroutine stiffness(equation, what, reading, note)
             character(len=*), intent(in) :: equation, what, note
             type(march_reading_t), intent(in) :: reading
 
-            call printed_march(strips, material, mu, creepage, reading, total, status)
-            call fail_on_error(status)
+            type(creepage_t), parameter :: creepage = creepage_t(1.0e-9_wp, 0.0_wp, 0.0_wp)
+            type(march_sum_t) :: total
+
+            call march(ellipse, creepage, reading, total)
             call add(found, equation, what, '-', -c%c11*total%tx/(linear*creepage%cksi), c%c11, &
                      note)
         end subroutine stiffness
-    end subroutine compare_march
+    end subroutine compare_stiffness
+
+    subroutine compare_moment(found, ellipse)
+        type(findings_t), intent(inout) :: found
+        type(ellipse_t), intent(in) :: ellipse
+
+        type(march_sum_t) :: total, other
+
+        call march(ellipse, some_creepage, kalker, total)
+        call march(ellipse, some_creepage, &
+                   march_reading_t(.false., .false., .true., .true., .true., 40), other)
+        call add(found, '(44)', 'Mz', 'N mm', other%mz, total%mz, &
+                 'coordinates of the ellipse, not mm; the sign is that of int(y px - x py)')
+    end subroutine compare_moment
+
+    subroutine compare_points(found, ellipse)
+        type(findings_t), intent(inout) :: found
+        type(ellipse_t), intent(in) :: ellipse
+
+        integer, parameter :: points(3) = [10, 20, 0]
+        type(march_reading_t) :: reading
+        type(march_sum_t) :: total
+        real(wp) :: force
+        character(len=60) :: what
+        integer :: i
+
+        reading = kalker
+        reading%points = 1000
+        call march(ellipse, some_creepage, reading, total)
+        force = hypot(total%tx, total%ty)
+        do i = 1, size(points)
+            reading%points = points(i)
+            call march(ellipse, some_creepage, reading, total)
+            write (what, '(a, i0, a)') 'force with ', total%points, &
+                ' points along a strip, with 1000'
+            call add(found, '(31)', what, 'N', hypot(total%tx, total%ty), force, &
+                     'nx = Int(8a) with a in mm; 10 to 20 suffice')
+        end do
+    end subroutine compare_points
+
+    !> The ellipse five millimetres beside the reference point, spinning about that.
+    subroutine compare_reference_point(found, ellipse)
+        type(findings_t), intent(inout) :: found
+        type(ellipse_t), intent(in) :: ellipse
+
+        type(creepage_t), parameter :: creepage = creepage_t(0.0_wp, 0.0_wp, 1.0e-9_wp)
+        type(ellipse_t) :: beside
+        type(march_reading_t) :: reading
+        type(march_sum_t) :: total, other
+
+        beside = ellipse
+        beside%strips%y_left = beside%strips%y_left + 5.0_wp
+        beside%strips%y_right = beside%strips%y_right + 5.0_wp
+        call march(beside, creepage, kalker, total)
+        reading = kalker
+        reading%from_reference = .false.
+        call march(beside, creepage, reading, other)
+        call add(found, '(32)', 'Tx/cphi, patch 5 mm off the reference point', 'N mm', &
+                 other%tx/creepage%cphi, total%tx/creepage%cphi, &
+                 'right as printed, y/b: y - y0 of (28) would lose the creepage -y0 phi')
+    end subroutine compare_reference_point
 
     !> (46)-(48): what is scaled is no force, and pi/2 is the sum of the bounds on an ellipse only.
     subroutine compare_saturation(found)

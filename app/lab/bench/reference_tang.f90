@@ -9,9 +9,10 @@ module faststrip_lab_bench_reference_tang
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_cell, end_row
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: normal_compliance
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+                                       set_norm_gap, norm_solve_demand
+    use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
@@ -34,6 +35,14 @@ module faststrip_lab_bench_reference_tang
         'new_plans', 'cold', 'warm_creepage']
     real(wp), parameter :: creepage_factor = 1.05_wp
     integer, parameter :: most_runs = 50
+
+    !> The runs of one start.
+    type :: runs_t
+        integer :: n = 0                              !! without run 0
+        real(wp) :: times(0:most_runs) = 0.0_wp       !! us
+        real(wp) :: products(0:most_runs) = 0.0_wp    !! applications of the influence
+        integer :: elements = 0                       !! in contact
+    end type runs_t
 
 contains
 
@@ -85,96 +94,116 @@ contains
         real(wp), intent(out) :: us(:) !! medians
 
         type(norm_workspace_t) :: norm
-        type(tang_options_t) :: options
         type(normal_result_t) :: normal
+        type(runs_t) :: runs
         type(status_t) :: status
-        real(wp), dimension(0:most_runs) :: times, products
-        real(wp) :: figures(size(spread_names))
-        integer :: start, figure, runs, elements
+        integer :: start
 
         call reserve_norm(norm, size(case%gap%y), status)
         call fail_on_error(status)
         call set_norm_gap(norm, case%gap, status)
         call fail_on_error(status)
-        call norm_solve(norm, normal_compliance(material_t()), case%load, &
-                        norm_options_t(dx=dx, dy=dx), normal, status)
+        call norm_solve_demand(norm, normal_compliance(case%material), case%demand_t, &
+                               norm_options_t(dx=dx, dy=dx), normal, status)
         call fail_on_error(status)
-        options%edges = edges_of_norm
         do start = 1, size(starts)
-            call run_again(runs)
-            figures = spread_of(times(1:runs))
-            us(start) = figures(1)
-            call put_cell(writer, 'tang')
-            call put_cell(writer, trim(starts(start)))
-            call put_cell(writer, options%tolerance)
-            call put_cell(writer, elements)
-            call put_cell(writer, us(start))
-            call put_cell(writer, median(products(1:runs)))
-            call put_cell(writer, median(products(1:runs)))
-            call put_cell(writer, dx)
-            call put_cell(writer, norm%grid%nx*norm%grid%ny)
-            call put_cell(writer, compiler_flags())
-            call put_cell(writer, compiler_name())
-            call put_cell(writer, cpu_name())
-            call put_cell(writer, case%name)
-            call put_cell(writer, runs)
-            do figure = 1, size(figures)
-                call put_cell(writer, figures(figure))
-            end do
-            call end_row(writer)
+            call run_again(case, norm%grid, start, budget_us, runs)
+            us(start) = median(runs%times(1:runs%n))
+            call put_runs(writer, case%name, norm%grid, start, runs)
+        end do
+    end subroutine measure_case
+
+    !> As often as the time allows. The first run, number 0, makes plans and what the others start
+    !> from.
+    subroutine run_again(case, grid, start, budget_us, runs)
+        type(bench_case_t), intent(in) :: case
+        type(contact_grid_t), intent(in) :: grid !! with pressures
+        integer, intent(in) :: start
+        real(wp), intent(in) :: budget_us
+        type(runs_t), intent(out) :: runs
+
+        type(tang_workspace_t) :: kept
+        integer(int64) :: begin, now
+        integer :: run
+
+        call system_clock(begin)
+        do run = merge(1, 0, start == new_plans), most_runs
+            if (start == new_plans) then
+                call run_with_new_plans()
+            else
+                call run_once(case, grid, start, run, kept, runs)
+            end if
+            runs%n = run
+            call system_clock(now)
+            if (microseconds(begin, now) > budget_us .and. run >= 1) exit
         end do
 
     contains
 
-        !> The first run, number 0, makes plans and what the others start from.
-        subroutine run_again(runs)
-            integer, intent(out) :: runs
-
-            type(tang_workspace_t) :: kept
-            integer(int64) :: begin, now
-            integer :: run
-
-            call system_clock(begin)
-            runs = 0
-            do run = merge(1, 0, start == new_plans), most_runs
-                options%warm_start = start == warm .and. run > 0
-                if (start == new_plans) then
-                    call one_run_of_new(run)
-                else
-                    call one_run(kept, run)
-                end if
-                runs = run
-                call system_clock(now)
-                if (microseconds(begin, now) > budget_us .and. run >= 1) exit
-            end do
-        end subroutine run_again
-
-        subroutine one_run_of_new(run)
-            integer, intent(in) :: run
-
+        subroutine run_with_new_plans()
             type(tang_workspace_t) :: tang
 
-            call one_run(tang, run)
-        end subroutine one_run_of_new
+            call run_once(case, grid, start, run, tang, runs)
+        end subroutine run_with_new_plans
+    end subroutine run_again
 
-        subroutine one_run(tang, run)
-            type(tang_workspace_t), intent(inout) :: tang
-            integer, intent(in) :: run
+    subroutine run_once(case, grid, start, run, tang, runs)
+        type(bench_case_t), intent(in) :: case
+        type(contact_grid_t), intent(in) :: grid
+        integer, intent(in) :: start, run
+        type(tang_workspace_t), intent(inout) :: tang
+        type(runs_t), intent(inout) :: runs
 
-            type(tangential_result_t) :: result
-            type(creepage_t) :: creepage
-            real(wp) :: from, factor
+        type(tang_options_t) :: options
+        type(tangential_result_t) :: result
+        type(creepage_t) :: creepage
+        type(status_t) :: status
+        real(wp) :: from, factor
 
-            factor = merge(creepage_factor, 1.0_wp, start == warm .and. modulo(run, 2) == 0)
-            associate (c => case%creepage)
-                creepage = creepage_t(factor*c%cksi, factor*c%ceta, factor*c%cphi)
-            end associate
-            from = cpu_microseconds()
-            call tang_solve(tang, norm%grid, material_t(), mu, creepage, options, result, status)
-            times(run) = cpu_microseconds() - from
-            if (is_error(status)) call fail_on_error(status, case%name)
-            products(run) = tang%products
-            elements = tang%elements
-        end subroutine one_run
-    end subroutine measure_case
+        options%edges = edges_of_norm
+        options%warm_start = start == warm .and. run > 0
+        factor = merge(creepage_factor, 1.0_wp, start == warm .and. modulo(run, 2) == 0)
+        associate (c => case%creepage)
+            creepage = creepage_t(factor*c%cksi, factor*c%ceta, factor*c%cphi)
+        end associate
+        from = cpu_microseconds()
+        call tang_solve(tang, grid, case%material, mu, creepage, options, result, status)
+        runs%times(run) = cpu_microseconds() - from
+        if (is_error(status)) call fail_on_error(status, case%name)
+        runs%products(run) = tang%products
+        runs%elements = tang%elements
+    end subroutine run_once
+
+    !> The row of one start.
+    subroutine put_runs(writer, name, grid, start, runs)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: name !! of the contact
+        type(contact_grid_t), intent(in) :: grid
+        integer, intent(in) :: start
+        type(runs_t), intent(in) :: runs
+
+        type(tang_options_t) :: options
+        real(wp) :: figures(size(spread_names))
+        integer :: figure
+
+        figures = spread_of(runs%times(1:runs%n))
+        call put_cell(writer, 'tang')
+        call put_cell(writer, trim(starts(start)))
+        call put_cell(writer, options%tolerance)
+        call put_cell(writer, runs%elements)
+        call put_cell(writer, figures(1))
+        call put_cell(writer, median(runs%products(1:runs%n)))
+        call put_cell(writer, median(runs%products(1:runs%n)))
+        call put_cell(writer, grid%dx)
+        call put_cell(writer, grid%nx*grid%ny)
+        call put_cell(writer, compiler_flags())
+        call put_cell(writer, compiler_name())
+        call put_cell(writer, cpu_name())
+        call put_cell(writer, name)
+        call put_cell(writer, runs%n)
+        do figure = 1, size(figures)
+            call put_cell(writer, figures(figure))
+        end do
+        call end_row(writer)
+    end subroutine put_runs
 end module faststrip_lab_bench_reference_tang

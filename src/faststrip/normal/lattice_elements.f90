@@ -181,8 +181,8 @@ contains
         logical, intent(out) :: solved              !! or was a system singular? No pressures then
 
         integer :: rounds, n, i, infeasible, fewest, tries, worst
-        real(wp) :: unit, violation, largest, step
-        logical :: singular, feasible, stuck
+        real(wp) :: unit
+        logical :: singular, feasible, arrived, stuck
 
         associate (e => elements, p => elements%pressure, q => elements%trial)
             solved = .false.
@@ -200,42 +200,12 @@ contains
                 if (singular) return
                 if (.not. demand%by_load) depth = demand%penetration
                 if (feasible) then
-                    step = 1.0_wp
-                    do i = 1, n
-                        if (e%presses(i) .and. q(i) <= 0.0_wp) step = min(step, p(i)/(p(i) - q(i)))
-                    end do
-                    stuck = step <= 0.0_wp
-                    do i = 1, n
-                        if (.not. e%presses(i)) cycle
-                        if (q(i) <= 0.0_wp .and. p(i) <= step*(p(i) - q(i))*(1.0_wp + nothing)) then
-                            p(i) = 0.0_wp
-                            e%presses(i) = .false.
-                        else
-                            p(i) = p(i) + step*(q(i) - p(i))
-                        end if
-                    end do
-                    if (step < 1.0_wp) cycle
+                    call approach_trial(e, arrived, stuck)
+                    if (.not. arrived) cycle
                 else
                     p(:n) = q(:n)
                 end if
-                infeasible = 0
-                worst = 0
-                largest = 0.0_wp
-                do i = 1, n
-                    if (e%presses(i)) then
-                        violation = -p(i)/maxval(abs(p(:n)))
-                        if (violation < 0.0_wp) cycle
-                    else
-                        violation = -(dot_product(e%s(:n, i), p(:n))/e%area(i) + e%height(i) &
-                                      - depth)/depth
-                        if (violation <= open_gap) cycle
-                    end if
-                    infeasible = infeasible + 1
-                    e%at(infeasible) = i
-                    if (violation < largest) cycle
-                    largest = violation
-                    worst = i
-                end do
+                call find_infeasible(e, depth, infeasible, worst)
                 if (infeasible == 0) exit
                 if (infeasible < fewest) then
                     fewest = infeasible
@@ -268,6 +238,66 @@ contains
             solved = any(p(:n) > 0.0_wp)
         end associate
     end subroutine solve_elements
+
+    !> From pressures towards those tried, as far as none is below zero; those at zero leave.
+    pure subroutine approach_trial(e, arrived, stuck)
+        type(elements_t), intent(inout) :: e
+        logical, intent(out) :: arrived !! all the way?
+        logical, intent(out) :: stuck   !! or not at all?
+
+        real(wp) :: step
+        integer :: i
+
+        associate (p => e%pressure, q => e%trial)
+            step = 1.0_wp
+            do i = 1, e%n
+                if (e%presses(i) .and. q(i) <= 0.0_wp) step = min(step, p(i)/(p(i) - q(i)))
+            end do
+            arrived = .not. step < 1.0_wp
+            stuck = step <= 0.0_wp
+            do i = 1, e%n
+                if (.not. e%presses(i)) cycle
+                if (q(i) <= 0.0_wp .and. p(i) <= step*(p(i) - q(i))*(1.0_wp + nothing)) then
+                    p(i) = 0.0_wp
+                    e%presses(i) = .false.
+                else
+                    p(i) = p(i) + step*(q(i) - p(i))
+                end if
+            end do
+        end associate
+    end subroutine approach_trial
+
+    !> The elements that pull and those that overlap without pressing, into `at`.
+    pure subroutine find_infeasible(e, depth, infeasible, worst)
+        type(elements_t), intent(inout) :: e
+        real(wp), intent(in) :: depth
+        integer, intent(out) :: infeasible !! how many
+        integer, intent(out) :: worst      !! which of all; 0: none
+
+        real(wp) :: violation, largest
+        integer :: i
+
+        infeasible = 0
+        worst = 0
+        largest = 0.0_wp
+        associate (p => e%pressure, n => e%n)
+            do i = 1, n
+                if (e%presses(i)) then
+                    violation = -p(i)/maxval(abs(p(:n)))
+                    if (violation < 0.0_wp) cycle
+                else
+                    violation = -(dot_product(e%s(:n, i), p(:n))/e%area(i) + e%height(i) &
+                                  - depth)/depth
+                    if (violation <= open_gap) cycle
+                end if
+                infeasible = infeasible + 1
+                e%at(infeasible) = i
+                if (violation < largest) cycle
+                largest = violation
+                worst = i
+            end do
+        end associate
+    end subroutine find_infeasible
 
     !> What the elements that are said to press carry if they all do, of any sign, into `trial`, in
     !> units of 1/H.
