@@ -85,8 +85,8 @@ contains
                                                        !! `st_out_of_range`: profiles too short;
                                                        !! `st_no_contact`: they do not overlap or
                                                        !! touch at the end of a profile
-        real(wp) :: offset, first, last, step, left, middle, right, y, best, refined, lowest
-        integer :: i, n
+        real(wp) :: offset, first, last
+        logical :: found
 
         call check_setup(wheelset, track, shift, status)
         if (status%code /= 0) return
@@ -100,6 +100,28 @@ contains
                             // trim(number_text(shift)) // ' mm')
             return
         end if
+        call find_lowest_dip(wheel, rail, offset, first, last, contact%y_rail, found)
+        if (.not. found) then
+            call set_status(status, st_no_contact, &
+                            'wheel and rail touch at the end of a profile at the shift ' // &
+                            trim(number_text(shift)) // ' mm')
+            return
+        end if
+        call complete_contact(wheel, rail, wheelset, shift, offset, contact, status)
+    end subroutine find_rigid_contact
+
+    !> Where the distance of wheel and rail is smallest between two places; none is found if that is
+    !> at one of them.
+    pure subroutine find_lowest_dip(wheel, rail, offset, first, last, y, found)
+        type(profile_t), intent(in) :: wheel, rail
+        real(wp), intent(in) :: offset      ! of the wheel's coordinate
+        real(wp), intent(in) :: first, last ! on the rail profile, mm
+        real(wp), intent(out) :: y          ! on the rail profile, mm
+        logical, intent(out) :: found
+
+        real(wp) :: step, left, middle, right, best, refined, lowest, at
+        integer :: i, n
+
         n = ceiling((last - first)/scan_step)
         step = (last - first)/real(n, wp)
 
@@ -107,6 +129,7 @@ contains
         do i = 0, n
             lowest = min(lowest, distance(place(i)))
         end do
+        y = 0.0_wp
         best = huge(best)
         left = distance(place(0))
         middle = distance(place(1))
@@ -115,23 +138,17 @@ contains
             ! A dip can lie below its lowest sample by no more than the samples differ.
             if (middle <= left .and. middle <= right &
                 .and. middle - max(left - middle, right - middle) <= lowest) then
-                y = dip(place(i - 2), place(i))
-                refined = distance(y)
+                at = dip(wheel, rail, offset, place(i - 2), place(i))
+                refined = distance(at)
                 if (refined < best) then
                     best = refined
-                    contact%y_rail = y
+                    y = at
                 end if
             end if
             left = middle
             middle = right
         end do
-        if (best > lowest) then
-            call set_status(status, st_no_contact, &
-                            'wheel and rail touch at the end of a profile at the shift ' // &
-                            trim(number_text(shift)) // ' mm')
-            return
-        end if
-        call complete_contact(wheel, rail, wheelset, shift, offset, contact, status)
+        found = .not. best > lowest
 
     contains
 
@@ -141,46 +158,51 @@ contains
             place = min(first + real(j, wp)*step, last)
         end function place
 
-        ! Vertical distance of wheel and rail but for a constant, and its slope.
         pure real(wp) function distance(at) result(value)
             real(wp), intent(in) :: at
+
             real(wp) :: slope
 
-            call distance_and_slope(at, value, slope)
+            call distance_and_slope(wheel, rail, offset, at, value, slope)
         end function distance
+    end subroutine find_lowest_dip
 
-        pure subroutine distance_and_slope(at, value, slope)
-            real(wp), intent(in) :: at
-            real(wp), intent(out) :: value, slope
-            real(wp) :: z_rail, z_wheel, dz_rail, dz_wheel, d2z, y_wheel
-            type(status_t) :: inside
+    !> Vertical distance of wheel and rail but for a constant, and its slope.
+    pure subroutine distance_and_slope(wheel, rail, offset, at, value, slope)
+        type(profile_t), intent(in) :: wheel, rail
+        real(wp), intent(in) :: offset, at
+        real(wp), intent(out) :: value, slope
 
-            y_wheel = max(wheel%y_first, min(at + offset, wheel%y_last))
-            call profile_at(rail, at, z_rail, dz_rail, d2z, inside)
-            call profile_at(wheel, y_wheel, z_wheel, dz_wheel, d2z, inside)
-            value = z_rail - z_wheel
-            slope = dz_rail - dz_wheel
-        end subroutine distance_and_slope
+        real(wp) :: z_rail, z_wheel, dz_rail, dz_wheel, d2z, y_wheel
+        type(status_t) :: inside
 
-        ! Where the slope of the distance changes sign between two places.
-        pure real(wp) function dip(from, to) result(at)
-            real(wp), intent(in) :: from, to
-            real(wp) :: low, high, value, slope
-            integer :: k
+        y_wheel = max(wheel%y_first, min(at + offset, wheel%y_last))
+        call profile_at(rail, at, z_rail, dz_rail, d2z, inside)
+        call profile_at(wheel, y_wheel, z_wheel, dz_wheel, d2z, inside)
+        value = z_rail - z_wheel
+        slope = dz_rail - dz_wheel
+    end subroutine distance_and_slope
 
-            low = from
-            high = to
-            do k = 1, n_bisections
-                at = 0.5_wp*(low + high)
-                call distance_and_slope(at, value, slope)
-                if (slope < 0.0_wp) then
-                    low = at
-                else
-                    high = at
-                end if
-            end do
-        end function dip
-    end subroutine find_rigid_contact
+    !> Where the slope of the distance changes sign between two places.
+    pure real(wp) function dip(wheel, rail, offset, from, to) result(at)
+        type(profile_t), intent(in) :: wheel, rail
+        real(wp), intent(in) :: offset, from, to
+
+        real(wp) :: low, high, value, slope
+        integer :: k
+
+        low = from
+        high = to
+        do k = 1, n_bisections
+            at = 0.5_wp*(low + high)
+            call distance_and_slope(wheel, rail, offset, at, value, slope)
+            if (slope < 0.0_wp) then
+                low = at
+            else
+                high = at
+            end if
+        end do
+    end function dip
 
     pure subroutine check_setup(wheelset, track, shift, status)
         type(wheelset_t), intent(in) :: wheelset
