@@ -84,7 +84,7 @@ def draw_times(axes, runs, fastsim):
                       markerfacecolor="none", markeredgecolor=look.colour, markeredgewidth=1.6)
         else:
             continue  # the two warm lines lie close together: one tells the slopes
-        for part in ends(run["strips"]):
+        for part in scales.ends(run["strips"], SLOPE_PART):
             slope = scales.power(run["strips"][part], run["us"][part])
             if np.isfinite(slope):
                 middle = part[len(part) // 2]
@@ -104,15 +104,6 @@ def draw_times(axes, runs, fastsim):
     axes.set_ylabel("time of one contact, µs")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
     style.title(axes, "Normal contact: time against strips")
-
-
-def ends(strips):
-    """Indices of the fewest and of the most strips, one set where they are all."""
-    few = np.flatnonzero(strips <= SLOPE_PART * strips[0])
-    many = np.flatnonzero(strips >= strips[-1] / SLOPE_PART)
-    if np.intersect1d(few, many).size > 1:
-        return [np.arange(strips.size)]
-    return [few, many]
 
 
 def medians(rows, values):

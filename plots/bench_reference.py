@@ -108,7 +108,7 @@ def draw_times(axes, runs):
                   zorder=3)
         if start != "cold":
             continue
-        for part in ends(run["elements"]):
+        for part in scales.ends(run["elements"], SLOPE_PART):
             slope = scales.power(run["elements"][part], run["us"][part])
             if math.isfinite(slope):
                 middle = part[len(part) // 2]
@@ -136,15 +136,6 @@ def draw_iterations(axes, runs):
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
     style.title(axes, "Iterations: ● NORM, all grids; ■ TANG")
-
-
-def ends(elements):
-    """Indices of the fewest and of the most elements, one set where they are all."""
-    few = np.flatnonzero(elements <= SLOPE_PART * elements[0])
-    many = np.flatnonzero(elements >= elements[-1] / SLOPE_PART)
-    if np.intersect1d(few, many).size > 1:
-        return [np.arange(elements.size)]
-    return [few, many]
 
 
 def medians(rows, values):

@@ -46,6 +46,16 @@ def draw_order(axes, low: float, high: float, end: float, order: float) -> None:
                   ha="left", va="center", **look)
 
 
+def ends(counts, factor: float):
+    """Indices within a factor of the first and of the last of ascending counts, one set where they
+    are all."""
+    few = np.flatnonzero(counts <= factor * counts[0])
+    many = np.flatnonzero(counts >= counts[-1] / factor)
+    if np.intersect1d(few, many).size > 1:
+        return [np.arange(counts.size)]
+    return [few, many]
+
+
 def label_ends(axes, x: float, labels) -> None:
     """Texts right of the points `x, y`; those too close to one placed before are left out.
 

@@ -399,7 +399,8 @@ class Drawn(unittest.TestCase):
         run = bench.medians(cold, values)
         np.testing.assert_allclose(run["elements"], [500, 1000, 4000, 16000, 100000])
         np.testing.assert_allclose(run["us"], 1.1 * run["elements"] ** 1.2)
-        self.assertEqual([list(part) for part in bench.ends(run["elements"])],
+        self.assertEqual([list(part) for part in scales.ends(run["elements"],
+                                                             bench.SLOPE_PART)],
                          [[0, 1, 2], [3, 4]])
         axes = style.new_figure(4.0, 3.0).subplots()
         bench.draw_times(axes, [("norm", "cold", 1e-9, run), ("norm", "cold", 1e-4, run)])
@@ -413,8 +414,10 @@ class Drawn(unittest.TestCase):
                   for name in ("strips", "us", "iterations", "ns_per_entry")}
         run = bench.medians(np.arange(len(rows)), values)
         np.testing.assert_allclose(run["us"], 1.1 * run["strips"] ** 2)
-        self.assertEqual([list(part) for part in bench.ends(run["strips"])], [[0, 1, 2], [3, 4]])
-        self.assertEqual([list(part) for part in bench.ends(np.array([5.0, 9.0, 15.0]))],
+        self.assertEqual([list(part) for part in scales.ends(run["strips"], bench.SLOPE_PART)],
+                         [[0, 1, 2], [3, 4]])
+        few = np.array([5.0, 9.0, 15.0])
+        self.assertEqual([list(part) for part in scales.ends(few, bench.SLOPE_PART)],
                          [[0, 1, 2]])
         axes = style.new_figure(4.0, 3.0).subplots()
         bench.draw_times(axes, [("cold", run)], np.array([120.0, math.nan]))
