@@ -1,11 +1,13 @@
 """One installation for all tests of this folder, and what compiles and runs hosts against it."""
 
 import atexit
+import importlib
 import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -75,6 +77,17 @@ class HostTest(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
+
+    @classmethod
+    def import_package(cls):
+        """The checkout's Python package on the installed library, in this process."""
+        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
+        sys.path.insert(0, str(ROOT / "python"))
+        try:
+            return importlib.import_module("faststrip")
+        finally:
+            sys.path.remove(str(ROOT / "python"))
+            del os.environ["FASTSTRIP_PREFIX"]
 
     @classmethod
     def write(cls, name, text):

@@ -2,12 +2,10 @@
 without symmetry, all creepages, every method, every field of every struct and array."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-from installed import HOSTS, ROOT, HostTest
+from installed import HOSTS, HostTest
 
 NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
 TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
@@ -129,14 +127,7 @@ class Figures(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
-        sys.path.insert(0, str(ROOT / "python"))
-        try:
-            import faststrip
-        finally:
-            sys.path.remove(str(ROOT / "python"))
-            del os.environ["FASTSTRIP_PREFIX"]
-        cls.faststrip = faststrip
+        cls.faststrip = cls.import_package()
         cls.write("contacts.txt", input_text())
         cls.shell(f"gfortran -O1 -J. '{HOSTS}/figures.f90' $(pkg-config --cflags --libs faststrip)"
                   " -o by_fortran")

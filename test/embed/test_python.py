@@ -4,7 +4,7 @@ import concurrent.futures
 import copy
 import decimal
 import gc
-import os
+import importlib
 import pickle
 import re
 import signal
@@ -156,16 +156,8 @@ class Contacts(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
-        sys.path.insert(0, str(ROOT / "python"))
-        try:
-            import faststrip
-            import numpy
-        finally:
-            sys.path.remove(str(ROOT / "python"))
-            del os.environ["FASTSTRIP_PREFIX"]
-        cls.faststrip, cls.numpy = faststrip, numpy
-        cls.y = numpy.linspace(-15.0, 15.0, 601)
+        cls.faststrip, cls.numpy = cls.import_package(), importlib.import_module("numpy")
+        cls.y = cls.numpy.linspace(-15.0, 15.0, 601)
         cls.gap = (cls.y, 2e-3 * cls.y**2, 1.0 / 920.0)
 
     def contact(self, **options):

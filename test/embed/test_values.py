@@ -2,13 +2,12 @@
 unsymmetric gap, all three creepages, friction and numbers of points that are no defaults."""
 
 import csv
+import importlib
 import math
-import os
 import subprocess
-import sys
 import unittest
 
-from installed import ROOT, HostTest
+from installed import HostTest
 
 POINTS = 401
 GAP = [(y, 2e-3 * (y - 1.0) ** 2 + 4e-5 * (y - 1.0) ** 3 + 0.25, (1.0 + 0.01 * y) / 920.0)
@@ -76,15 +75,7 @@ class Values(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        os.environ["FASTSTRIP_PREFIX"] = str(cls.installed.prefix)
-        sys.path.insert(0, str(ROOT / "python"))
-        try:
-            import faststrip
-            import numpy
-        finally:
-            sys.path.remove(str(ROOT / "python"))
-            del os.environ["FASTSTRIP_PREFIX"]
-        cls.faststrip, cls.numpy = faststrip, numpy
+        cls.faststrip, cls.numpy = cls.import_package(), importlib.import_module("numpy")
         cls.write("gap.csv", "y_mm,h_mm,inv2R_per_mm\n"
                   + "".join(f"{y!r},{h!r},{a!r}\n" for y, h, a in GAP))
         cls.write("case.nml", CASE)
