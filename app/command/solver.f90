@@ -17,10 +17,10 @@ module faststrip_command_solver
     use faststrip_contact_methods, only: normal_strip, normal_norm, normal_auto, tangential_none, &
                                          tangential_faststrip, tangential_tang, gives_stick
     use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
-                                       solve_contact_tangential
+                                       solve_contact_tangential, estimate_contact_errors
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t, core_methods
-    use faststrip_command_normal_stage, only: make_room, certify
+    use faststrip_command_normal_stage, only: make_room
     use faststrip_command_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
                                             solve_by_norm, take_rows
     use faststrip_command_auto_stage, only: choose
@@ -108,9 +108,11 @@ contains
         if (is_error(status)) return
         call solve_forces(solver, outcome, status)
         if (status%code == st_ok) status = choice_status
-        if (is_error(status) .or. solver%chosen%normal == normal_norm) return
-        call certify(solver%workspace, solver%contact, outcome%normal, outcome%certificate, &
-                     outcome%is_certified, status)
+        if (is_error(status) .or. solver%contact%methods%normal /= normal_strip &
+            .or. solver%chosen%normal == normal_norm) return
+        ! Outside the time that is measured.
+        call estimate_contact_errors(solver%workspace, solver%contact, outcome%normal, &
+                                     outcome%certificate, outcome%is_certified, status)
         outcome%is_estimated = outcome%is_certified
     end subroutine solve
 
@@ -259,7 +261,7 @@ contains
             end if
         end if
         solver%contact%methods = core_methods(solver%chosen)
-        solver%contact%estimate = solver%contact%methods%normal /= normal_strip ! `certify` does
+        solver%contact%estimate = solver%contact%methods%normal /= normal_strip ! `solve` does
     end subroutine take_methods
 
     !> Room for the elements of as many strips as there are rows.

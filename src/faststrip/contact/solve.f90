@@ -48,6 +48,7 @@ module faststrip_contact_solve
     public :: contact_case_t, contact_result_t, workspace_t
     public :: reserve_workspace, reserve_contact_field, set_contact_gap
     public :: solve_contact, solve_contact_normal, solve_contact_tangential
+    public :: estimate_contact_errors
     public :: most_gap_points
 
     ! Strips of a Hertz ellipse where the number is left to the solver.
@@ -250,6 +251,23 @@ contains
         call solve_tangential(workspace, case, tangential, status, field, per_strip)
         call restore_environment(environment)
     end subroutine solve_contact_tangential
+
+    !> How wrong the strips of the workspace's normal solution are, for who solved with
+    !> `case%estimate` off; more than the limit is named in the status.
+    subroutine estimate_contact_errors(workspace, case, normal, certificate, is_estimated, status)
+        type(workspace_t), intent(in) :: workspace      !! with a solution by strips
+        type(contact_case_t), intent(in) :: case        !! what was solved
+        type(normal_result_t), intent(in) :: normal     !! its figures
+        type(certificate_t), intent(out) :: certificate !! how wrong they are
+        logical, intent(out) :: is_estimated            !! is that known?
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+
+        type(environment_t) :: environment
+
+        call hold_environment(environment)
+        call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
+        call restore_environment(environment)
+    end subroutine estimate_contact_errors
 
     subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status, curve)
         type(workspace_t), intent(inout) :: workspace
