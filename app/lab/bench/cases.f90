@@ -11,7 +11,7 @@ module faststrip_lab_bench_cases
     implicit none
     private
 
-    public :: bench_case_t, read_bench_cases
+    public :: bench_case_t, read_bench_cases, read_columns
 
     !> One contact and what CONTACT finds for it.
     type, extends(contact_case_t) :: bench_case_t
@@ -36,7 +36,6 @@ contains
             'area_extrap_mm2', 'ymin_mm', 'ymax_mm', 'Fx_extrap_N', 'Fy_extrap_N', &
             'Mz_extrap_Nmm']
         type(csv_table_t) :: table
-        real(wp), allocatable :: column(:)
         real(wp), allocatable :: values(:, :)
         character(len=1) :: letter
         integer :: i, shift_column
@@ -46,12 +45,8 @@ contains
         allocate (cases(0))
         call read_csv(folder // '/s1002_uic60_' // letter // '.csv', table, status)
         if (is_error(status)) return
-        allocate (values(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            if (is_error(status)) return
-            values(:, i) = column
-        end do
+        call read_columns(table, names, values, status)
+        if (is_error(status)) return
         if (table%n_rows == 0) then
             call set_place_status(status, st_file_format, 'no contacts', '', table%file, 0)
             return
@@ -74,4 +69,22 @@ contains
             if (is_error(status)) return
         end do
     end subroutine read_bench_cases
+
+    !> The numbers of several columns.
+    subroutine read_columns(table, names, values, status)
+        type(csv_table_t), intent(in) :: table             !! a table that was read
+        character(len=*), intent(in) :: names(:)           !! of the columns
+        real(wp), allocatable, intent(out) :: values(:, :) !! rows by names
+        type(status_t), intent(out) :: status              !! of `column_numbers`
+
+        real(wp), allocatable :: column(:)
+        integer :: i
+
+        allocate (values(table%n_rows, size(names)), source=0.0_wp)
+        do i = 1, size(names)
+            call column_numbers(table, trim(names(i)), column, status)
+            if (is_error(status)) return
+            values(:, i) = column
+        end do
+    end subroutine read_columns
 end module faststrip_lab_bench_cases

@@ -10,9 +10,9 @@
 module faststrip_lab_bench_forces
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, &
-                                   cell_text, csv_writer_t, open_csv, put_comment, put_header, &
-                                   put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_text, &
+                                   csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_normal_hertz, only: hertz_strips
@@ -20,6 +20,7 @@ module faststrip_lab_bench_forces
     use faststrip_files_gap, only: read_gap_file
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_lab_bench_cases, only: read_columns
     use faststrip_command_console, only: fail_on_error, note, put_origin
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
@@ -101,7 +102,7 @@ contains
         type(workspace_t) :: workspace
         type(reference_t) :: reference
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :), column(:)
+        real(wp), allocatable :: v(:, :)
         character(len=method_name_length) :: group
         integer :: i, case_column
 
@@ -110,12 +111,8 @@ contains
         call fail_on_error(status)
         call require_column(table, 'case', case_column, status)
         call fail_on_error(status)
-        allocate (v(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            call fail_on_error(status)
-            v(:, i) = column
-        end do
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
         contact%methods%normal = normal_hertz
         call reserve_strips(workspace%strips, contact%methods%strips_per_patch, status)
         call fail_on_error(status)
@@ -161,7 +158,7 @@ contains
         type(normal_result_t) :: figures
         type(reference_t) :: reference
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :), column(:)
+        real(wp), allocatable :: v(:, :)
         integer :: i, shift_column
 
         tally = tally_t()
@@ -169,12 +166,8 @@ contains
         call fail_on_error(status)
         call require_column(table, 'yw_mm', shift_column, status)
         call fail_on_error(status)
-        allocate (v(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            call fail_on_error(status)
-            v(:, i) = column
-        end do
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
         contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
         contact%mu = 0.3_wp
         contact%estimate = .false.
@@ -209,16 +202,12 @@ contains
         type(reference_t) :: reference
         type(reference_scene_t) :: scene
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :), column(:)
+        real(wp), allocatable :: v(:, :)
         integer :: i
 
         tally = tally_t()
-        allocate (v(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            call fail_on_error(status)
-            v(:, i) = column
-        end do
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
         do i = 1, table%n_rows
             call make_reference_scene(nint(v(i, 1)), scene)
             scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))

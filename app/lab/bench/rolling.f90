@@ -2,8 +2,8 @@
 module faststrip_lab_bench_rolling
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
-                                   require_column, cell_text, open_csv, put_comment, put_header, &
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
+                                   cell_text, open_csv, put_comment, put_header, &
                                    put_cell, end_row, close_csv
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, normal_compliance
@@ -16,7 +16,7 @@ module faststrip_lab_bench_rolling
                                            scheme_first_order, scheme_second_order, edges_of_norm, &
                                            edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_ellipse
-    use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases, read_columns
     use faststrip_command_console, only: fail_on_error, note, put_origin
     implicit none
     private
@@ -130,7 +130,7 @@ contains
         character(len=*), parameter :: names(9) = [character(len=9) :: 'a_mm', 'b_mm', 'N', &
             'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap']
         type(csv_table_t) :: table
-        real(wp), allocatable :: column(:), values(:, :)
+        real(wp), allocatable :: values(:, :)
         type(contact_grid_t) :: grid
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
@@ -141,12 +141,8 @@ contains
         contact%group_name = 'hertz'
         call read_csv(folder // '/hertz_creep.csv', table, status)
         call fail_on_error(status)
-        allocate (values(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            call fail_on_error(status)
-            values(:, i) = column
-        end do
+        call read_columns(table, names, values, status)
+        call fail_on_error(status)
         call require_column(table, 'case', case_column, status)
         call fail_on_error(status)
         do n = 1, size(sides)

@@ -3,7 +3,7 @@ module faststrip_lab_bench_trade_cases
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, cell_text
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_text
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
@@ -11,6 +11,7 @@ module faststrip_lab_bench_trade_cases
     use faststrip_files_gap, only: read_gap_file
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_indicators, only: indicators_t, find_indicators
+    use faststrip_lab_bench_cases, only: read_columns
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
@@ -49,7 +50,8 @@ contains
         real(wp), allocatable :: values(:, :)
         integer :: i, column
 
-        call read_columns(folder // '/s1002_uic60_B.csv', names, table, values, status)
+        call read_csv(folder // '/s1002_uic60_B.csv', table, status)
+        if (.not. is_error(status)) call read_columns(table, names, values, status)
         allocate (cases(table%n_rows))
         if (is_error(status)) return
         call require_column(table, 'yw_mm', column, status)
@@ -82,7 +84,8 @@ contains
         real(wp) :: a, b, young, inv2r_x, inv2r_y
         integer :: i, k
 
-        call read_columns(file, names, table, values, status)
+        call read_csv(file, table, status)
+        if (.not. is_error(status)) call read_columns(table, names, values, status)
         allocate (cases(table%n_rows))
         if (is_error(status)) return
         do i = 1, size(cases)
@@ -128,7 +131,8 @@ contains
         real(wp), allocatable :: values(:, :)
         integer :: i
 
-        call read_columns(file, names, table, values, status)
+        call read_csv(file, table, status)
+        if (.not. is_error(status)) call read_columns(table, names, values, status)
         allocate (cases(table%n_rows))
         if (is_error(status)) return
         do i = 1, size(cases)
@@ -179,23 +183,4 @@ contains
         if (is_error(status)) return
         call find_indicators(curve, case%contact_case_t, case%indicators, status)
     end subroutine tell
-
-    subroutine read_columns(file, names, table, values, status)
-        character(len=*), intent(in) :: file, names(:)
-        type(csv_table_t), intent(out) :: table
-        real(wp), allocatable, intent(out) :: values(:, :)
-        type(status_t), intent(out) :: status
-
-        real(wp), allocatable :: column(:)
-        integer :: i
-
-        call read_csv(file, table, status)
-        allocate (values(table%n_rows, size(names)), source=0.0_wp)
-        if (is_error(status)) return
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            if (is_error(status)) return
-            values(:, i) = column
-        end do
-    end subroutine read_columns
 end module faststrip_lab_bench_trade_cases
