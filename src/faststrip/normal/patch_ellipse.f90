@@ -9,6 +9,7 @@ module faststrip_normal_patch_ellipse
     private
 
     public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
+    public :: most_slender, least_carried
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -20,15 +21,15 @@ module faststrip_normal_patch_ellipse
 
     !> Virtual ellipses are kept between needles of these proportions.
     !> Tuned [1]. Origin: safeguard.
-    real(wp), parameter :: largest_ratio = 1.0e6_wp
+    real(wp), parameter :: most_slender = 1.0e6_wp
 
     !> Strips are refused beyond this, mm and MPa.
     !> Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e9_wp
 
-    !> Area (mm^2) and load (N) below which a patch is none.
+    !> A patch or a strip below this area (mm^2) or force (N) carries nothing.
     !> Tuned [mm2, N]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-60_wp
+    real(wp), parameter :: least_carried = 1.0e-60_wp
 
 contains
 
@@ -102,7 +103,7 @@ contains
             ellipse%y = ellipse%y + 2.0_wp*strips%half_length(i)*counted*y
             ellipse%load = ellipse%load + strip_load(strips%p0(i), strips%half_length(i), counted)
         end do
-        if (area <= smallest .or. ellipse%load <= smallest) then
+        if (area <= least_carried .or. ellipse%load <= least_carried) then
             ellipse = patch_ellipse_t()
             return
         end if
@@ -119,10 +120,10 @@ contains
             moment_y = moment_y + 2.0_wp*strips%half_length(i)*counted*(y*y + w*w/12.0_wp)
         end do
         ! Products instead of a quotient of moments, which may both be zero.
-        if (moment_x >= largest_ratio**2*moment_y) then
-            ratio = largest_ratio
-        else if (moment_y >= largest_ratio**2*moment_x) then
-            ratio = 1.0_wp/largest_ratio
+        if (moment_x >= most_slender**2*moment_y) then
+            ratio = most_slender
+        else if (moment_y >= most_slender**2*moment_x) then
+            ratio = 1.0_wp/most_slender
         else
             ratio = sqrt(moment_x/moment_y)
         end if

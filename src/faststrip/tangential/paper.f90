@@ -37,7 +37,7 @@ module faststrip_tangential_paper
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_patch_ellipse, only: patch_end, check_strips
+    use faststrip_normal_patch_ellipse, only: patch_end, check_strips, most_slender, least_carried
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
@@ -84,14 +84,6 @@ module faststrip_tangential_paper
         real(wp) :: stress = 0.0_wp        !! mu N over the sum of the bounds, N
         type(creepage_t) :: creepage       !! about y = 0
     end type patch_t
-
-    ! A patch or a strip below this area (mm^2) or force (N) carries nothing.
-    ! Tuned [mm2, N]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-60_wp
-
-    ! Axes more slender than this, either way, are those of this proportion.
-    ! Tuned [1]. Origin: safeguard.
-    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
 contains
 
@@ -262,12 +254,12 @@ contains
             area = area + 2.0_wp*strips%half_length(i)*width
             load = load + strip_load(strips%p0(i), strips%half_length(i), width)
         end do
-        if (area <= smallest .or. mu*load <= smallest) return
+        if (area <= least_carried .or. mu*load <= least_carried) return
         patch%carries = .true.
         total%b = 0.5_wp*(strips%y_right(last) - strips%y_left(first))       ! (26)
         total%a = area/(pi*total%b)                                          ! (27)
         patch%y0 = 0.5_wp*(strips%y_left(first) + strips%y_right(last))      ! (28)
-        ratio = min(max(total%b/total%a, 1.0_wp/largest_ratio), largest_ratio) ! (29)
+        ratio = min(max(total%b/total%a, 1.0_wp/most_slender), most_slender) ! (29)
         call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         ! Given: the paper's (30)
@@ -303,7 +295,7 @@ contains
         width = strips%y_right(i) - strips%y_left(i)
         t0 = patch%mu*patch%largest_p0
         if (reading%bound_of_strip) t0 = patch%mu*strips%p0(i)               ! (34)
-        if (t0*strips%half_length(i)*width <= smallest) return
+        if (t0*strips%half_length(i)*width <= least_carried) return
         ye = y/total%b                                                       ! (32)
         if (.not. reading%from_reference) ye = (y - patch%y0)/total%b
         factor = patch%shear_modulus/t0                                      ! (35)
