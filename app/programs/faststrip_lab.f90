@@ -7,6 +7,7 @@ program faststrip_lab
     use faststrip_lab_bench, only: run_bench
     use faststrip_lab_scenes_reference_scenes, only: run_scenes
     implicit none
+    ! Alike the other program on purpose: two short lists of subcommands, nothing to share.
 
     call name_program('faststrip-lab')
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')

@@ -220,6 +220,7 @@ contains
 
     contains
 
+        ! Again as on the centre line: what it writes is its host's.
         subroutine put(method, computed)
             character(len=*), intent(in) :: method
             real(wp), intent(in) :: computed

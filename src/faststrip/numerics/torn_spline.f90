@@ -83,6 +83,8 @@ contains
         subroutine take_steps()
             integer :: first, last
 
+            ! The rows of torn points, as `faststrip_numerics_cliffs` goes through them before some
+            ! are let be.
             last = 1
             do while (last < n)
                 first = last + 1
