@@ -7,7 +7,7 @@ module faststrip_command_contact
                                          option_number
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
-    use faststrip_command_scene, only: scene_t, make_scene, put_gap, put_profiles
+    use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_command_result_csv, only: put_strips, put_field
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
@@ -26,7 +26,7 @@ contains
     subroutine run_contact()
         type(command_t) :: command
         type(case_t) :: case
-        type(scene_t) :: scene
+        type(prepared_case_t) :: prepared
         type(solver_t) :: solver
         type(outcome_t) :: outcome
         type(csv_writer_t) :: writer(size(outputs))
@@ -61,27 +61,27 @@ contains
             if (given(command, '--shift')) &
                 call usage_error('--shift: the case has a gap file', command%name)
         end if
-        call make_scene(case, option_number(command, '--shift', case%shift), scene, status)
+        call prepare_case(case, option_number(command, '--shift', case%shift), prepared, status)
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
         call make_solver(case%numerics, given(command, '--fields'), solver, status, &
                          with_strip_forces=given(command, '--strips'))
         call fail_on_error(status)
-        call solve(solver, scene, outcome, status)
+        call solve(solver, prepared, outcome, status)
         if (concerns_gap(status) .and. len(case%gap_file) > 0) &
             call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
         if (status%code /= st_ok) call note(trim(status%message))
         call open_outputs(command, writer)
         call put_sweep_header(writer(1), case)
-        call put_sweep_row(writer(1), case, case%numerics, scene, outcome, status)
+        call put_sweep_row(writer(1), case, case%numerics, prepared, outcome, status)
         if (given(command, '--strips')) &
             call put_strips(writer(2), case%name, solver%workspace%strips, &
                             solver%strip_forces)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
         if (given(command, '--gap')) call put_gap(writer(4), solver%contact%gap, &
                                                   case%numerics%smoothing_um)
-        if (given(command, '--profiles')) call put_profiles(writer(5), case, scene)
+        if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
         call close_outputs(command, writer)
         call release_solver(solver)
     end subroutine run_contact

@@ -11,7 +11,7 @@ module faststrip_command_sweep
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
-    use faststrip_command_scene, only: scene_t, make_scene
+    use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -30,7 +30,7 @@ contains
     subroutine run_sweep()
         type(command_t) :: command
         type(case_t) :: case
-        type(scene_t) :: scene
+        type(prepared_case_t) :: prepared
         type(solver_t) :: solver(size(pairs, 2) + 1)
         type(numerics_t) :: numerics
         type(outcome_t) :: outcome
@@ -80,12 +80,12 @@ contains
         n_failed = 0
         do i = 1, size(case%shifts)
             call progress('shifts', i, size(case%shifts))
-            call make_scene(case, case%shifts(i), scene, placed)
+            call prepare_case(case, case%shifts(i), prepared, placed)
             do m = 1, n_solvers
                 status = placed
                 if (.not. is_error(placed)) &
-                    call solve(solver(m), scene, outcome, status)
-                call put_sweep_row(writer, case, solver(m)%numerics, scene, outcome, status)
+                    call solve(solver(m), prepared, outcome, status)
+                call put_sweep_row(writer, case, solver(m)%numerics, prepared, outcome, status)
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &

@@ -6,7 +6,7 @@ module faststrip_command_sweep_csv
     use faststrip_command_case_file, only: case_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
                                          tangential_method_name
-    use faststrip_command_scene, only: scene_t
+    use faststrip_command_prepared_case, only: prepared_case_t
     use faststrip_command_solver, only: outcome_t
     use faststrip_command_result_csv, only: result_columns, put_result, put_notes
     implicit none
@@ -14,7 +14,7 @@ module faststrip_command_sweep_csv
 
     public :: put_sweep_header, put_sweep_row
 
-    character(len=*), parameter :: scene_columns(9) = [character(len=19) :: &
+    character(len=*), parameter :: case_columns(9) = [character(len=19) :: &
         'case', 'yw_mm', 'normal', 'tangential', 'N_N', 'gamma_rad', 'cksi', 'ceta', &
         'cphi_rad_per_mm']
 
@@ -33,24 +33,24 @@ contains
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
         end if
         call put_notes(writer, case%numerics%smoothing_um)
-        call put_header(writer, [scene_columns, result_columns])
+        call put_header(writer, [case_columns, result_columns])
     end subroutine put_sweep_header
 
     !> One contact by one choice of methods.
-    subroutine put_sweep_row(writer, case, methods, scene, outcome, status)
+    subroutine put_sweep_row(writer, case, methods, prepared, outcome, status)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         type(case_t), intent(in) :: case            !! its name is used
         class(contact_methods_t), intent(in) :: methods !! by which it was solved
-        type(scene_t), intent(in) :: scene          !! shift, load, creepages
+        type(prepared_case_t), intent(in) :: prepared !! shift, load, creepages
         type(outcome_t), intent(in) :: outcome      !! figures
         type(status_t), intent(in) :: status        !! how it ended
 
         call put_cell(writer, case%name)
-        call put_cell(writer, scene%shift)
+        call put_cell(writer, prepared%shift)
         call put_cell(writer, trim(normal_method_name(methods%normal)))
         call put_cell(writer, trim(tangential_method_name(methods%tangential)))
-        if (scene%by_load) then
-            call put_cell(writer, scene%load)
+        if (prepared%by_load) then
+            call put_cell(writer, prepared%load)
         else if (is_error(status)) then
             call put_cell(writer, '')
         else
@@ -59,11 +59,11 @@ contains
         if (len(case%gap_file) > 0) then
             call put_cell(writer, '')
         else
-            call put_cell(writer, scene%contact%gamma)
+            call put_cell(writer, prepared%rigid_contact%gamma)
         end if
-        call put_cell(writer, scene%creepage%cksi)
-        call put_cell(writer, scene%creepage%ceta)
-        call put_cell(writer, scene%creepage%cphi)
+        call put_cell(writer, prepared%creepage%cksi)
+        call put_cell(writer, prepared%creepage%ceta)
+        call put_cell(writer, prepared%creepage%cphi)
         call put_result(writer, outcome, status)
         call end_row(writer)
     end subroutine put_sweep_row

@@ -33,7 +33,7 @@ class OneContact(unittest.TestCase):
         found = {name: base for _, name, base, _ in types()}
         self.assertGreater(len(found), 60)
         self.assertEqual(found["contact_case_t"], "demand_t")
-        for name in ("case_t", "scene_t", "bench_case_t", "trade_case_t", "fuzz_case_t"):
+        for name in ("case_t", "prepared_case_t", "bench_case_t", "trade_case_t", "fuzz_case_t"):
             self.assertEqual(found[name], "contact_case_t", name)
 
     def test_one_type_says_what_is_prescribed(self):

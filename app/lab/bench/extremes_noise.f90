@@ -34,7 +34,7 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
     use faststrip_command_console, only: fail_on_error, progress
     use faststrip_command_methods, only: numerics_t
-    use faststrip_command_scene, only: scene_t
+    use faststrip_command_prepared_case, only: prepared_case_t
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     implicit none
     private
@@ -108,7 +108,7 @@ contains
 
         type(bench_case_t), allocatable :: cases(:)
         type(case_t) :: case
-        type(scene_t) :: scene
+        type(prepared_case_t) :: prepared
         type(status_t) :: status
         integer :: i
 
@@ -120,10 +120,10 @@ contains
             contacts(i)%contact_case_t = cases(i)%contact_case_t
         end do
         do i = 1, size(scene_names)
-            call read_example_scene(scenes, i, case, scene)
+            call read_example_scene(scenes, i, case, prepared)
             associate (contact => contacts(size(cases) + i))
                 contact%name = scene_names(i)
-                contact%contact_case_t = scene%contact_case_t
+                contact%contact_case_t = prepared%contact_case_t
             end associate
         end do
     end subroutine find_contacts

@@ -11,7 +11,7 @@ module faststrip_lab_bench_scenes
                                          tangential_fastsim
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_result_csv, only: result_columns, put_result
-    use faststrip_command_scene, only: scene_t
+    use faststrip_command_prepared_case, only: prepared_case_t
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     implicit none
     private
@@ -23,14 +23,14 @@ module faststrip_lab_bench_scenes
 
 contains
 
-    !> Solve every scene by every method and write the CSV.
+    !> Solve every prepared by every method and write the CSV.
     subroutine bench_scenes(file, folder)
         character(len=*), intent(in) :: file   !! to write, - for stdout
         character(len=*), intent(in) :: folder !! with the case files
 
         type(csv_writer_t) :: writer
         type(case_t) :: case
-        type(scene_t) :: scene
+        type(prepared_case_t) :: prepared
         type(solver_t) :: solver
         type(outcome_t) :: outcome
         type(status_t) :: status
@@ -43,18 +43,18 @@ contains
         call put_header(writer, [[character(len=19) :: 'scene', 'method', 'N_N', 'mu'], &
                                  result_columns])
         do i = 1, size(scene_names)
-            call read_example_scene(folder, i, case, scene)
+            call read_example_scene(folder, i, case, prepared)
             do m = 1, size(labels)
                 call make_solver(methods_of(m), .false., solver, status)
                 call fail_on_error(status)
                 ! The second time nothing has to be allocated or planned.
                 do run = 1, 2
-                    call solve(solver, scene, outcome, status)
+                    call solve(solver, prepared, outcome, status)
                 end do
                 call put_cell(writer, trim(scene_names(i)))
                 call put_cell(writer, trim(labels(m)))
-                if (scene%by_load) then
-                    call put_cell(writer, scene%load)
+                if (prepared%by_load) then
+                    call put_cell(writer, prepared%load)
                 else if (is_error(status)) then
                     call put_cell(writer, '')
                 else

@@ -3,7 +3,7 @@ module faststrip_lab_scenes_example_scenes
     use faststrip_base_status, only: status_t
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_console, only: fail_on_error
-    use faststrip_command_scene, only: scene_t, make_scene
+    use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     implicit none
     private
 
@@ -17,16 +17,16 @@ module faststrip_lab_scenes_example_scenes
 contains
 
     !> Read one; ends the program if that cannot be done.
-    subroutine read_example_scene(folder, i, case, scene)
+    subroutine read_example_scene(folder, i, case, prepared)
         character(len=*), intent(in) :: folder !! with the case files
         integer, intent(in) :: i               !! 1 to size(scene_names)
         type(case_t), intent(out) :: case      !! as the file tells it
-        type(scene_t), intent(out) :: scene    !! ready to be solved
+        type(prepared_case_t), intent(out) :: prepared    !! ready to be solved
 
         type(status_t) :: status
 
         call read_case(folder // '/' // trim(scene_names(i)) // '.nml', case)
-        call make_scene(case, case%shift, scene, status)
+        call prepare_case(case, case%shift, prepared, status)
         call fail_on_error(status, trim(scene_names(i)))
     end subroutine read_example_scene
 end module faststrip_lab_scenes_example_scenes

@@ -1,5 +1,5 @@
 !> From a case to the gap, load and creepages of one contact.
-module faststrip_command_scene
+module faststrip_command_prepared_case
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text
@@ -17,76 +17,77 @@ module faststrip_command_scene
     implicit none
     private
 
-    public :: scene_t, make_scene, put_gap, put_profiles
+    public :: prepared_case_t, prepare_case, put_gap, put_profiles
 
     !> Shifts nearer to each other than this are the same, mm.
     real(wp), parameter :: same_shift = 1.0e-9_wp
 
     !> One contact, ready to be solved: gap, normal force, creepages about the rigid contact point.
-    type, extends(contact_case_t) :: scene_t
-        type(rigid_contact_t) :: contact !! rigid contact point, if there are profiles
-        real(wp) :: shift = 0.0_wp      !! lateral shift of the wheelset, mm
-    end type scene_t
+    type, extends(contact_case_t) :: prepared_case_t
+        type(rigid_contact_t) :: rigid_contact !! first point of contact, if there are profiles
+        real(wp) :: shift = 0.0_wp             !! lateral shift of the wheelset, mm
+    end type prepared_case_t
 
 contains
 
-    !> Place the wheelset and make the gap, or read it. A shift the case's sweep lists gets the
+    !> Shift the wheelset and make the gap, or read it. A shift the case's sweep lists gets the
     !> load and the creepages listed with it.
-    subroutine make_scene(case, shift, scene, status)
-        type(case_t), intent(in) :: case       !! a case that was read
-        real(wp), intent(in) :: shift          !! lateral shift, without meaning for a gap file, mm
-        type(scene_t), intent(out) :: scene    !! ready to be solved
-        type(status_t), intent(out) :: status  !! from the library
+    subroutine prepare_case(case, shift, prepared, status)
+        type(case_t), intent(in) :: case               !! a case that was read
+        real(wp), intent(in) :: shift                  !! lateral shift, without meaning for a gap file, mm
+        type(prepared_case_t), intent(out) :: prepared !! ready to be solved
+        type(status_t), intent(out) :: status          !! from the library
 
         type(rigid_contact_t) :: left
 
         call clear_status(status)
-        scene%shift = shift
-        scene%contact_case_t = case%contact_case_t
+        prepared%shift = shift
+        prepared%contact_case_t = case%contact_case_t
         if (len(case%gap_file) > 0) then
-            call read_gap_file(case%gap_file, scene%gap, status)
+            call read_gap_file(case%gap_file, prepared%gap, status)
             return
         end if
         call find_wheelset_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
-                                    scene%contact, left, status)
+                                    prepared%rigid_contact, left, status)
         if (is_error(status)) then
-            call clear_place(case, scene)
+            call clear_rigid_contact(case, prepared)
             return
         end if
-        if (case%load_is_vertical) scene%load = contact_force(case%load, scene%contact%gamma)
-        if (case%creepage_by_formula) scene%creepage = &
-            shift_creepage(case%wheelset, scene%contact, left, case%creepage_signs)
-        call take_lists(case, scene)
-        call make_gap(case%wheel, case%rail, case%wheelset, scene%contact, case%gap_step, &
-                      case%gap_height, scene%gap, status)
-    end subroutine make_scene
+        if (case%load_is_vertical) &
+            prepared%load = contact_force(case%load, prepared%rigid_contact%gamma)
+        if (case%creepage_by_formula) prepared%creepage = &
+            shift_creepage(case%wheelset, prepared%rigid_contact, left, case%creepage_signs)
+        call take_lists(case, prepared)
+        call make_gap(case%wheel, case%rail, case%wheelset, prepared%rigid_contact, case%gap_step, &
+                      case%gap_height, prepared%gap, status)
+    end subroutine prepare_case
 
     !> Load and creepages that the sweep of the case lists for this shift.
-    subroutine take_lists(case, scene)
+    subroutine take_lists(case, prepared)
         type(case_t), intent(in) :: case
-        type(scene_t), intent(inout) :: scene
+        type(prepared_case_t), intent(inout) :: prepared
 
         integer :: i
 
-        i = findloc(abs(case%shifts - scene%shift) < same_shift, .true., dim=1)
+        i = findloc(abs(case%shifts - prepared%shift) < same_shift, .true., dim=1)
         if (i == 0) return
-        if (size(case%shift_loads) > 0) scene%load = case%shift_loads(i)
-        if (size(case%shift_cksi) > 0) scene%creepage = creepage_t( &
+        if (size(case%shift_loads) > 0) prepared%load = case%shift_loads(i)
+        if (size(case%shift_cksi) > 0) prepared%creepage = creepage_t( &
             case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
     end subroutine take_lists
 
     !> Without a contact point there is no contact angle, nor what follows from one.
-    subroutine clear_place(case, scene)
+    subroutine clear_rigid_contact(case, prepared)
         type(case_t), intent(in) :: case
-        type(scene_t), intent(inout) :: scene
+        type(prepared_case_t), intent(inout) :: prepared
 
         real(wp) :: unknown
 
         unknown = ieee_value(unknown, ieee_quiet_nan)
-        scene%contact%gamma = unknown
-        if (case%load_is_vertical) scene%load = unknown
-        if (case%creepage_by_formula) scene%creepage = creepage_t(unknown, unknown, unknown)
-    end subroutine clear_place
+        prepared%rigid_contact%gamma = unknown
+        if (case%load_is_vertical) prepared%load = unknown
+        if (case%creepage_by_formula) prepared%creepage = creepage_t(unknown, unknown, unknown)
+    end subroutine clear_rigid_contact
 
     !> The gap, one row a point.
     subroutine put_gap(writer, gap, smoothing_um)
@@ -110,16 +111,16 @@ contains
     end subroutine put_gap
 
     !> Both profiles in contact, in the frame of the rail, one row a point.
-    subroutine put_profiles(writer, case, scene)
-        type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(case_t), intent(in) :: case            !! with profiles
-        type(scene_t), intent(in) :: scene          !! where they touch
+    subroutine put_profiles(writer, case, prepared)
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+        type(case_t), intent(in) :: case              !! with profiles
+        type(prepared_case_t), intent(in) :: prepared !! where they touch
 
         call put_origin(writer)
         call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
         call put_profile(writer, 'wheel', case%wheel, &
-                         scene%contact%y_rail - scene%contact%y_wheel, &
-                         scene%contact%z_rail - scene%contact%z_wheel)
+                         prepared%rigid_contact%y_rail - prepared%rigid_contact%y_wheel, &
+                         prepared%rigid_contact%z_rail - prepared%rigid_contact%z_wheel)
         call put_profile(writer, 'rail', case%rail, 0.0_wp, 0.0_wp)
     end subroutine put_profiles
 
@@ -144,4 +145,4 @@ contains
             call end_row(writer)
         end do
     end subroutine put_profile
-end module faststrip_command_scene
+end module faststrip_command_prepared_case
