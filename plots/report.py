@@ -23,8 +23,8 @@ STORED = "reference/stored.csv"
 CHAPTER_TEXTS = {
     "paper": ("The paper, redone", "Ours as lines, CONTACT and the paper's tables as symbols."),
     "trade": ("The trade: accuracy against time", "What an error costs, method by method."),
-    "scenes": ("Scenes", "The scenes of example/scenes, each by every method."),
-    "auto": ("Only what a scene requires",
+    "examples": ("Examples", "The cases of example/cases, each by every method."),
+    "auto": ("Only what a case requires",
              "Models chosen by the error they are predicted to have."),
     "extremes": ("Extremes", "Where numbers hold, and where a status word says that they do not."),
 }

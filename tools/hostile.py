@@ -322,7 +322,7 @@ def options(rng, i):
     words = words + ([name, value] if rng.random() < 0.5 else [f"{name}={value}"])
     code = (1, 2) if kind in ("FILE.csv", "LOW:HIGH", "D") or subcommand == "integral" else (2,)
     attempt = Try("options", [subcommand, *words], codes=code)
-    if name == "--scenes" and subcommand == "bench":
+    if name in ("--scenes", "--examples") and subcommand == "bench":
         attempt.codes = (1, 2)
     return attempt
 

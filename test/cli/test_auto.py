@@ -1,24 +1,24 @@
-"""`--normal auto`: the choice is told, keeps its promise on scenes, computes what is asked."""
+"""`--normal auto`: the choice is told, keeps its promise on the examples, computes what is asked."""
 
 import math
 
 from cli_program import ROOT, ProgramTest, gap_case, gap_text, rows_of
 
-SCENES = ROOT / "example" / "scenes"
+CASES = ROOT / "example" / "cases"
 
 
 class Auto(ProgramTest):
-    def contact(self, scene, *words):
-        return self.solved("contact", SCENES / f"{scene}.nml", *words)
+    def contact(self, example, *words):
+        return self.solved("contact", CASES / f"{example}.nml", *words)
 
     def test_forces_within_the_tolerance(self):
-        for scene in ("freight_25t", "tread_straight", "near_conformal", "worn_wheel"):
-            fine = self.contact(scene, "--normal", "norm", "--tangential", "tang",
+        for example in ("freight_25t", "tread_straight", "near_conformal", "worn_wheel"):
+            fine = self.contact(example, "--normal", "norm", "--tangential", "tang",
                                 "--element-dx", "0.3", "--element-dy", "0.3")
-            chosen = self.contact(scene, "--normal", "auto", "--tolerance", "0.05")
+            chosen = self.contact(example, "--normal", "auto", "--tolerance", "0.05")
             error = math.hypot(*(float(chosen[name]) - float(fine[name])
                                  for name in ("Fx_N", "Fy_N")))
-            self.assertLess(error, 0.05 * 0.3 * float(fine["N_N"]), scene)
+            self.assertLess(error, 0.05 * 0.3 * float(fine["N_N"]), example)
             self.assertIn("expected within", chosen["choice"])
             self.assertEqual(fine["choice"], "")
 
@@ -48,7 +48,7 @@ class Auto(ProgramTest):
                 self.assertEqual(row[name], plain[name], (tolerance, name))
 
     def test_unlike_materials_get_the_best_there_is(self):
-        done = self.run_program("contact", SCENES / "polymer_roller.nml", "--normal", "auto",
+        done = self.run_program("contact", CASES / "polymer_roller.nml", "--normal", "auto",
                                 "--tolerance", "0.0001")
         self.assertEqual(done.returncode, 0, done.stderr)
         row = rows_of(done.stdout)[0]
@@ -62,14 +62,14 @@ class Auto(ProgramTest):
         self.assertGreater(len(self.read("field.csv")), 20)
 
     def test_case_file_and_refusals(self):
-        case = (SCENES / "freight_25t.nml").read_text(encoding="utf-8")
+        case = (CASES / "freight_25t.nml").read_text(encoding="utf-8")
         numerics = "&numerics\n normal = 'auto'\n tolerance = 0.04\n target = 'pmax'\n/\n"
         self.write("case.nml", case + numerics)
         row = self.good("contact", "case.nml")[0]
         self.assertIn("expected within", row["choice"])
         self.write("case.nml", case + numerics.replace("pmax", "wear"))
         self.refused(1, "contact", "case.nml", says=("target", "wear"))
-        self.refused(2, "contact", SCENES / "freight_25t.nml", "--tolerance", "-1",
+        self.refused(2, "contact", CASES / "freight_25t.nml", "--tolerance", "-1",
                      says=("tolerance", "-1"))
 
     def test_kalkers_grid_is_thirty_elements_across_either_way(self):

@@ -7,7 +7,7 @@ from cli_program import ROOT, LabTest
 COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
 FOLDERS = ("--contacts", ROOT / "reference" / "contact",
            "--references", ROOT / "reference" / "influence",
-           "--scenes", ROOT / "example" / "scenes")
+           "--examples", ROOT / "example" / "cases")
 PARTS = {
     "influence": {"influence", "references"},
     "normal": {"strips", "ellipses", "flat_gaps"},
@@ -136,9 +136,9 @@ class Extremes(LabTest):
                             (["extremes", "--rounds", "3"], "--rounds"),
                             (["extremes", "--seconds", "1"], "--seconds"),
                             (["normal", "--quick"], "--quick"),
-                            (["accuracy", "--scenes", "x"], "--scenes")):
+                            (["accuracy", "--examples", "x"], "--examples")):
             self.refused(2, "bench", *words, says=[says])
         self.refused_and_untouched("bench", "extremes", "--quick", "--only", "influence",
                                    "--references", "nowhere", says=["nowhere"])
         self.refused_and_untouched("bench", "extremes", "--quick", "--only", "noise", *FOLDERS[:4],
-                                   "--scenes", "nowhere", says=["nowhere"])
+                                   "--examples", "nowhere", says=["nowhere"])

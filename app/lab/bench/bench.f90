@@ -16,7 +16,7 @@ module faststrip_lab_bench
     use faststrip_lab_bench_extremes, only: bench_extremes, extreme_parts
     use faststrip_lab_bench_rolling, only: bench_rolling
     use faststrip_lab_bench_forces, only: bench_forces
-    use faststrip_lab_bench_scenes, only: bench_scenes
+    use faststrip_lab_bench_examples, only: bench_examples
     use faststrip_lab_bench_trade, only: bench_trade
     use faststrip_lab_bench_certificate, only: run_certificate_study
     use faststrip_lab_checkout, only: in_checkout
@@ -32,7 +32,8 @@ contains
     !> Run the subcommand from the command line.
     subroutine run_bench()
         type(command_t) :: command
-        character(len=:), allocatable :: what, file, folder, methods, references, scenes
+        character(len=:), allocatable :: what, file, folder, methods, references, scenes, &
+                                         examples
         integer :: rounds, most_strips, most_elements
         real(wp) :: seconds
 
@@ -85,18 +86,18 @@ contains
             call bench_convergence(file, folder, most_strips)
         case ('extremes')
             call allow([character(len=name_length) :: '--contacts', '--quick', '--only', &
-                        '--references', '--scenes'])
+                        '--references', '--examples'])
             references = option_text(command, '--references', in_checkout('reference/influence'))
-            scenes = option_text(command, '--scenes', in_checkout('example/scenes'))
+            examples = option_text(command, '--examples', in_checkout('example/cases'))
             call take_input(references)
-            call take_input(scenes)
+            call take_input(examples)
             call bench_extremes(file, option_word(command, '--only', '', extreme_parts), &
-                                given(command, '--quick'), folder, references, scenes)
-        case ('scenes')
-            call allow([character(len=name_length) :: '--scenes'])
-            scenes = option_text(command, '--scenes', in_checkout('example/scenes'))
-            call take_input(scenes)
-            call bench_scenes(file, scenes)
+                                given(command, '--quick'), folder, references, examples)
+        case ('examples')
+            call allow([character(len=name_length) :: '--examples'])
+            examples = option_text(command, '--examples', in_checkout('example/cases'))
+            call take_input(examples)
+            call bench_examples(file, examples)
         case ('trade')
             call allow([character(len=name_length) :: '--contacts', '--methods', '--scenes', &
                         '--quick'])
@@ -151,8 +152,10 @@ contains
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
                      // ' (default reference/influence)', reads=.true.), &
-            option_t('--scenes', 'PATH', 'forces, trade: contacts of many kinds;' &
-                     // ' extremes, scenes: cases', reads=.true.)]
+            option_t('--scenes', 'FILE', 'forces, trade: contacts of many kinds' &
+                     // new_line('a') // '(default reference/scenes/scenes.csv)', reads=.true.), &
+            option_t('--examples', 'FOLDER', 'extremes, examples: the cases' &
+                     // ' (default example/cases)', reads=.true.)]
         command%reads = .false.
         call parse_command(command, 1)
     end subroutine take_command
@@ -192,7 +195,7 @@ contains
             'certificate: how often estimated errors bound the true ones, by family of gaps:', &
             'ellipses exactly, all others by NORM on two grids (minutes; with -o FILE the', &
             'shares on stdout).', &
-            'scenes: the scenes of example/scenes by Hertz, strips, auto and Kalker''s methods.', &
+            'examples: the cases of example/cases by Hertz, strips, auto and Kalker''s methods.', &
             'trade: errors and microseconds of many methods and resolutions, one row per', &
             'contact and method. Columns of FILE: see reference/trade_methods.csv.', &
             'extremes: the errors of everything at its extremes: strips, ellipses, loads,', &

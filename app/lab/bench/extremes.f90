@@ -22,13 +22,13 @@ module faststrip_lab_bench_extremes
 contains
 
     !> Measure everything and write the CSV.
-    subroutine bench_extremes(file, only, quick, contacts, references, scenes)
+    subroutine bench_extremes(file, only, quick, contacts, references, examples)
         character(len=*), intent(in) :: file       !! to write, - for stdout
         character(len=*), intent(in) :: only       !! one of `extreme_parts`; empty: all
         logical, intent(in) :: quick               !! few points of everything
         character(len=*), intent(in) :: contacts   !! folder of the paper's contacts
         character(len=*), intent(in) :: references !! folder of the influence numbers
-        character(len=*), intent(in) :: scenes     !! folder of the scenes
+        character(len=*), intent(in) :: examples   !! folder of the examples
 
         type(references_t) :: influence_numbers(2)
         type(contact_t), allocatable :: all_contacts(:)
@@ -37,7 +37,7 @@ contains
 
         if (wanted('influence')) call read_references(references, influence_numbers)
         if (wanted('noise') .or. wanted('rounding')) &
-            call find_contacts(contacts, scenes, all_contacts)
+            call find_contacts(contacts, examples, all_contacts)
         call open_csv(writer, file, status)
         call fail_on_error(status)
         call put_origin(writer)

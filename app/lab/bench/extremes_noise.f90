@@ -31,7 +31,7 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_case_file, only: case_t
-    use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
+    use faststrip_lab_bench_example_cases, only: example_names, read_example
     use faststrip_command_console, only: fail_on_error, progress
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_prepared_case, only: prepared_case_t
@@ -100,10 +100,10 @@ contains
         end do
     end subroutine rounding_extremes
 
-    !> The paper's contacts and the scenes; ends the program if one cannot be read.
-    subroutine find_contacts(folder, scenes, contacts)
+    !> The paper's contacts and the examples; ends the program if one cannot be read.
+    subroutine find_contacts(folder, examples, contacts)
         character(len=*), intent(in) :: folder !! of the paper's contacts
-        character(len=*), intent(in) :: scenes !! folder of the scenes
+        character(len=*), intent(in) :: examples !! folder of the examples
         type(contact_t), allocatable, intent(out) :: contacts(:) !! all of them
 
         type(bench_case_t), allocatable :: cases(:)
@@ -114,15 +114,15 @@ contains
 
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
-        allocate (contacts(size(cases) + size(scene_names)))
+        allocate (contacts(size(cases) + size(example_names)))
         do i = 1, size(cases)
             contacts(i)%name = cases(i)%name
             contacts(i)%contact_case_t = cases(i)%contact_case_t
         end do
-        do i = 1, size(scene_names)
-            call read_example_scene(scenes, i, case, prepared)
+        do i = 1, size(example_names)
+            call read_example(examples, i, case, prepared)
             associate (contact => contacts(size(cases) + i))
-                contact%name = scene_names(i)
+                contact%name = example_names(i)
                 contact%contact_case_t = prepared%contact_case_t
             end associate
         end do

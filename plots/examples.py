@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw and tabulate how far each method is from Kalker's on the scenes of example/scenes."""
+"""Draw and tabulate how far each method is from Kalker's on the cases of example/cases."""
 
 import csv
 import io
@@ -24,43 +24,43 @@ LEAST = 1e-3  # %, what is drawn for less
 
 def main(arguments=None):
     parser = command.parser(__doc__)
-    parser.add_argument("--scenes", default="out/scenes.csv", metavar="CSV",
-                        help="what `faststrip-lab bench scenes` wrote")
-    parser.add_argument("--folder", default="out/scenes", metavar="FOLDER",
+    parser.add_argument("--examples", default="out/examples.csv", metavar="CSV",
+                        help="what `faststrip-lab bench examples` wrote")
+    parser.add_argument("--folder", default="out/examples", metavar="FOLDER",
                         help="picture and tables go there")
     options = parser.parse_args(arguments)
-    table = read_table(options.scenes, ("scene", "method", "status", "N_N", "mu", "pmax_MPa",
-                                        "Fx_N", "Fy_N", "normal_us", "tangential_us", "choice"))
+    table = read_table(options.examples, ("example", "method", "status", "N_N", "mu", "pmax_MPa",
+                                          "Fx_N", "Fy_N", "normal_us", "tangential_us", "choice"))
     rows = errors(table)
     os.makedirs(options.folder, exist_ok=True)
-    draw(rows, os.path.join(options.folder, "scenes.png"), revision(table))
-    write_rows(options.folder, "scenes_table.csv", tuple(rows[0]),
+    draw(rows, os.path.join(options.folder, "examples.png"), revision(table))
+    write_rows(options.folder, "examples_table.csv", tuple(rows[0]),
                [tuple(r.values()) for r in rows])
-    choices = [(s, c) for s, m, c in zip(*(table.words(n) for n in ("scene", "method", "choice")))
+    choices = [(s, c) for s, m, c in zip(*(table.words(n) for n in ("example", "method", "choice")))
                if m.startswith("auto")]
-    write_rows(options.folder, "scenes_choice.csv", ("scene", "choice"), choices)
+    write_rows(options.folder, "examples_choice.csv", ("example", "choice"), choices)
     header = ("file", "title", "caption", "chapter")
     write_rows(options.folder, "figures.csv", header, [
-        ("scenes.png", "Scenes", "Distance of each method from Kalker's on ten scenes; what is"
-         " left out has no result.", "scenes")])
+        ("examples.png", "Examples", "Distance of each method from Kalker's on ten cases; what is"
+         " left out has no result.", "examples")])
     write_rows(options.folder, "tables.csv", header, [
-        ("scenes_table.csv", "Scenes by method", "Errors in % of Kalker's largest pressure and of"
-         " mu N; times in microseconds.", "scenes"),
-        ("scenes_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
+        ("examples_table.csv", "Examples by method", "Errors in % of Kalker's largest pressure and of"
+         " mu N; times in microseconds.", "examples"),
+        ("examples_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
 
 
 def errors(table):
-    """One row a scene and method, the reference's first."""
+    """One row an example and method, the reference's first."""
     names = ("pmax_MPa", "Fx_N", "Fy_N", "N_N", "mu", "normal_us", "tangential_us")
     number = {name: table.numbers(name, missing=True) for name in names}
-    scene, method, status = (table.words(name) for name in ("scene", "method", "status"))
-    reference = {s: k for k, (s, m) in enumerate(zip(scene, method)) if m == REFERENCE}
+    example, method, status = (table.words(name) for name in ("example", "method", "status"))
+    reference = {s: k for k, (s, m) in enumerate(zip(example, method)) if m == REFERENCE}
     rows = []
-    for k, (s, m) in enumerate(zip(scene, method)):
+    for k, (s, m) in enumerate(zip(example, method)):
         if s not in reference:
             raise InputError(f"no row {REFERENCE} for {s}: {table.path}")
         r = reference[s]
-        row = {"scene": s, "method": m, "status": status[k], "us": "", "pmax": "", "forces": ""}
+        row = {"example": s, "method": m, "status": status[k], "us": "", "pmax": "", "forces": ""}
         if status[k] in RESULTS:
             row["us"] = float(np.nansum([number["normal_us"][k], number["tangential_us"][k]]))
         # where Kalker's methods refuse the materials, there is nothing to judge by
@@ -76,13 +76,13 @@ def errors(table):
 
 
 def draw(rows, path, stamp):
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    examples = list(dict.fromkeys(row["example"] for row in rows))
     methods = [m for m in dict.fromkeys(row["method"] for row in rows) if m != REFERENCE]
     figure = new_figure(11.5, 5.2)
     panels = figure.subplots(1, 2, sharey=True)
     for axes, (figure_name, words) in zip(panels, PANELS):
         for k, method in enumerate(methods):
-            own = [(row[figure_name], scenes.index(row["scene"])) for row in rows
+            own = [(row[figure_name], examples.index(row["example"])) for row in rows
                    if row["method"] == method and row[figure_name] != ""]
             axes.plot([max(value, LEAST) for value, _ in own],
                       [place + 0.14 * (k - 0.5 * (len(methods) - 1)) for _, place in own],
@@ -90,8 +90,8 @@ def draw(rows, path, stamp):
                       markersize=6.5, label=method)
         axes.set_xscale("log")
         axes.set_xlabel("error in %")
-        axes.set_yticks(range(len(scenes)), [name.replace("_", " ") for name in scenes])
-        axes.set_ylim(len(scenes) - 0.5, -0.5)
+        axes.set_yticks(range(len(examples)), [name.replace("_", " ") for name in examples])
+        axes.set_ylim(len(examples) - 0.5, -0.5)
         axes.axvline(2.0, color="#888888", linewidth=0.9, linestyle=(0, (4, 3)))
         title(axes, words)
     legend_above(figure, *panels)

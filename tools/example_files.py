@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Make the wheel profile and the gaps that the scenes of example/scenes read.
+"""Make the wheel profile and the gaps that the cases of example/cases read.
 
-    bin/faststrip contact example/scenes/tread_straight.nml -o out/tread.csv --profiles out/p.csv
-    python3 tools/scene_files.py out/p.csv example/scenes
+    bin/faststrip contact example/cases/tread_straight.nml -o out/tread.csv --profiles out/p.csv
+    python3 tools/example_files.py out/p.csv example/cases
 
 They are made up, not measured: an S1002 worn hollow, two arcs that nearly conform, a crowned
 roller on a flat rail.
@@ -75,7 +75,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     points, folder = read_s1002(sys.argv[1]), Path(sys.argv[2])
-    origin = "# made by tools/scene_files.py: "
+    origin = "# made by tools/example_files.py: "
     columns = "y_mm,h_mm,inv2R_per_mm"
     write(folder / "worn_wheel.txt",
           [origin + "S1002 worn hollow; y to the field side, z down, mm"], worn_wheel(points), " ")

@@ -1,12 +1,12 @@
-!> `faststrip-lab bench scenes`: the scenes of example/scenes by several methods.
-module faststrip_lab_bench_scenes
+!> `faststrip-lab bench examples`: the cases of example/cases by several methods.
+module faststrip_lab_bench_examples
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
     use faststrip_base_kinds, only: wp
     use faststrip_command_case_file, only: case_t
     use faststrip_command_console, only: fail_on_error, put_origin, progress
-    use faststrip_lab_scenes_example_scenes, only: scene_names, read_example_scene
+    use faststrip_lab_bench_example_cases, only: example_names, read_example
     use faststrip_contact_methods, only: normal_hertz, normal_auto, tangential_linear, &
                                          tangential_fastsim
     use faststrip_command_methods, only: numerics_t
@@ -16,15 +16,15 @@ module faststrip_lab_bench_scenes
     implicit none
     private
 
-    public :: bench_scenes
+    public :: bench_examples
 
     character(len=*), parameter :: labels(5) = [character(len=22) :: 'Kalker', &
         'Hertz + linear', 'Hertz + FASTSIM', 'strips 15 + FASTSTRIP', 'auto 2 %']
 
 contains
 
-    !> Solve every prepared by every method and write the CSV.
-    subroutine bench_scenes(file, folder)
+    !> Solve every case by every method and write the CSV.
+    subroutine bench_examples(file, folder)
         character(len=*), intent(in) :: file   !! to write, - for stdout
         character(len=*), intent(in) :: folder !! with the case files
 
@@ -40,10 +40,10 @@ contains
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'Kalker: NORM and TANG on about 30 elements across')
-        call put_header(writer, [[character(len=19) :: 'scene', 'method', 'N_N', 'mu'], &
+        call put_header(writer, [[character(len=19) :: 'example', 'method', 'N_N', 'mu'], &
                                  result_columns])
-        do i = 1, size(scene_names)
-            call read_example_scene(folder, i, case, prepared)
+        do i = 1, size(example_names)
+            call read_example(folder, i, case, prepared)
             do m = 1, size(labels)
                 call make_solver(methods_of(m), .false., solver, status)
                 call fail_on_error(status)
@@ -51,7 +51,7 @@ contains
                 do run = 1, 2
                     call solve(solver, prepared, outcome, status)
                 end do
-                call put_cell(writer, trim(scene_names(i)))
+                call put_cell(writer, trim(example_names(i)))
                 call put_cell(writer, trim(labels(m)))
                 if (prepared%by_load) then
                     call put_cell(writer, prepared%load)
@@ -65,11 +65,11 @@ contains
                 call end_row(writer)
                 call release_solver(solver)
             end do
-            call progress('scenes', i, size(scene_names))
+            call progress('examples', i, size(example_names))
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
-    end subroutine bench_scenes
+    end subroutine bench_examples
 
     !> The methods behind a label.
     type(numerics_t) function methods_of(m) result(numerics)
@@ -91,4 +91,4 @@ contains
             numerics%normal = normal_auto
         end select
     end function methods_of
-end module faststrip_lab_bench_scenes
+end module faststrip_lab_bench_examples

@@ -1,4 +1,4 @@
-"""The scenes of example/scenes: each solves, and is what its first lines say it is."""
+"""The cases of example/cases: each solves, and is what its first lines say it is."""
 
 import math
 import subprocess
@@ -6,22 +6,22 @@ import sys
 
 from cli_program import ROOT, ProgramTest
 
-SCENES = ROOT / "example" / "scenes"
+CASES = ROOT / "example" / "cases"
 MADE = ["worn_wheel.txt", "near_conformal.csv", "polymer_roller.csv"]
 
 
-class Scenes(ProgramTest):
-    def scene(self, name, *words):
-        row = self.good("contact", str(SCENES / f"{name}.nml"), *words)[0]
+class Examples(ProgramTest):
+    def example(self, name, *words):
+        row = self.good("contact", str(CASES / f"{name}.nml"), *words)[0]
         return {key: float(row[key]) for key in row if key not in (
             "case", "normal", "tangential", "status") and row[key] != ""} | {
                 "status": row["status"]}
 
-    def test_every_scene_solves(self):
-        names = sorted(path.stem for path in SCENES.glob("*.nml"))
+    def test_every_example_solves(self):
+        names = sorted(path.stem for path in CASES.glob("*.nml"))
         self.assertGreaterEqual(len(names), 10)
         for name in names:
-            result = self.scene(name)
+            result = self.example(name)
             force = math.hypot(result["Fx_N"], result["Fy_N"])
             self.assertLessEqual(force, 0.36 * result["N_N"], name)
             self.assertGreater(result["area_mm2"], 30.0, name)
@@ -30,26 +30,26 @@ class Scenes(ProgramTest):
         def width(r):
             return r["ymax_mm"] - r["ymin_mm"]
 
-        flange = self.scene("curve_flange_root")
+        flange = self.example("curve_flange_root")
         self.assertLess(flange["stick_fraction"], 0.01)
         self.assertGreater(abs(flange["gamma_rad"]), 0.4)
-        self.assertEqual(self.scene("two_point_contact")["n_patches"], 2)
-        pull = self.scene("locomotive_traction")
+        self.assertEqual(self.example("two_point_contact")["n_patches"], 2)
+        pull = self.example("locomotive_traction")
         self.assertGreater(math.hypot(pull["Fx_N"], pull["Fy_N"]), 0.995 * 0.35 * pull["N_N"])
-        straight = self.scene("tread_straight")
+        straight = self.example("tread_straight")
         self.assertGreater(straight["ymax_mm"], -4.0 * straight["ymin_mm"])
-        conformal = self.scene("near_conformal")
+        conformal = self.example("near_conformal")
         self.assertGreater(width(conformal), 7.0 * conformal["xmax_mm"])
-        roller = self.scene("polymer_roller")
+        roller = self.example("polymer_roller")
         self.assertGreater(roller["penetration_mm"], 0.1)
         self.assertEqual(roller["Fy_N"], 0.0)
         for name in ("freight_25t", "tram_small_wheel"):
-            self.assertGreater(self.scene(name)["stick_fraction"], 0.6, name)
+            self.assertGreater(self.example(name)["stick_fraction"], 0.6, name)
 
     def test_made_files_are_those_of_the_tool(self):
-        self.scene("tread_straight", "--shift", "0", "--profiles", str(self.folder / "p.csv"))
-        subprocess.run([sys.executable, str(ROOT / "tools" / "scene_files.py"), "p.csv", "."],
+        self.example("tread_straight", "--shift", "0", "--profiles", str(self.folder / "p.csv"))
+        subprocess.run([sys.executable, str(ROOT / "tools" / "example_files.py"), "p.csv", "."],
                        cwd=self.folder, check=True)
         for name in MADE:
             self.assertEqual((self.folder / name).read_text(encoding="utf-8"),
-                             (SCENES / name).read_text(encoding="utf-8"), name)
+                             (CASES / name).read_text(encoding="utf-8"), name)
