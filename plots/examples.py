@@ -44,8 +44,8 @@ def main(arguments=None):
         ("examples.png", "Examples", "Distance of each method from Kalker's on ten cases; what is"
          " left out has no result.", "examples")])
     write_rows(options.folder, "tables.csv", header, [
-        ("examples_table.csv", "Examples by method", "Errors in % of Kalker's largest pressure and of"
-         " mu N; times in microseconds.", "examples"),
+        ("examples_table.csv", "Examples by method", "Errors in % of Kalker's largest pressure and"
+         " of mu N; times in microseconds.", "examples"),
         ("examples_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
 
 

@@ -25,9 +25,9 @@ module faststrip_command_auto_stage
 contains
 
     !> Choose; `words` say what and why.
-    subroutine choose(numerics, contact, curve, with_field, chosen, words, status)
+    subroutine choose(numerics, case, curve, with_field, chosen, words, status)
         type(numerics_t), intent(in) :: numerics  !! normal method auto, target and tolerance
-        type(contact_case_t), intent(in) :: contact !! checked
+        type(contact_case_t), intent(in) :: case  !! checked
         type(gap_curve_t), intent(in) :: curve    !! its gap
         logical, intent(in) :: with_field         !! are elements wanted?
         type(numerics_t), intent(out) :: chosen    !! by name
@@ -42,7 +42,7 @@ contains
         integer :: target
 
         words = ''
-        call find_indicators(curve, contact, indicators, status)
+        call find_indicators(curve, case, indicators, status)
         if (is_error(status)) return
         target = findloc(targets == numerics%target, .true., dim=1)
         call choose_methods(indicators, numbers(target), numerics%tolerance, core, expected, status)
@@ -52,7 +52,7 @@ contains
         chosen = numerics
         chosen%contact_methods_t = core
         if (status%code == st_target_missed .and. numerics%target == targets(1) .and. &
-            .not. are_alike(contact%material)) then
+            .not. are_alike(case%material)) then
             words = 'the best there is for unlike materials, expected within ' // percent(expected)
         else if (status%code == st_target_missed) then
             status = status_t()

@@ -39,7 +39,7 @@ contains
         type(status_t) :: status
         type(numerics_t) :: numerics
         type(solver_t) :: solver
-        type(contact_case_t) :: options, contact
+        type(contact_case_t) :: options, case
         type(outcome_t) :: outcome
         integer :: row, i, n_failed, column(size(case_columns))
 
@@ -78,11 +78,11 @@ contains
         call put_names(writer, table%names)
         n_failed = 0
         do row = 1, table%n_rows
-            contact = options
-            call read_row(table, row, column, contact, status)
-            if (.not. is_error(status)) call solve(solver, contact, outcome, status)
+            case = options
+            call read_row(table, row, column, case, status)
+            if (.not. is_error(status)) call solve(solver, case, outcome, status)
             do i = 1, table%n_columns
-                if (i == column(load_column) .and. .not. (contact%by_load .or. is_error(status))) &
+                if (i == column(load_column) .and. .not. (case%by_load .or. is_error(status))) &
                     then
                     call put_cell(writer, outcome%normal%load)
                 else
@@ -146,10 +146,10 @@ contains
     end subroutine refuse_result_columns
 
     !> The contact of a row.
-    subroutine read_row(table, row, column, contact, status)
+    subroutine read_row(table, row, column, case, status)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: row, column(:)
-        type(contact_case_t), intent(inout) :: contact
+        type(contact_case_t), intent(inout) :: case
         type(status_t), intent(out) :: status
 
         real(wp) :: number(3:9)
@@ -157,8 +157,8 @@ contains
 
         penetration = column_index(table, penetration_column)
         if (len(cell_text(table, row, penetration)) > 0) then
-            contact%by_load = .false.
-            call cell_number(table, row, penetration, contact%penetration, status)
+            case%by_load = .false.
+            call cell_number(table, row, penetration, case%penetration, status)
             if (is_error(status)) return
             if (len(cell_text(table, row, column(load_column))) > 0) then
                 call set_status(status, st_bad_argument, 'N_N is given, and ' &
@@ -167,15 +167,15 @@ contains
             end if
         end if
         do i = lbound(number, 1), ubound(number, 1)
-            if (i == load_column .and. .not. contact%by_load) cycle
+            if (i == load_column .and. .not. case%by_load) cycle
             call cell_number(table, row, column(i), number(i), status)
             if (is_error(status)) return
         end do
-        if (contact%by_load) contact%load = number(load_column)
-        contact%material = material_t(number(3), number(3), number(4), number(4))
-        contact%mu = number(5)
-        contact%creepage = creepage_t(number(7), number(8), number(9))
-        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), contact%gap, &
+        if (case%by_load) case%load = number(load_column)
+        case%material = material_t(number(3), number(3), number(4), number(4))
+        case%mu = number(5)
+        case%creepage = creepage_t(number(7), number(8), number(9))
+        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), case%gap, &
                            status)
     end subroutine read_row
 end module faststrip_command_batch

@@ -7,8 +7,8 @@ module faststrip_command_case_file
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_geometry_profile, only: profile_t
-    use faststrip_geometry_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
-    use faststrip_geometry_contact_gap, only: standard_gap_step, standard_gap_height
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
+    use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, beside, &
                                                path_length
     use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &

@@ -5,7 +5,7 @@ module faststrip_command_case_profiles
     use faststrip_base_text, only: lower_case
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_points_profile, standard_cant
-    use faststrip_geometry_contact, only: wheelset_t, track_t
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_files_profile, only: read_points_file, read_simpack_file, simpack_wheel, &
                                        simpack_rail
     use faststrip_command_console, only: fail_on_error

@@ -79,7 +79,7 @@ contains
             call put_strips(writer(2), case%name, solver%workspace%strips, &
                             solver%strip_forces)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
-        if (given(command, '--gap')) call put_gap(writer(4), solver%contact%gap, &
+        if (given(command, '--gap')) call put_gap(writer(4), solver%case%gap, &
                                                   case%numerics%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
         call close_outputs(command, writer)

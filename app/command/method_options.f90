@@ -63,10 +63,10 @@ contains
 
     !> Let the options that were given replace what was chosen before; a usage error if one is
     !> out of range.
-    subroutine take_method_options(command, numerics, contact)
+    subroutine take_method_options(command, numerics, case)
         type(command_t), intent(in) :: command     !! parsed, with `method_options` in its table
         type(numerics_t), intent(inout) :: numerics !! defaults or those of a case file
-        class(contact_case_t), intent(inout) :: contact !! the same: the limit of its errors
+        class(contact_case_t), intent(inout) :: case !! the same: the limit of its errors
 
         numerics%normal = normal_method(option_word( &
             command, '--normal', trim(normal_method_name(numerics%normal)), normal_table%name))
@@ -97,8 +97,8 @@ contains
                                            above=0)
         numerics%error_target = option_number(command, '--error-target', numerics%error_target, &
                                              least=0)
-        contact%resolution_limit = option_number(command, '--resolution-limit', &
-                                                 contact%resolution_limit, above=0)
+        case%resolution_limit = option_number(command, '--resolution-limit', &
+                                                 case%resolution_limit, above=0)
         numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

@@ -17,11 +17,11 @@ module faststrip_command_norm_stage
     use faststrip_contact_solve, only: workspace_t, solve_contact_normal
     use faststrip_command_system, only: set_detail
     use faststrip_command_methods, only: numerics_t
-    use faststrip_command_normal_stage, only: make_room
+    use faststrip_command_normal_stage, only: reserve_for_case
     implicit none
     private
 
-    public :: norm_stage_t, make_norm_room, release_norm_stage, solve_by_norm, take_rows
+    public :: norm_stage_t, reserve_norm_stage, release_norm_stage, solve_by_norm, take_rows
 
     ! Strips to start from where their number is left to the solver.
     integer, parameter :: start_strips = 15
@@ -35,13 +35,13 @@ module faststrip_command_norm_stage
 contains
 
     !> Grow the workspace to what a gap needs, outside the time that is measured.
-    subroutine make_norm_room(stage, points, status)
+    subroutine reserve_norm_stage(stage, points, status)
         type(norm_stage_t), intent(inout) :: stage !! sized
         integer, intent(in) :: points              !! of the gap
         type(status_t), intent(out) :: status      !! of `reserve_norm`
 
         call reserve_norm(stage%workspace, points, status)
-    end subroutine make_norm_room
+    end subroutine reserve_norm_stage
 
     !> Give back what the compiler does not: plans of stages in an array.
     subroutine release_norm_stage(stage)
@@ -52,10 +52,10 @@ contains
 
     !> Solve the normal problem, from a coarser grid or from strips; if these fail, from the
     !> coarser grid.
-    subroutine solve_by_norm(stage, numerics, contact, curve, normal, certificate, status)
+    subroutine solve_by_norm(stage, numerics, case, curve, normal, certificate, status)
         type(norm_stage_t), intent(inout) :: stage   !! reserved for the gap
         type(numerics_t), intent(in) :: numerics     !! sides of the elements, what to start from
-        type(contact_case_t), intent(in) :: contact  !! material, load or penetration
+        type(contact_case_t), intent(in) :: case     !! material, load or penetration
         type(gap_curve_t), intent(in) :: curve       !! its gap
         type(normal_result_t), intent(out) :: normal !! figures
         type(certificate_t), intent(out) :: certificate !! residuals, and errors if estimated
@@ -70,34 +70,34 @@ contains
         options%error_target = numerics%error_target
         options%most_elements = numerics%max_elements
         if (numerics%norm_start == 'strips') then
-            call solve_start(stage, contact, curve)
+            call solve_start(stage, case, curve)
         else
             stage%start%strips%n = 0
         end if
         if (numerics%norm_start == 'strips') &
             options%two_levels = stage%start%strips%n == 0
-        call norm_solve_demand(stage%workspace, normal_compliance(contact%material), &
-                               contact%demand_t, options, normal, status, stage%start%strips, &
+        call norm_solve_demand(stage%workspace, normal_compliance(case%material), &
+                               case%demand_t, options, normal, status, stage%start%strips, &
                                tell_of_grid)
         if (.not. is_error(status)) certificate = stage%workspace%certificate
     end subroutine solve_by_norm
 
     !> The strips to start from; none if they have no solution.
-    subroutine solve_start(stage, contact, curve)
+    subroutine solve_start(stage, case, curve)
         type(norm_stage_t), intent(inout) :: stage
-        type(contact_case_t), intent(in) :: contact
+        type(contact_case_t), intent(in) :: case
         type(gap_curve_t), intent(in) :: curve
 
         type(contact_case_t) :: strips
         type(normal_result_t) :: ignored
         type(status_t) :: status
 
-        strips = contact
+        strips = case
         strips%estimate = .false.
         strips%methods%normal = normal_strip
         if (strips%methods%strips_per_patch == strips_auto) &
             strips%methods%strips_per_patch = start_strips
-        call make_room(stage%start, strips, status)
+        call reserve_for_case(stage%start, strips, status)
         if (.not. is_error(status)) &
             call solve_contact_normal(stage%start, strips, ignored, status, curve=curve)
         if (is_error(status)) stage%start%strips%n = 0

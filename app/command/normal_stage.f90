@@ -7,18 +7,18 @@ module faststrip_command_normal_stage
     implicit none
     private
 
-    public :: make_room
+    public :: reserve_for_case
 
 contains
 
     !> Grow the workspace to what a contact needs, outside the time that is measured.
-    subroutine make_room(workspace, contact, status)
+    subroutine reserve_for_case(workspace, case, status)
         type(workspace_t), intent(inout) :: workspace !! sized
-        class(contact_case_t), intent(in) :: contact  !! its gap and methods
+        class(contact_case_t), intent(in) :: case     !! its gap and methods
         type(status_t), intent(out) :: status         !! those of `check_gap`
 
-        call check_gap(contact%gap, status)
+        call check_gap(case%gap, status)
         if (is_error(status)) return
-        call reserve_workspace(workspace, contact%methods, size(contact%gap%y), status)
-    end subroutine make_room
+        call reserve_workspace(workspace, case%methods, size(case%gap%y), status)
+    end subroutine reserve_for_case
 end module faststrip_command_normal_stage

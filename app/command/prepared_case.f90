@@ -8,9 +8,9 @@ module faststrip_command_prepared_case
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
-    use faststrip_geometry_contact, only: rigid_contact_t, find_wheelset_contacts, contact_force, &
-                                          shift_creepage
-    use faststrip_geometry_contact_gap, only: make_gap
+    use faststrip_geometry_rigid_contact, only: rigid_contact_t, find_rigid_contacts, &
+                                                contact_force, shift_creepage
+    use faststrip_geometry_undeformed_gap, only: make_gap
     use faststrip_contact_case, only: contact_case_t
     use faststrip_command_console, only: put_origin
     use faststrip_command_case_file, only: case_t
@@ -34,7 +34,7 @@ contains
     !> load and the creepages listed with it.
     subroutine prepare_case(case, shift, prepared, status)
         type(case_t), intent(in) :: case               !! a case that was read
-        real(wp), intent(in) :: shift                  !! lateral shift, without meaning for a gap file, mm
+        real(wp), intent(in) :: shift                  !! lateral shift, unused with a gap file, mm
         type(prepared_case_t), intent(out) :: prepared !! ready to be solved
         type(status_t), intent(out) :: status          !! from the library
 
@@ -47,7 +47,7 @@ contains
             call read_gap_file(case%gap_file, prepared%gap, status)
             return
         end if
-        call find_wheelset_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
+        call find_rigid_contacts(case%wheel, case%rail, case%wheelset, case%track, shift, &
                                     prepared%rigid_contact, left, status)
         if (is_error(status)) then
             call clear_rigid_contact(case, prepared)

@@ -20,8 +20,8 @@ module faststrip_command_solver
                                        solve_contact_tangential, estimate_contact_errors
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t, core_methods
-    use faststrip_command_normal_stage, only: make_room
-    use faststrip_command_norm_stage, only: norm_stage_t, make_norm_room, release_norm_stage, &
+    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_command_norm_stage, only: norm_stage_t, reserve_norm_stage, release_norm_stage, &
                                             solve_by_norm, take_rows
     use faststrip_command_auto_stage, only: choose
     use faststrip_command_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang
@@ -35,7 +35,7 @@ module faststrip_command_solver
         type(numerics_t) :: numerics        !! what was asked for
         type(numerics_t) :: chosen          !! what the last contact was solved by
         logical :: with_field = .false.     !! are the elements wanted?
-        type(contact_case_t) :: contact     !! the last one: its gap smoothed if that was asked
+        type(contact_case_t) :: case        !! the last one: its gap smoothed if that was asked
                                             !! for, its methods the core's part of `chosen`
         type(gap_curve_t) :: curve          !! its gap, for all methods
         type(workspace_t) :: workspace      !! with the strips of the last contact
@@ -90,16 +90,16 @@ contains
     end subroutine release_solver
 
     !> Solve one contact.
-    subroutine solve(solver, contact, outcome, status)
+    subroutine solve(solver, case, outcome, status)
         type(solver_t), intent(inout) :: solver     !! made beforehand
-        class(contact_case_t), intent(in) :: contact !! what to solve; its methods do not count
+        class(contact_case_t), intent(in) :: case   !! what to solve; its methods do not count
         type(outcome_t), intent(out) :: outcome     !! figures
         type(status_t), intent(out) :: status       !! an error, or a named limitation
 
         type(status_t) :: choice_status
 
         outcome%choice = ''
-        call take_contact(solver, contact, outcome, status)
+        call take_contact(solver, case, outcome, status)
         if (is_error(status)) return
         call take_methods(solver, outcome, choice_status)
         status = choice_status
@@ -108,10 +108,10 @@ contains
         if (is_error(status)) return
         call solve_forces(solver, outcome, status)
         if (status%code == st_ok) status = choice_status
-        if (is_error(status) .or. solver%contact%methods%normal /= normal_strip &
+        if (is_error(status) .or. solver%case%methods%normal /= normal_strip &
             .or. solver%chosen%normal == normal_norm) return
         ! Outside the time that is measured.
-        call estimate_contact_errors(solver%workspace, solver%contact, outcome%normal, &
+        call estimate_contact_errors(solver%workspace, solver%case, outcome%normal, &
                                      outcome%certificate, outcome%is_certified, status)
         outcome%is_estimated = outcome%is_certified
     end subroutine solve
@@ -125,15 +125,15 @@ contains
         integer(int64) :: before, after
         real(wp) :: cpu ! us
 
-        call make_room(solver%workspace, solver%contact, status)
+        call reserve_for_case(solver%workspace, solver%case, status)
         if (is_error(status)) return
         if (solver%chosen%normal == normal_norm) &
-            call make_norm_room(solver%norm, size(solver%contact%gap%y), status)
+            call reserve_norm_stage(solver%norm, size(solver%case%gap%y), status)
         if (is_error(status)) return
         cpu = cpu_microseconds()
         call system_clock(before)
         if (solver%chosen%normal == normal_norm) then
-            call solve_by_norm(solver%norm, solver%chosen, solver%contact, solver%curve, &
+            call solve_by_norm(solver%norm, solver%chosen, solver%case, solver%curve, &
                                outcome%normal, outcome%certificate, status)
             outcome%is_certified = .true.
             outcome%is_estimated = solver%norm%workspace%is_estimated
@@ -141,9 +141,9 @@ contains
                 call name_resolution(outcome%certificate%est_err_penetration, &
                                      outcome%certificate%est_err_pmax, &
                                      outcome%certificate%est_err_area, &
-                                     solver%contact%resolution_limit, status)
+                                     solver%case%resolution_limit, status)
         else
-            call solve_contact_normal(solver%workspace, solver%contact, outcome%normal, status, &
+            call solve_contact_normal(solver%workspace, solver%case, outcome%normal, status, &
                                       curve=solver%curve)
         end if
         if (is_error(status)) return
@@ -169,14 +169,14 @@ contains
         cpu = cpu_microseconds()
         call system_clock(before)
         if (solver%chosen%tangential == tangential_tang) then
-            call solve_by_tang(solver%tang, solver%chosen, solver%contact, solver%workspace, &
+            call solve_by_tang(solver%tang, solver%chosen, solver%case, solver%workspace, &
                                solver%norm, solver%with_field, outcome%tangential, solver%field, &
                                tangential_status)
         else if (solver%with_field) then
-            call solve_contact_tangential(solver%workspace, solver%contact, outcome%tangential, &
+            call solve_contact_tangential(solver%workspace, solver%case, outcome%tangential, &
                                           tangential_status, solver%field)
         else
-            call solve_contact_tangential(solver%workspace, solver%contact, outcome%tangential, &
+            call solve_contact_tangential(solver%workspace, solver%case, outcome%tangential, &
                                           tangential_status)
         end if
         call system_clock(after)
@@ -189,7 +189,7 @@ contains
             call reserve_strip_forces(solver%strip_forces, size(solver%workspace%strips%p0), &
                                       tangential_status)
             if (.not. is_error(tangential_status)) &
-                call solve_contact_tangential(solver%workspace, solver%contact, &
+                call solve_contact_tangential(solver%workspace, solver%case, &
                                               outcome%tangential, tangential_status, &
                                               per_strip=solver%strip_forces)
         end if
@@ -200,9 +200,9 @@ contains
 
     !> Check the contact, smooth its gap if that is asked for, and make it a curve once for all
     !> methods, which counts as normal time.
-    subroutine take_contact(solver, contact, outcome, status)
+    subroutine take_contact(solver, case, outcome, status)
         type(solver_t), intent(inout) :: solver
-        class(contact_case_t), intent(in) :: contact
+        class(contact_case_t), intent(in) :: case
         type(outcome_t), intent(inout) :: outcome
         type(status_t), intent(out) :: status
 
@@ -211,25 +211,25 @@ contains
         integer(int64) :: before, after
         real(wp) :: change, cpu ! mm, us
 
-        call check_material(contact%material, status)
+        call check_material(case%material, status)
         if (is_error(status)) return
-        solver%contact = contact
+        solver%case = case
         if (solver%numerics%smoothing_um > 0.0_wp) then
-            call smooth_gap(contact%gap, 1.0e-3_wp*solver%numerics%smoothing_um, smooth, change, &
+            call smooth_gap(case%gap, 1.0e-3_wp*solver%numerics%smoothing_um, smooth, change, &
                             status)
             if (is_error(status)) return
-            solver%contact%gap = smooth
+            solver%case%gap = smooth
             outcome%gap_change_um = 1.0e3_wp*change
         end if
-        call check_gap(solver%contact%gap, status)
+        call check_gap(solver%case%gap, status)
         if (is_error(status)) return
-        call reserve_gap_curve(solver%curve, size(solver%contact%gap%y), status)
+        call reserve_gap_curve(solver%curve, size(solver%case%gap%y), status)
         if (is_error(status)) return
         cpu = cpu_microseconds()
         call system_clock(before)
         ! As the library does: in its own rounding mode, without the host's traps.
         call hold_environment(environment)
-        call set_gap_curve(solver%curve, solver%contact%gap, status)
+        call set_gap_curve(solver%curve, solver%case%gap, status)
         call restore_environment(environment)
         call system_clock(after)
         outcome%normal_us = microseconds(before, after)
@@ -250,7 +250,7 @@ contains
         if (solver%numerics%normal == normal_auto) then
             cpu = cpu_microseconds()
             call system_clock(before)
-            call choose(solver%numerics, solver%contact, solver%curve, solver%with_field, &
+            call choose(solver%numerics, solver%case, solver%curve, solver%with_field, &
                         solver%chosen, outcome%choice, status)
             call system_clock(after)
             if (is_error(status)) return
@@ -260,8 +260,8 @@ contains
                 call reserve_contact_field(solver%field, core_methods(solver%chosen), status)
             end if
         end if
-        solver%contact%methods = core_methods(solver%chosen)
-        solver%contact%estimate = solver%contact%methods%normal /= normal_strip ! `solve` does
+        solver%case%methods = core_methods(solver%chosen)
+        solver%case%estimate = solver%case%methods%normal /= normal_strip ! `solve` does
     end subroutine take_methods
 
     !> Room for the elements of as many strips as there are rows.

@@ -36,11 +36,11 @@ contains
     end subroutine release_tang_stage
 
     !> Solve the tangential problem on NORM's grid, or on one laid under the ellipse or the strips.
-    subroutine solve_by_tang(stage, numerics, contact, workspace, norm, with_field, tangential, &
+    subroutine solve_by_tang(stage, numerics, case, workspace, norm, with_field, tangential, &
                              field, status)
         type(tang_stage_t), intent(inout) :: stage   !! grows
         type(numerics_t), intent(in) :: numerics     !! normal method, sides of the elements
-        type(contact_case_t), intent(in) :: contact  !! material, friction, creepages
+        type(contact_case_t), intent(in) :: case     !! material, friction, creepages
         type(workspace_t), intent(in) :: workspace   !! with a solution, unless it is NORM's
         type(norm_stage_t), intent(in) :: norm       !! with a solution, if it is NORM's
         logical, intent(in) :: with_field            !! are the elements wanted?
@@ -49,7 +49,7 @@ contains
         type(status_t), intent(out) :: status        !! of `tang_solve`, of the grid
 
         if (numerics%normal == normal_norm) then
-            call solve_on_grid(stage, norm%workspace%grid, edges_of_norm, contact, with_field, &
+            call solve_on_grid(stage, norm%workspace%grid, edges_of_norm, case, with_field, &
                                tangential, field, status)
             return
         else if (numerics%normal == normal_hertz) then
@@ -62,15 +62,15 @@ contains
                                numerics%max_elements, stage%grid, status)
         end if
         if (is_error(status)) return
-        call solve_on_grid(stage, stage%grid, edges_sampled, contact, with_field, tangential, &
+        call solve_on_grid(stage, stage%grid, edges_sampled, case, with_field, tangential, &
                            field, status)
     end subroutine solve_by_tang
 
-    subroutine solve_on_grid(stage, grid, edges, contact, with_field, tangential, field, status)
+    subroutine solve_on_grid(stage, grid, edges, case, with_field, tangential, field, status)
         type(tang_stage_t), intent(inout) :: stage
         type(contact_grid_t), intent(in) :: grid
         integer, intent(in) :: edges
-        type(contact_case_t), intent(in) :: contact
+        type(contact_case_t), intent(in) :: case
         logical, intent(in) :: with_field
         type(tangential_result_t), intent(out) :: tangential
         type(tangential_field_t), intent(inout) :: field
@@ -84,11 +84,11 @@ contains
         call set_detail('tang: ' // integer_text(elements) // ' elements in contact')
         if (with_field) then
             if (elements > size(field%x)) call reserve_field(field, elements, status)
-            call tang_solve(stage%workspace, grid, contact%material, contact%mu, &
-                            contact%creepage, options, tangential, status, field)
+            call tang_solve(stage%workspace, grid, case%material, case%mu, &
+                            case%creepage, options, tangential, status, field)
         else
-            call tang_solve(stage%workspace, grid, contact%material, contact%mu, &
-                            contact%creepage, options, tangential, status)
+            call tang_solve(stage%workspace, grid, case%material, case%mu, &
+                            case%creepage, options, tangential, status)
         end if
     end subroutine solve_on_grid
 end module faststrip_command_tang_stage

@@ -16,9 +16,9 @@ module faststrip_lab_errata
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           standard_cant
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_geometry_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                          find_wheelset_contacts
-    use faststrip_geometry_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                                find_rigid_contacts
+    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
@@ -427,7 +427,7 @@ contains
 
         integer, parameter :: capacity = 200
         type(profile_t) :: wheel, rail
-        type(rigid_contact_t) :: contact, left
+        type(rigid_contact_t) :: touching, left
         type(gap_t) :: gap
         type(strip_workspace_t) :: workspace
         type(normal_result_t) :: result
@@ -437,10 +437,10 @@ contains
         call fail_on_error(status)
         call make_rail_profile('uic60', standard_cant, rail, status)
         call fail_on_error(status)
-        call find_wheelset_contacts(wheel, rail, wheelset_t(), track_t(), shift, contact, left, &
+        call find_rigid_contacts(wheel, rail, wheelset_t(), track_t(), shift, touching, left, &
                                     status)
         call fail_on_error(status)
-        call make_gap(wheel, rail, wheelset_t(), contact, standard_gap_step, standard_gap_height, &
+        call make_gap(wheel, rail, wheelset_t(), touching, standard_gap_step, standard_gap_height, &
                       gap, status)
         call fail_on_error(status)
         call reserve_strips(strips, capacity, status)

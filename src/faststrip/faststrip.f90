@@ -24,11 +24,12 @@ module faststrip
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_points_profile, profile_at, standard_cant
-    use faststrip_geometry_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                          find_rigid_contact, find_wheelset_contacts, &
-                                          contact_force, shift_creepage, creepage_set_a, &
-                                          creepage_set_b
-    use faststrip_geometry_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                                find_rigid_contact, find_rigid_contacts, &
+                                                find_wheelset_contacts => find_rigid_contacts, &
+                                                contact_force, shift_creepage, creepage_set_a, &
+                                                creepage_set_b
+    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &

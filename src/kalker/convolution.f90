@@ -55,8 +55,8 @@ module faststrip_kalker_convolution
         complex(c_double_complex), pointer, contiguous, private :: source(:, :, :) => null()
         real(c_double), pointer, contiguous, private :: kernel(:, :, :) => null()
         logical, allocatable, private :: is_imaginary(:) ! the transform of each kernel, else real
-        type(c_ptr), private :: field_room = c_null_ptr, spectrum_room = c_null_ptr
-        type(c_ptr), private :: source_room = c_null_ptr, kernel_room = c_null_ptr
+        type(c_ptr), private :: field_memory = c_null_ptr, spectrum_memory = c_null_ptr
+        type(c_ptr), private :: source_memory = c_null_ptr, kernel_memory = c_null_ptr
         ! Along x forward and backward, along y forward and backward.
         type(c_ptr), private :: plans(4) = c_null_ptr
     contains
@@ -90,21 +90,21 @@ contains
         convolution%my = good_size(2*ny)
         half = convolution%mx/2 + 1
         associate (mx => convolution%mx, my => convolution%my)
-            convolution%field_room = fftw_alloc_real(int(mx, c_size_t)*my)
-            convolution%spectrum_room = fftw_alloc_complex(int(half, c_size_t)*my)
-            convolution%source_room = fftw_alloc_complex(int(half, c_size_t)*my*n_sources)
-            convolution%kernel_room = fftw_alloc_real(int(half, c_size_t)*my*n_kernels)
-            if (.not. (c_associated(convolution%field_room) .and. &
-                       c_associated(convolution%spectrum_room) .and. &
-                       c_associated(convolution%source_room) .and. &
-                       c_associated(convolution%kernel_room))) then
+            convolution%field_memory = fftw_alloc_real(int(mx, c_size_t)*my)
+            convolution%spectrum_memory = fftw_alloc_complex(int(half, c_size_t)*my)
+            convolution%source_memory = fftw_alloc_complex(int(half, c_size_t)*my*n_sources)
+            convolution%kernel_memory = fftw_alloc_real(int(half, c_size_t)*my*n_kernels)
+            if (.not. (c_associated(convolution%field_memory) .and. &
+                       c_associated(convolution%spectrum_memory) .and. &
+                       c_associated(convolution%source_memory) .and. &
+                       c_associated(convolution%kernel_memory))) then
                 call refuse()
                 return
             end if
-            call c_f_pointer(convolution%field_room, convolution%field, [mx, my])
-            call c_f_pointer(convolution%spectrum_room, convolution%spectrum, [half, my])
-            call c_f_pointer(convolution%source_room, convolution%source, [half, my, n_sources])
-            call c_f_pointer(convolution%kernel_room, convolution%kernel, [half, my, n_kernels])
+            call c_f_pointer(convolution%field_memory, convolution%field, [mx, my])
+            call c_f_pointer(convolution%spectrum_memory, convolution%spectrum, [half, my])
+            call c_f_pointer(convolution%source_memory, convolution%source, [half, my, n_sources])
+            call c_f_pointer(convolution%kernel_memory, convolution%kernel, [half, my, n_kernels])
             convolution%plans(1) = fftw_plan_many_dft_r2c( &
                 1_c_int, [int(mx, c_int)], int(ny, c_int), convolution%field, c_null_ptr, 1_c_int, &
                 int(mx, c_int), convolution%source, c_null_ptr, 1_c_int, int(half, c_int), &
@@ -113,8 +113,8 @@ contains
                 1_c_int, [int(mx, c_int)], int(ny, c_int), convolution%spectrum, c_null_ptr, &
                 1_c_int, int(half, c_int), convolution%field, c_null_ptr, 1_c_int, &
                 int(mx, c_int), fftw_estimate)
-            convolution%plans(3) = plan_along_y(convolution%source_room, fftw_forward)
-            convolution%plans(4) = plan_along_y(convolution%spectrum_room, fftw_backward)
+            convolution%plans(3) = plan_along_y(convolution%source_memory, fftw_forward)
+            convolution%plans(4) = plan_along_y(convolution%spectrum_memory, fftw_backward)
         end associate
         do i = 1, size(convolution%plans)
             if (c_associated(convolution%plans(i))) cycle
@@ -157,14 +157,14 @@ contains
             if (c_associated(convolution%plans(i))) call fftw_destroy_plan(convolution%plans(i))
             convolution%plans(i) = c_null_ptr
         end do
-        call fftw_free(convolution%field_room)
-        call fftw_free(convolution%spectrum_room)
-        call fftw_free(convolution%source_room)
-        call fftw_free(convolution%kernel_room)
-        convolution%field_room = c_null_ptr
-        convolution%spectrum_room = c_null_ptr
-        convolution%source_room = c_null_ptr
-        convolution%kernel_room = c_null_ptr
+        call fftw_free(convolution%field_memory)
+        call fftw_free(convolution%spectrum_memory)
+        call fftw_free(convolution%source_memory)
+        call fftw_free(convolution%kernel_memory)
+        convolution%field_memory = c_null_ptr
+        convolution%spectrum_memory = c_null_ptr
+        convolution%source_memory = c_null_ptr
+        convolution%kernel_memory = c_null_ptr
         if (allocated(convolution%is_imaginary)) deallocate (convolution%is_imaginary)
         nullify (convolution%field, convolution%spectrum, convolution%source, convolution%kernel)
         convolution%nx = 0
@@ -246,8 +246,8 @@ contains
             call fftw_execute_dft_r2c(convolution%plans(1), convolution%field(:, from), &
                                       convolution%source(:, from, 1))
         end do
-        call fftw_execute_dft(convolution%plans(3), convolution%source_room, &
-                              convolution%source_room)
+        call fftw_execute_dft(convolution%plans(3), convolution%source_memory, &
+                              convolution%source_memory)
         ! Even and odd along both axes: the transform is real; mixed: it is imaginary. Backward
         ! transforms leave the factor out.
         scale = 1.0_wp/(real(convolution%mx, wp)*convolution%my)
@@ -324,8 +324,8 @@ contains
                           convolution%source(:, :, sources(i)), factors(i), i == 1, &
                           convolution%spectrum)
         end do
-        call fftw_execute_dft(convolution%plans(4), convolution%spectrum_room, &
-                              convolution%spectrum_room)
+        call fftw_execute_dft(convolution%plans(4), convolution%spectrum_memory, &
+                              convolution%spectrum_memory)
         call fftw_execute_dft_c2r(convolution%plans(2), convolution%spectrum, convolution%field)
         do j = 1, convolution%ny
             result(:convolution%nx, j) = convolution%field(:convolution%nx, j)

@@ -21,24 +21,24 @@ module faststrip_kalker_fftw
     integer(c_int), parameter :: fftw_forward = -1_c_int, fftw_backward = 1_c_int
 
     interface
-        !> Aligned room for n reals; null if there is none.
-        function fftw_alloc_real(n) result(room) bind(c)
+        !> Aligned memory for n reals; null if there is none.
+        function fftw_alloc_real(n) result(memory) bind(c)
             import :: c_ptr, c_size_t
             integer(c_size_t), value :: n
-            type(c_ptr) :: room
+            type(c_ptr) :: memory
         end function fftw_alloc_real
 
-        !> Aligned room for n complex numbers; null if there is none.
-        function fftw_alloc_complex(n) result(room) bind(c)
+        !> Aligned memory for n complex numbers; null if there is none.
+        function fftw_alloc_complex(n) result(memory) bind(c)
             import :: c_ptr, c_size_t
             integer(c_size_t), value :: n
-            type(c_ptr) :: room
+            type(c_ptr) :: memory
         end function fftw_alloc_complex
 
-        !> Give room back; null does nothing.
-        subroutine fftw_free(room) bind(c)
+        !> Free the memory; null does nothing.
+        subroutine fftw_free(memory) bind(c)
             import :: c_ptr
-            type(c_ptr), value :: room
+            type(c_ptr), value :: memory
         end subroutine fftw_free
 
         !> Plan `howmany` forward transforms of n(1) reals into n(1)/2 + 1 complex numbers; element

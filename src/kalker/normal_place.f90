@@ -35,7 +35,7 @@ module faststrip_kalker_normal_place
     end type extent_t
 
     ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: guess_room = 1.3_wp   ! of the level, for rows of a guess
+    real(wp), parameter :: guess_margin = 1.3_wp   ! of the level, for rows of a guess
     ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
     ! Tuned [1]. Origin: chosen: errors of the area of strips.
@@ -70,7 +70,7 @@ contains
             return
         end if
         extent%level = patches%at(1)%seed_level
-        call level_intervals(curve, curve%h_lowest + guess_room*extent%level, low, high, n)
+        call level_intervals(curve, curve%h_lowest + guess_margin*extent%level, low, high, n)
         extent%y_from = low(1)
         extent%y_to = high(n)
         extent%half_width = 0.5_wp*sum(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)

@@ -148,7 +148,7 @@ contains
         problem%nx = last(1) - first(1) + 2
         problem%ny = last(2) - first(2) + 1
         problem%n = n
-        call make_room(problem)
+        call reserve_arrays(problem)
         call make_kernels(problem, material, status)
         if (is_error(status)) return
 
@@ -187,7 +187,7 @@ contains
         problem%made_size = 0
     end subroutine release_problem
 
-    subroutine make_room(problem)
+    subroutine reserve_arrays(problem)
         type(problem_t), intent(inout) :: problem
 
         integer :: n, nx, ny
@@ -215,7 +215,7 @@ contains
                       problem%own_row(2, -nx:nx), source=0.0_wp)
             allocate (problem%row_start(ny + 1), source=0)
         end if
-    end subroutine make_room
+    end subroutine reserve_arrays
 
     !> Influence coefficients, unless they are there already.
     subroutine make_kernels(problem, material, status)

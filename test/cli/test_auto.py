@@ -1,4 +1,4 @@
-"""`--normal auto`: the choice is told, keeps its promise on the examples, computes what is asked."""
+"""`--normal auto`: the choice is told, keeps its promise on examples, computes what is asked."""
 
 import math
 

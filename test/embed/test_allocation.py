@@ -41,11 +41,11 @@ module contacts
     end interface
 
     !> Room for one thread.
-    type :: room_t
+    type :: workspaces_t
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
         type(workspace_t) :: contact
-    end type room_t
+    end type workspaces_t
 
 contains
 
@@ -73,7 +73,7 @@ contains
     end subroutine make
 
     subroutine reserve(here)
-        type(room_t), intent(inout) :: here
+        type(workspaces_t), intent(inout) :: here
         type(status_t) :: status
 
         call reserve_strips(here%strips, capacity, status)
@@ -85,7 +85,7 @@ contains
     !> Solve a gap from nothing, for a penetration, and warm, then as a contact with its estimated
     !> errors; add up the bits of all figures.
     subroutine solve(here, gap, n, bits, code)
-        type(room_t), intent(inout) :: here
+        type(workspaces_t), intent(inout) :: here
         type(gap_t), intent(in) :: gap
         integer, intent(in) :: n
         integer(int64), intent(out) :: bits
@@ -151,7 +151,7 @@ program counting
     use contacts
     implicit none
     integer, parameter :: numbers(5) = [0, 5, 15, 31, 101]
-    type(room_t) :: here
+    type(workspaces_t) :: here
     type(gap_t) :: gap
     integer(int64) :: bits
     integer(c_long) :: before, after
@@ -184,7 +184,7 @@ program threads
     type(gap_t) :: gaps(kinds)
     integer(int64) :: bits(size(numbers), size(gaps), rounds)
     integer :: codes(size(numbers), size(gaps), rounds), job, i, kind, round
-    type(room_t) :: here
+    type(workspaces_t) :: here
 
     do kind = 1, size(gaps)
         call make(kind, gaps(kind))
@@ -240,7 +240,7 @@ class Solver(HostTest):
             bits.setdefault((kind, strips), set()).add(word)
         return text, rows, bits
 
-    def test_nothing_is_allocated_after_the_room_is_made(self):
+    def test_nothing_is_allocated_after_the_workspace_is_reserved(self):
         text, rows, _ = self.solved("counting")
         self.assertEqual(len(rows), 25)
         codes = {code for _, _, code, _ in rows}

@@ -228,7 +228,7 @@ class Contacts(HostTest):
         with self.assertRaisesRegex(self.faststrip.FaststripError, "given twice"):
             contact.set_gap(*self.gap, inclination=0.0, turn=0.0)
 
-    def test_a_longer_gap_gets_room(self):
+    def test_a_longer_gap_gets_capacity(self):
         contact = self.faststrip.Contact(max_points=10)
         contact.set_gap(*self.gap)
         self.assertEqual(contact.solve(load=1e5).word, "ok")

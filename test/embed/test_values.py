@@ -204,7 +204,7 @@ class Values(HostTest):
         self.close(1.0 / shear, 0.5 * (2.0 * (1.0 + NU_WHEEL) / E_WHEEL
                                        + 2.0 * (1.0 + NU_RAIL) / E_RAIL), "shear modulus")
 
-    def test_a_copy_keeps_the_room_of_its_source(self):
+    def test_a_copy_keeps_the_capacity_of_its_source(self):
         y, h, a = (self.numpy.array(column) for column in zip(*GAP))
         large, small = self.faststrip.Contact(max_points=500), self.faststrip.Contact(max_points=20)
         small.set_gap(y[180:200], h[180:200], a[180:200])

@@ -68,14 +68,14 @@ module faststrip_lab_bench_certificate
                                                     'richardson', 'norm']
 
     !> A contact and what its strips give.
-    type, extends(contact_case_t) :: contact_t
+    type, extends(contact_case_t) :: studied_case_t
         character(len=:), allocatable :: name
         real(wp) :: h_lowest = 0.0_wp
         type(normal_result_t) :: result(n_tried)
         type(certificate_t) :: certificate(n_tried), halves(n_tried)
         logical :: is_smooth(n_tried) = .false. ! did all strips settle, no limitation?
         logical :: is_halved(n_tried) = .false. ! and is there a solution with half of them?
-    end type contact_t
+    end type studied_case_t
 
     !> What the study has gathered.
     type :: study_t
@@ -133,7 +133,7 @@ contains
         type(study_t), intent(inout) :: study
 
         real(wp), parameter :: a = 1.0e-3_wp, loads(2) = [1.0e2_wp, 1.0e5_wp]
-        type(contact_t) :: contact
+        type(studied_case_t) :: contact
         type(gap_t) :: gap
         type(hertz_t) :: hertz
         type(status_t) :: status
@@ -190,7 +190,7 @@ contains
         character(len=:), allocatable :: folder
         type(csv_table_t) :: table
         type(norm_workspace_t) :: norm
-        type(contact_t) :: contact
+        type(studied_case_t) :: contact
         type(truth_t) :: truth
         logical :: is_found
         type(status_t) :: status
@@ -222,7 +222,7 @@ contains
     end subroutine try_gaps
 
     !> A contact of which all but name and load is as it is without being told.
-    type(contact_t) function named(name, load) result(contact)
+    type(studied_case_t) function named(name, load) result(contact)
         character(len=*), intent(in) :: name
         real(wp), intent(in) :: load
 
@@ -243,7 +243,7 @@ contains
 
         type(fuzz_case_t) :: random
         type(norm_workspace_t) :: norm
-        type(contact_t) :: contact
+        type(studied_case_t) :: contact
         type(truth_t) :: truth
         logical :: is_found
         integer :: found(size(random_families)), number, f
@@ -271,7 +271,7 @@ contains
     !> Solve one contact with all numbers of strips, and with half of them.
     subroutine solve_contact(study, contact)
         type(study_t), intent(inout) :: study
-        type(contact_t), intent(inout) :: contact
+        type(studied_case_t), intent(inout) :: contact
 
         type(normal_result_t) :: coarse
         type(status_t) :: status
@@ -303,7 +303,7 @@ contains
     subroutine find(study, norm, contact, truth, is_found)
         type(study_t), intent(inout) :: study
         type(norm_workspace_t), intent(inout) :: norm
-        type(contact_t), intent(in) :: contact
+        type(studied_case_t), intent(in) :: contact
         type(truth_t), intent(out) :: truth
         logical, intent(out) :: is_found
 
@@ -346,7 +346,7 @@ contains
     !> Enter what the estimates of a contact are worth.
     subroutine enter(study, contact, family, truth)
         type(study_t), intent(inout) :: study
-        type(contact_t), intent(in) :: contact
+        type(studied_case_t), intent(in) :: contact
         integer, intent(in) :: family
         type(truth_t), intent(in) :: truth
 

@@ -4,7 +4,7 @@ module faststrip_lab_bench_extremes
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
     use faststrip_lab_bench_extremes_influence, only: references_t, read_references, &
                                                       influence_extremes
-    use faststrip_lab_bench_extremes_noise, only: contact_t, find_contacts, noise_extremes, &
+    use faststrip_lab_bench_extremes_noise, only: named_case_t, find_contacts, noise_extremes, &
                                                   rounding_extremes
     use faststrip_lab_bench_extremes_normal, only: normal_extremes
     use faststrip_lab_bench_extremes_rows, only: put_row_header
@@ -31,7 +31,7 @@ contains
         character(len=*), intent(in) :: examples   !! folder of the examples
 
         type(references_t) :: influence_numbers(2)
-        type(contact_t), allocatable :: all_contacts(:)
+        type(named_case_t), allocatable :: all_contacts(:)
         type(csv_writer_t) :: writer
         type(status_t) :: status
 

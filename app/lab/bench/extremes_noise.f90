@@ -39,7 +39,7 @@ module faststrip_lab_bench_extremes_noise
     implicit none
     private
 
-    public :: contact_t, find_contacts, noise_extremes, rounding_extremes
+    public :: named_case_t, find_contacts, noise_extremes, rounding_extremes
 
     ! The noise: the first stands for one unit in the last place.
     real(wp), parameter :: levels(5) = [epsilon(1.0_wp), 1.0e-13_wp, 1.0e-11_wp, 1.0e-9_wp, &
@@ -56,16 +56,16 @@ module faststrip_lab_bench_extremes_noise
                                                       'area', 'Fx', 'Fy', 'Mz']
 
     !> A contact to be solved again and again.
-    type, extends(contact_case_t) :: contact_t
+    type, extends(contact_case_t) :: named_case_t
         character(len=24) :: name = ''
-    end type contact_t
+    end type named_case_t
 
 contains
 
     !> Measure and write.
     subroutine noise_extremes(quick, contacts, writer)
         logical, intent(in) :: quick                !! few contacts, few draws
-        type(contact_t), intent(in) :: contacts(:)  !! from `find_contacts`
+        type(named_case_t), intent(in) :: contacts(:)  !! from `find_contacts`
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
         type(solver_t) :: solver
@@ -84,7 +84,7 @@ contains
     !> Measure and write what the rounding mode changes.
     subroutine rounding_extremes(quick, contacts, writer)
         logical, intent(in) :: quick                !! few contacts
-        type(contact_t), intent(in) :: contacts(:)  !! from `find_contacts`
+        type(named_case_t), intent(in) :: contacts(:)  !! from `find_contacts`
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
         type(solver_t) :: solver
@@ -104,7 +104,7 @@ contains
     subroutine find_contacts(folder, examples, contacts)
         character(len=*), intent(in) :: folder !! of the paper's contacts
         character(len=*), intent(in) :: examples !! folder of the examples
-        type(contact_t), allocatable, intent(out) :: contacts(:) !! all of them
+        type(named_case_t), allocatable, intent(out) :: contacts(:) !! all of them
 
         type(bench_case_t), allocatable :: cases(:)
         type(case_t) :: case
@@ -132,7 +132,7 @@ contains
     !> is an error.
     subroutine figures_of(solver, contact, figures, units, status)
         type(solver_t), intent(inout) :: solver
-        type(contact_t), intent(in) :: contact
+        type(named_case_t), intent(in) :: contact
         real(wp), dimension(size(figure_names)), intent(out) :: figures, units
         type(status_t), intent(out) :: status
 
@@ -153,11 +153,11 @@ contains
     !> The largest change of each figure by noise of each level.
     subroutine disturb(solver, contact, quick, writer)
         type(solver_t), intent(inout) :: solver
-        type(contact_t), intent(in) :: contact
+        type(named_case_t), intent(in) :: contact
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(contact_t) :: noisy
+        type(named_case_t) :: noisy
         type(status_t) :: base_status, status
         type(row_t) :: row
         real(wp), dimension(size(figure_names)) :: base, unit, figures, units, change
@@ -202,11 +202,11 @@ contains
     !> the largest of them is the size of a jump.
     subroutine step_load(solver, contact, quick, writer)
         type(solver_t), intent(inout) :: solver
-        type(contact_t), intent(in) :: contact
+        type(named_case_t), intent(in) :: contact
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(contact_t) :: loaded
+        type(named_case_t) :: loaded
         type(status_t) :: status, worst
         type(row_t) :: row
         real(wp), dimension(size(figure_names)) :: jump
@@ -306,7 +306,7 @@ contains
     subroutine round_contact(solver, whole, contact, writer)
         type(solver_t), intent(inout) :: solver
         logical, intent(in) :: whole
-        type(contact_t), intent(in) :: contact
+        type(named_case_t), intent(in) :: contact
         type(csv_writer_t), intent(inout) :: writer
 
         type(ieee_round_type) :: modes(4), before
@@ -343,7 +343,7 @@ contains
 
     !> The same figures without the part of the library that looks after its host.
     subroutine solve_directly(contact, figures, status)
-        type(contact_t), intent(in) :: contact
+        type(named_case_t), intent(in) :: contact
         real(wp), intent(out) :: figures(size(figure_names))
         type(status_t), intent(out) :: status
 

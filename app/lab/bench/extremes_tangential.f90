@@ -105,7 +105,7 @@ contains
 
         unit = load
         if (row%y > 0.0_wp) unit = row%y*load
-        contact = solver%contact
+        contact = solver%case
         contact%mu = row%y
         contact%creepage = creepage_of(motion, row%x)
         call solve_contact_tangential(solver%workspace, contact, here, status)

@@ -26,7 +26,7 @@ module faststrip_lab_bench_forces
     use faststrip_contact_methods, only: normal_hertz, method_name_length
     use faststrip_contact_solve, only: workspace_t, solve_contact_normal, solve_contact_tangential
     use faststrip_command_force_laws, only: tangential_methods => force_laws
-    use faststrip_command_normal_stage, only: make_room
+    use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
@@ -177,7 +177,7 @@ contains
             call fail_on_error(status)
             contact%load = v(i, 1)
             contact%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
-            call make_room(workspace, contact, status)
+            call reserve_for_case(workspace, contact, status)
             call fail_on_error(status)
             call solve_contact_normal(workspace, contact, figures, status)
             if (is_error(status)) call fail_on_error(status)
@@ -212,7 +212,7 @@ contains
             call make_reference_scene(nint(v(i, 1)), scene)
             scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
             scene%estimate = .false.
-            call make_room(workspace, scene, status)
+            call reserve_for_case(workspace, scene, status)
             call fail_on_error(status)
             call solve_contact_normal(workspace, scene%contact_case_t, figures, status)
             if (is_error(status)) call fail_on_error(status)

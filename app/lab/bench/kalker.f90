@@ -41,11 +41,11 @@ module faststrip_lab_bench_kalker
     real(wp), parameter :: tolerance = 1.0e-6_wp
 
     !> CONTACT's coefficients, extrapolated in its grids.
-    type :: contact_t
+    type :: contact_tables_t
         type(csv_table_t) :: table
         real(wp), allocatable :: ratio(:), nu(:), value(:)
         integer :: name_column = 0
-    end type contact_t
+    end type contact_tables_t
 
 contains
 
@@ -56,7 +56,7 @@ contains
         logical, intent(in) :: quick           !! few aspect ratios
 
         type(csv_writer_t) :: writer
-        type(contact_t) :: contact
+        type(contact_tables_t) :: contact
         type(tang_workspace_t) :: tang
         type(status_t) :: status
         real(wp), allocatable :: chosen(:)
@@ -96,7 +96,7 @@ contains
 
     subroutine read_contact(file, contact)
         character(len=*), intent(in) :: file
-        type(contact_t), intent(out) :: contact
+        type(contact_tables_t), intent(out) :: contact
 
         type(status_t) :: status
 
@@ -199,7 +199,7 @@ contains
     subroutine put_coefficients(writer, contact, ratio, nu, value, scatter, elements, seconds, &
                                 worst)
         type(csv_writer_t), intent(inout) :: writer
-        type(contact_t), intent(in) :: contact
+        type(contact_tables_t), intent(in) :: contact
         real(wp), intent(in) :: ratio, nu, value(:), scatter(:), seconds
         integer, intent(in) :: elements
         real(wp), intent(inout) :: worst(:) !! deviations from the table, %
@@ -240,7 +240,7 @@ contains
 
     !> CONTACT's value; zero if it was not computed.
     pure real(wp) function by_contact(contact, name, ratio, nu) result(value)
-        type(contact_t), intent(in) :: contact
+        type(contact_tables_t), intent(in) :: contact
         character(len=*), intent(in) :: name
         real(wp), intent(in) :: ratio, nu
 

@@ -17,8 +17,9 @@ module faststrip_lab_bench_normal
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           standard_cant
-    use faststrip_geometry_contact, only: wheelset_t, track_t, rigid_contact_t, find_rigid_contact
-    use faststrip_geometry_contact_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                                find_rigid_contact
+    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap
@@ -141,12 +142,12 @@ contains
         real(wp), intent(in) :: shift
         type(gap_t), intent(out) :: gap
 
-        type(rigid_contact_t) :: contact
+        type(rigid_contact_t) :: touching
         type(status_t) :: status
 
-        call find_rigid_contact(wheel, rail, wheelset_t(), track_t(), shift, contact, status)
+        call find_rigid_contact(wheel, rail, wheelset_t(), track_t(), shift, touching, status)
         call fail_on_error(status)
-        call make_gap(wheel, rail, wheelset_t(), contact, standard_gap_step, standard_gap_height, &
+        call make_gap(wheel, rail, wheelset_t(), touching, standard_gap_step, standard_gap_height, &
                       gap, status)
         call fail_on_error(status)
     end subroutine gap_of_shift

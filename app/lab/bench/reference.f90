@@ -202,7 +202,7 @@ contains
             load = bench%cases(i)%load
             if (start == warm_load .and. modulo(run, 2) == 0) load = load_factor*load
             options%warm_start = start == warm_load .and. run > -1
-            if (start == new_plans .or. run == -1) call make_room(bench, i, workspace)
+            if (start == new_plans .or. run == -1) call reserve_workspace_of(bench, i, workspace)
             from = cpu_microseconds()
             call norm_solve(workspace, normal_compliance(bench%material), load, options, result, &
                             status, bench%strips)
@@ -228,7 +228,7 @@ contains
     end subroutine measure_start
 
     !> A workspace without plans, with the gap of a contact.
-    subroutine make_room(bench, i, workspace)
+    subroutine reserve_workspace_of(bench, i, workspace)
         type(bench_t), intent(in) :: bench
         integer, intent(in) :: i
         type(norm_workspace_t), intent(out) :: workspace
@@ -239,7 +239,7 @@ contains
         call fail_on_error(status)
         call set_norm_gap(workspace, bench%cases(i)%gap, status)
         call fail_on_error(status)
-    end subroutine make_room
+    end subroutine reserve_workspace_of
 
     !> The strips to start from.
     subroutine solve_strips(bench, i)

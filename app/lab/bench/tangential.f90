@@ -19,7 +19,7 @@ module faststrip_lab_bench_tangential
     use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
                                        solve_contact_tangential
     use faststrip_command_force_laws, only: tangential_methods => force_laws
-    use faststrip_command_normal_stage, only: make_room
+    use faststrip_command_normal_stage, only: reserve_for_case
     implicit none
     private
 
@@ -96,7 +96,7 @@ contains
         contact%estimate = .false.
         contact%methods%strips_per_patch = n
         contact%methods%points_per_strip = n
-        call make_room(workspace, contact, status)
+        call reserve_for_case(workspace, contact, status)
         call fail_on_error(status)
         call solve_contact_normal(workspace, contact, figures, status)
         call fail_on_error(status)

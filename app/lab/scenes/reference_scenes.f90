@@ -15,7 +15,7 @@ module faststrip_lab_scenes_reference_scenes
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
     use faststrip_command_console, only: fail_on_error, note, put_origin
     use faststrip_contact_solve, only: workspace_t, solve_contact_normal
-    use faststrip_command_normal_stage, only: make_room
+    use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
@@ -85,7 +85,7 @@ contains
 
         call make_reference_scene(number, scene)
         scene%estimate = .false.
-        call make_room(workspace, scene, status)
+        call reserve_for_case(workspace, scene, status)
         if (.not. is_error(status)) &
             call solve_contact_normal(workspace, scene%contact_case_t, strips, status)
         if (.not. is_error(status)) call draw_creepage(scene, workspace%strips, status)

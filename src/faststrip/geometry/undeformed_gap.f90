@@ -1,9 +1,9 @@
 !> The undeformed gap about a rigid contact.
-module faststrip_geometry_contact_gap
+module faststrip_geometry_undeformed_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_profile, only: profile_t, profile_at
-    use faststrip_geometry_contact, only: rigid_contact_t, wheelset_t
+    use faststrip_geometry_rigid_contact, only: rigid_contact_t, wheelset_t
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
@@ -233,4 +233,4 @@ contains
             residual = y_turned - (y - y_contact)*cos(gamma) - (there%z - z_contact)*sin(gamma)
         end subroutine turned_at
     end subroutine go_to
-end module faststrip_geometry_contact_gap
+end module faststrip_geometry_undeformed_gap

@@ -4,7 +4,7 @@
 !> Lateral coordinates of the track are those of the right rail: measured from the track centre,
 !> to the field side. The left wheel is the right one mirrored: its contact is that of a right
 !> wheel shifted the other way.
-module faststrip_geometry_contact
+module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
@@ -15,7 +15,7 @@ module faststrip_geometry_contact
     private
 
     public :: wheelset_t, track_t, rigid_contact_t
-    public :: find_rigid_contact, find_wheelset_contacts, contact_force, shift_creepage
+    public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
     public :: creepage_set_a, creepage_set_b
 
     !> The wheelset; both wheels carry the same profile.
@@ -351,8 +351,8 @@ contains
 
     !> The rigid contacts of both wheels. The left one is given in the mirrored frame, as if it
     !> were a right wheel.
-    pure subroutine find_wheelset_contacts(wheel, rail, wheelset, track, shift, right, left, &
-                                           status)
+    pure subroutine find_rigid_contacts(wheel, rail, wheelset, track, shift, right, left, &
+                                        status)
         type(profile_t), intent(in) :: wheel        !! profile of both wheels
         type(profile_t), intent(in) :: rail         !! profile of both rails, canted
         type(wheelset_t), intent(in) :: wheelset    !! mm
@@ -365,7 +365,7 @@ contains
         call find_rigid_contact(wheel, rail, wheelset, track, shift, right, status)
         if (is_error(status)) return
         call find_rigid_contact(wheel, rail, wheelset, track, -shift, left, status)
-    end subroutine find_wheelset_contacts
+    end subroutine find_rigid_contacts
 
     !> Normal force of a contact under a vertical load, `Fn = Q/cos(gamma)`, N.
     elemental real(wp) function contact_force(load, gamma)
@@ -390,4 +390,4 @@ contains
         creepage%ceta = 0.0_wp
         creepage%cphi = -sin(right%gamma)/wheelset%radius
     end function shift_creepage
-end module faststrip_geometry_contact
+end module faststrip_geometry_rigid_contact
