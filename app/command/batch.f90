@@ -140,7 +140,7 @@ contains
 
         do i = 1, table%n_columns
             if (any(result_columns == table%names(i)%text)) &
-                call fail(exit_bad_input, 'column name is that of a result: ' &
+                call fail(exit_bad_input, 'a column must not have the name of a result, got ' &
                           // table%names(i)%text // ' (' // table%file // ')')
         end do
     end subroutine refuse_result_columns
@@ -161,8 +161,9 @@ contains
             call cell_number(table, row, penetration, case%penetration, status)
             if (is_error(status)) return
             if (len(cell_text(table, row, column(load_column))) > 0) then
-                call set_status(status, st_bad_argument, 'N_N is given, and ' &
-                                // penetration_column // ' as well')
+                call set_status(status, st_bad_argument, 'N_N must be empty with ' &
+                                // penetration_column // ', got ' &
+                                // cell_text(table, row, column(load_column)))
                 return
             end if
         end if

@@ -128,7 +128,7 @@ contains
         else
             call need_finite(content, group, 'penetration_mm', penetration_mm)
             if (sets(content, group, 'load_N')) &
-                call refuse(content, group, 'penetration_mm', 'is given, and load_N as well', &
+                call refuse(content, group, 'penetration_mm', 'must not be given with load_N', &
                             number_text(penetration_mm))
         end if
         case%penetration = penetration_mm
@@ -141,10 +141,10 @@ contains
                         load_direction)
         if (case%load_is_vertical .and. .not. case%by_load) &
             call refuse(content, group, 'load_direction', &
-                        'has no meaning for a given penetration', load_direction)
+                        'must be normal with penetration_mm', load_direction)
         if (case%load_is_vertical .and. len(case%gap_file) > 0) &
             call refuse(content, group, 'load_direction', &
-                        'needs profiles; a gap file has no contact angle', load_direction)
+                        'must be normal with a gap file', load_direction)
     end subroutine read_contact_group
 
     subroutine read_material_group(content, case)
@@ -212,10 +212,10 @@ contains
         if (creepage /= 'formula' .and. creepage /= 'given') &
             call refuse(content, group, 'creepage', 'must be formula or given', creepage)
         if (case%creepage_by_formula .and. .not. from_profiles) &
-            call refuse(content, group, 'creepage', 'by formula needs profiles', creepage)
+            call refuse(content, group, 'creepage', 'must be given with a gap file', creepage)
         if (case%creepage_by_formula .and. any([cksi, ceta, cphi_rad_per_mm] /= 0.0_wp)) &
             call refuse(content, group, 'creepage', &
-                        'is by formula, and creepages are given as well', creepage)
+                        'must be given where creepages are given', creepage)
         if (lower_case(sign_set) /= 'a' .and. lower_case(sign_set) /= 'b') &
             call refuse(content, group, 'sign_set', 'must be A or B', sign_set)
         case%creepage_signs = merge(creepage_set_a, creepage_set_b, lower_case(sign_set) == 'a')
@@ -327,15 +327,15 @@ contains
         if (size(case%shift_loads) > 0) then
             call need_as_many(content, group, 'load_N', size(case%shift_loads), n)
             if (case%load_is_vertical) call refuse(content, group, 'load_N', &
-                'is a list of normal forces, and load_direction is vertical', '')
+                'must not be listed with load_direction vertical', '')
             if (.not. case%by_load) call refuse(content, group, 'load_N', &
-                'is given, and &contact penetration_mm as well', '')
+                'must not be listed with &contact penetration_mm', '')
             if (any(case%shift_loads <= 0.0_wp)) call refuse(content, group, 'load_N', &
                 'must be above 0', number_text(minval(case%shift_loads)))
         end if
         if (max(size(case%shift_cksi), size(case%shift_ceta), size(case%shift_cphi)) == 0) return
         if (case%creepage_by_formula) call refuse(content, group, 'cksi', &
-            'and its like are given, and &motion creepage is formula', '')
+            'must not be listed with &motion creepage formula', '')
         call need_as_many(content, group, 'cksi', size(case%shift_cksi), n)
         call need_as_many(content, group, 'ceta', size(case%shift_ceta), n)
         call need_as_many(content, group, 'cphi_rad_per_mm', size(case%shift_cphi), n)

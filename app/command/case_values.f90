@@ -29,7 +29,7 @@ contains
         real(wp), intent(in) :: value                !! what the group gave it
 
         if (.not. ieee_is_finite(value)) &
-            call refuse(content, group, name, 'is missing or not a finite number', &
+            call refuse(content, group, name, 'must be given, a finite number', &
                         number_text(value))
     end subroutine need_finite
 
@@ -70,10 +70,10 @@ contains
 
         n = count(list /= not_given)
         do i = 1, n
-            if (list(i) == not_given) call refuse(content, group, name, 'has no number at place', &
-                                                  integer_text(i))
+            if (list(i) == not_given) call refuse(content, group, name, 'must have a number at ' &
+                // 'position ' // integer_text(i), 'none')
             if (.not. ieee_is_finite(list(i))) &
-                call refuse(content, group, name, 'is not a finite number at place ' &
+                call refuse(content, group, name, 'must be a finite number at position ' &
                             // integer_text(i), number_text(list(i)))
         end do
         values = list(:n)
@@ -87,7 +87,7 @@ contains
         integer, intent(in) :: given, wanted         !! how many
 
         if (given /= wanted) &
-            call refuse(content, group, name, 'needs as many numbers as there are shifts, ' &
+            call refuse(content, group, name, 'must have as many numbers as shifts, ' &
                         // integer_text(wanted), integer_text(given))
     end subroutine need_as_many
 end module faststrip_command_case_values

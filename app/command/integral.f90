@@ -55,7 +55,7 @@ contains
                              [character(len=10) :: 'closed', 'quadrature', 'table'])
         if (given(command, '--input')) then
             if (given(command, '--n') .or. given(command, '--b') .or. given(command, '--x')) &
-                call usage_error('--input goes without --n, --b and --x', command%name)
+                call usage_error('--input must not be given with --n, --b and --x', command%name)
             call read_csv(option_text(command, '--input', ''), table, status)
             call fail_on_error(status)
             call take_table(table, n, b, x)
@@ -126,7 +126,7 @@ contains
                 if (x == 0.0_wp) then
                     value = strip_influence(n, b)
                 else if (max(b, abs(x)) > largest) then
-                    call set_status(status, st_out_of_range, 'b or X is beyond 1e100: ' &
+                    call set_status(status, st_out_of_range, 'b and X must be at most 1e100, got ' &
                                     // trim(number_text(b)) // ', ' // number_text(x))
                 else
                     value = strip_influence_at(x, (2.0_wp*n - 1.0_wp)*b, (2.0_wp*n + 1.0_wp)*b)
@@ -135,8 +135,8 @@ contains
                 call quadrature_influence(n, b, x, value, abs_error, status)
             case ('table')
                 if (x /= 0.0_wp) then
-                    call set_status(status, st_out_of_range, 'the table holds the centre line ' &
-                                    // 'only, X = 0; X is ' // number_text(x))
+                    call set_status(status, st_out_of_range, 'X must be 0 for the table of ' &
+                                    // 'the centre line, got ' // number_text(x))
                 else
                     call table_influence(n, b, value, status)
                 end if

@@ -67,9 +67,9 @@ contains
             end if
             n = n + 1
             if (n == 1 .and. index(text, byte_order_mark) == 1) text = text(4:)
-            if (n > most_case_lines) call refuse_line(content, n, 'a case file has at most ' &
+            if (n > most_case_lines) call refuse_line(content, n, 'a case file must have at most ' &
                 // integer_text(most_case_lines) // ' lines', '')
-            if (len(text) > line_length) call refuse_line(content, n, 'a line has at most ' &
+            if (len(text) > line_length) call refuse_line(content, n, 'a line must have at most ' &
                 // integer_text(line_length) // ' characters', '')
             content%line(n) = without_comment(text)
         end do
@@ -92,27 +92,28 @@ contains
             text = trim_blanks(content%line(i))
             if (len(text) == 0) cycle
             if (text(1:1) == '&') then
-                if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
+                if (open_at > 0) call refuse_line(content, open_at, 'a group must be closed by /', &
                                                   trim_blanks(content%line(open_at)))
                 name = lower_case(first_word(text(2:)))
                 do j = 1, size(known)
                     if (known(j) == name) exit
                 end do
-                if (j > size(known)) call refuse_line(content, i, 'unknown group', '&' // name)
-                if (seen(j) > 0) call refuse_line(content, i, 'group stands twice', '&' // name)
+                if (j > size(known)) call refuse_line(content, i, 'unknown group: &' // name, '')
+                if (seen(j) > 0) call refuse_line(content, i, &
+                    'a group must stand once', '&' // name)
                 seen(j) = i
                 open_at = i
             else if (open_at == 0) then
-                call refuse_line(content, i, 'text outside any group', text)
+                call refuse_line(content, i, 'text must stand in a group', text)
             end if
             if (first_outside_quotes(text, ';') > 0) &
                 call refuse_line(content, i, 'must not hold a semicolon', text)
             slash = slash_at(text)
             if (slash > 0 .and. slash < len(text)) &
-                call refuse_line(content, i, 'text after the slash that closes the group', text)
+                call refuse_line(content, i, 'a line must end at its slash', text)
             if (slash > 0) open_at = 0
         end do
-        if (open_at > 0) call refuse_line(content, open_at, 'group is not closed by /', &
+        if (open_at > 0) call refuse_line(content, open_at, 'a group must be closed by /', &
                                           trim_blanks(content%line(open_at)))
     end subroutine check_groups
 
@@ -205,7 +206,7 @@ contains
         character(len=:), allocatable :: text
 
         text = what
-        if (len_trim(value) > 0) text = text // ': ' // trim(value)
+        if (len_trim(value) > 0) text = text // ', got ' // trim(value)
         call fail(exit_bad_input, text // ' (' // content%file // ':' &
                   // integer_text(number) // ')')
     end subroutine refuse_line

@@ -66,11 +66,11 @@ contains
                 name = trim_blanks(line(name_at:to - 1))
                 from = to + 1
                 if (place(names, name) == 0) call refuse_line(content, i, '&' // group%name &
-                    // ' unknown name', lower_case(name))
+                    // ' unknown name: ' // lower_case(name), '')
             end do
         end do
-        call refuse_line(content, last, '&' // group%name // ' ' // trim(reading%words), &
-                         adjustl(content%line(last)))
+        call refuse_line(content, last, '&' // group%name // ' ' // trim(reading%words) &
+                         // ': ' // trim_blanks(content%line(last)), '')
     end subroutine refuse_values
 
     !> The next `name =` of a line: where the name starts, and where the equals sign is; both

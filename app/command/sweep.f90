@@ -57,7 +57,7 @@ contains
             call fail(exit_bad_input, 'missing group: &sweep with shifts_mm (' &
                       // command%arguments(1)%text // ')')
         if (len(case%gap_file) > 0) &
-            call fail(exit_bad_input, 'a sweep needs profiles, not a gap file: ' &
+            call fail(exit_bad_input, 'a sweep must have profiles, got the gap file ' &
                       // case%gap_file // ' (' // command%arguments(1)%text // ')')
         n_solvers = size(pairs, 2)
         if (given(command, '--normal') .or. given(command, '--tangential')) then

@@ -93,7 +93,8 @@ contains
 
         do i = 1, size(foreign)
             if (given(command, trim(foreign(i)))) &
-                call usage_error('--audit goes without ' // trim(foreign(i)), command%name)
+                call usage_error('--audit must not be given with ' // trim(foreign(i)), &
+                                 command%name)
         end do
         fit = 0
         if (given(command, '--fit')) fit = take_fit(command)
@@ -109,7 +110,8 @@ contains
         integer, allocatable :: n(:)
 
         if (given(command, '-o') .or. given(command, '--format')) &
-            call usage_error('--curves and --degrees go without -o and --format', command%name)
+            call usage_error('--curves and --degrees must not be given with -o and --format', &
+                             command%name)
         if (given(command, '--curves')) then
             call take_distances(command, '0:20', n)
             call write_curves(option_text(command, '--curves', '-'), n)

@@ -113,8 +113,8 @@ contains
         call cell_integer(table, i, column_index(table, 'index'), index, status)
         if (is_error(status)) return
         if (modulo(index, 2) /= 0) then
-            call set_place_status(status, st_file_format, 'the index is twice the strip ' // &
-                                  'distance, and even', integer_text(index), table%file, &
+            call set_place_status(status, st_file_format, 'the index must be even, twice the ' // &
+                                  'strip distance', integer_text(index), table%file, &
                                   table%line(i))
             return
         end if
@@ -123,7 +123,8 @@ contains
             row%degree = row%degree + 1
         end do
         if (row%degree > most_degree) then
-            call set_place_status(status, st_file_format, 'too high a degree', &
+            call set_place_status(status, st_file_format, 'the degree must be at most ' // &
+                                  integer_text(most_degree), &
                                   integer_text(row%degree), table%file, table%line(i))
             return
         end if
@@ -157,7 +158,7 @@ contains
         call take_integer(table, i, 'degree', row%degree, status)
         if (is_error(status)) return
         if (row%degree < 0 .or. row%degree > most_degree) then
-            call set_place_status(status, st_file_format, 'the degree is not from 0 to ' // &
+            call set_place_status(status, st_file_format, 'the degree must be 0 to ' // &
                                   integer_text(most_degree), integer_text(row%degree), &
                                   table%file, table%line(i))
             return
@@ -223,8 +224,8 @@ contains
         word = cell_text(table, i, column)
         if (word == first) which = 1
         if (word == second) which = 2
-        if (which == 0) call set_place_status(status, st_file_format, 'neither ' // first // &
-            ' nor ' // second // ' in column ' // name, "'" // word // "'", table%file, &
+        if (which == 0) call set_place_status(status, st_file_format, 'column ' // name // &
+            ' must be ' // first // ' or ' // second, "'" // word // "'", table%file, &
             table%line(i))
     end subroutine take_word
 

@@ -96,7 +96,8 @@ contains
         end do
         table%comments = table%comments(:n_comments)
         if (.not. has_header) then
-            call set_place_status(status, st_file_format, 'no row of column names', '', &
+            call set_place_status(status, st_file_format, &
+                                  'column names must be given, got none', '', &
                                   table%file, 0)
             return
         end if
@@ -129,7 +130,7 @@ contains
         do i = 2, size(cells)
             do j = 1, i - 1
                 if (cells(i)%text == cells(j)%text) then
-                    call set_place_status(status, st_file_format, 'column name used twice', &
+                    call set_place_status(status, st_file_format, 'column names must differ', &
                                           "'" // cells(i)%text // "'", table%file, number)
                     return
                 end if
@@ -156,7 +157,7 @@ contains
         end if
         n = table%n_rows
         if (real(n + 1, wp)*table%n_columns > most_cells) then
-            call set_place_status(status, st_file_format, 'a table of more than ' &
+            call set_place_status(status, st_file_format, 'a table must have at most ' &
                                   // integer_text(most_cells) // ' cells', '', table%file, number)
             return
         end if
@@ -186,14 +187,13 @@ contains
         type(status_t), intent(inout) :: status
         character(len=:), allocatable :: what, value
 
-        what = 'row of ' // integer_text(size(cells)) // ' cells under ' &
-               // integer_text(table%n_columns) // ' column names'
+        what = 'a row must have ' // integer_text(table%n_columns) // ' cells as the column names'
+        value = integer_text(size(cells))
         if (size(cells) < table%n_columns) then
-            what = what // ', none for the column'
-            value = table%names(size(cells) + 1)%text
+            value = value // ', none for the column ' // table%names(size(cells) + 1)%text
         else
-            what = what // ', one beyond the column ' // table%names(table%n_columns)%text
-            value = "'" // cells(table%n_columns + 1)%text // "'"
+            value = value // ', beyond the column ' // table%names(table%n_columns)%text &
+                    // " '" // cells(table%n_columns + 1)%text // "'"
         end if
         call set_place_status(status, st_file_format, what, value, table%file, number)
     end subroutine refuse_width
@@ -215,8 +215,9 @@ contains
                 n = n + 1
                 call take_cell(line, start, text, next, valid)
                 if (.not. valid) then
-                    call set_place_status(status, st_file_format, 'misplaced quote in cell ' // &
-                                          integer_text(n), trim_blanks(line(start:)), file, number)
+                    call set_place_status(status, st_file_format, 'quotes must enclose all of ' &
+                                          // 'cell ' // integer_text(n), &
+                                          trim_blanks(line(start:)), file, number)
                     return
                 end if
                 if (pass == 2) call move_alloc(text, cells(n)%text)
@@ -291,7 +292,8 @@ contains
         call clear_status(status)
         column = column_index(table, name)
         if (column == 0) then
-            call set_place_status(status, st_file_format, 'no such column', name, table%file, 0)
+            call set_place_status(status, st_file_format, &
+                                  'missing column: ' // name, '', table%file, 0)
         end if
     end subroutine require_column
 
@@ -323,7 +325,8 @@ contains
         if (status%code /= 0) return
         call parse_real(table%cells(column, row)%text, value, valid)
         if (.not. valid) then
-            call set_place_status(status, st_file_format, 'not a finite number in column ' // &
+            call set_place_status(status, st_file_format, &
+                                  'a finite number must stand in column ' // &
                                   table%names(column)%text, &
                                   "'" // table%cells(column, row)%text // "'", &
                                   table%file, table%line(row))
@@ -344,7 +347,8 @@ contains
         if (status%code /= 0) return
         call parse_integer(table%cells(column, row)%text, value, valid)
         if (.not. valid) then
-            call set_place_status(status, st_file_format, 'not a whole number in column ' // &
+            call set_place_status(status, st_file_format, &
+                                  'a whole number must stand in column ' // &
                                   table%names(column)%text, &
                                   "'" // table%cells(column, row)%text // "'", &
                                   table%file, table%line(row))

@@ -45,13 +45,13 @@ contains
             if (row == 1) cycle
             if (y(row) <= y(max(row - 1, 1))) then
                 call set_place_status(status, st_not_increasing, &
-                                      'y_mm is not above the row before', &
+                                      'y_mm must be above that of the row before', &
                                       cell_text(table, row, y_column), path, table%line(row))
                 return
             end if
         end do
         if (table%n_rows < min_gap_points) then
-            call set_place_status(status, st_too_few_points, 'a gap of fewer than ' // &
+            call set_place_status(status, st_too_few_points, 'a gap must have at least ' // &
                                   integer_text(min_gap_points) // ' points', &
                                   integer_text(table%n_rows), path, 0)
             return

@@ -90,7 +90,7 @@ contains
                 if (.not. found) file%line = file%line + 1
                 found = .true.
                 line = line // chunk(:length)
-                if (len(line) > longest_line) call refuse('a line of more than ' &
+                if (len(line) > longest_line) call refuse('a line must have at most ' &
                     // integer_text(longest_line) // ' characters')
                 if (code == 0 .and. status%code == 0) cycle
             else if (code /= iostat_end) then
@@ -101,9 +101,9 @@ contains
         end do
         file%bytes = file%bytes + len(line) + 1
         if (file%line > most_lines) then
-            call refuse('a file of more than ' // integer_text(most_lines) // ' lines')
+            call refuse('a file must have at most ' // integer_text(most_lines) // ' lines')
         else if (file%bytes > most_bytes) then
-            call refuse('a file of more than ' // integer_text(most_bytes/1048576) // ' MB')
+            call refuse('a file must have at most ' // integer_text(most_bytes/1048576) // ' MB')
         end if
         length = len(line)
         if (length > 0) then

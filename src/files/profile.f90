@@ -73,7 +73,7 @@ contains
         allocate (y(0), z(0))
         call clear_status(status)
         if (abs(y_sense) /= 1 .or. abs(z_sense) /= 1) then
-            call set_status(status, st_bad_argument, 'a sense of y or z is not +1 or -1: ' // &
+            call set_status(status, st_bad_argument, 'senses of y and z must be +1 or -1, got ' // &
                             integer_text(y_sense) // ', ' // integer_text(z_sense))
             return
         end if
@@ -126,7 +126,7 @@ contains
         if (is_error(status)) return
         if (header%kind /= kind) then
             call set_place_status(status, st_file_format, &
-                                  'the header type is not that of a ' // &
+                                  'the header type must be that of a ' // &
                                   trim(merge('wheel', 'rail ', kind == simpack_wheel)), &
                                   integer_text(header%kind), path, 0)
             return
@@ -181,7 +181,7 @@ contains
                 cycle
             case ('point.begin')
                 if (has_points) call set_place_status(status, st_file_format, &
-                                                      'a second list of points', line, path, &
+                                                      'points must stand in one list', line, path, &
                                                       file%line)
                 in_points = .true.
                 has_points = .true.
@@ -209,14 +209,15 @@ contains
         integer, intent(in) :: number
         type(simpack_t), intent(inout) :: header
         type(status_t), intent(inout) :: status
-        character(len=:), allocatable :: key, text
+        character(len=:), allocatable :: key, text, range
         real(wp) :: value
         integer :: equals
         logical :: valid
 
         equals = index(line, '=')
         if (equals == 0) then
-            call set_place_status(status, st_file_format, 'not a line "key = value"', line, path, &
+            call set_place_status(status, st_file_format, &
+                                  'a line must be "key = value"', line, path, &
                                   number)
             return
         end if
@@ -224,8 +225,10 @@ contains
         text = trim_blanks(line(equals + 1:))
         call parse_real(text, value, valid)
         valid = valid .and. abs(value) <= largest
+        range = 'a finite number within 1e9'
         select case (key)
         case ('type')
+            range = '0 or 1'
             ! The header's comes first; the second, in the spline part, is the original file's.
             if (header%kind >= 0) return
             valid = valid .and. (value == 0.0_wp .or. value == 1.0_wp)
@@ -243,20 +246,24 @@ contains
         case ('bound.z.max')
             header%z_max = value
         case ('mirror.y')
+            range = '0 or 1'
             valid = valid .and. (value == 0.0_wp .or. value == 1.0_wp)
             header%mirror_y = value == 1.0_wp
         case ('mirror.z')
+            range = '0 or 1'
             valid = valid .and. (value == 0.0_wp .or. value == 1.0_wp)
             header%mirror_z = value == 1.0_wp
         case ('inversion')
+            range = '0 or 1'
             ! The order of the points in memory: here it is by increasing y in any case.
             valid = valid .and. (value == 0.0_wp .or. value == 1.0_wp)
         case ('units.len.f')
+            range = '1e-6 to 1e9'
             valid = valid .and. value >= 1.0e-6_wp
             if (valid) header%length_factor = value
         case ('approx.smooth', 'rotate', 'point.dist.min')
             if (valid .and. abs(value) > 0.0_wp) then
-                call set_place_status(status, st_file_format, 'not supported: ' // key, text, &
+                call set_place_status(status, st_file_format, key // ' must be 0', text, &
                                       path, number)
                 return
             end if
@@ -264,7 +271,7 @@ contains
             return
         end select
         if (.not. valid) then
-            call set_place_status(status, st_file_format, 'no valid value of ' // key, &
+            call set_place_status(status, st_file_format, key // ' must be ' // range, &
                                   "'" // text // "'", path, number)
         end if
     end subroutine take_key
@@ -344,7 +351,8 @@ contains
 
         call split_words(line, first, last, n)
         if (n < 2 .or. n > most_words) then
-            call set_place_status(status, st_file_format, 'a point takes two numbers', line, path, &
+            call set_place_status(status, st_file_format, &
+                                  'a point must be two numbers', line, path, &
                                   number)
             return
         end if
@@ -353,7 +361,7 @@ contains
             call parse_real(line(first(i):last(i)), values(i), valid)
             if (.not. valid .or. abs(values(i)) > largest) then
                 call set_place_status(status, st_file_format, &
-                                      'not a finite number within 1e9', &
+                                      'a coordinate must be a finite number within 1e9', &
                                       "'" // line(first(i):last(i)) // "'", path, number)
                 return
             end if
@@ -382,7 +390,7 @@ contains
         integer :: i
 
         if (points%n < min_profile_points) then
-            call set_place_status(status, st_too_few_points, 'a profile of fewer than ' // &
+            call set_place_status(status, st_too_few_points, 'a profile must have at least ' // &
                                   integer_text(min_profile_points) // ' points', &
                                   integer_text(points%n), path, 0)
             return
@@ -390,7 +398,7 @@ contains
         do i = 2, points%n
             if (direction*(points%y(i) - points%y(i - 1)) <= 0.0_wp) then
                 call set_place_status(status, st_not_increasing, &
-                                      'y is not beyond the point before', &
+                                      'y must be beyond that of the point before', &
                                       trim(number_text(points%y(i))), path, points%line(i))
                 return
             end if

@@ -203,7 +203,7 @@ contains
         call check_input(workspace, compliance, options, status)
         if (is_error(status)) return
         if (.not. ieee_is_finite(penetration)) then
-            call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
+            call set_status(status, st_not_finite, 'the penetration must be a finite number, got ' &
                             //number_text(penetration))
         else if (penetration <= workspace%curve%h_lowest) then
             call set_status(status, st_no_contact, 'the bodies do not touch: penetration ' &

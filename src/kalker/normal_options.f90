@@ -55,14 +55,14 @@ contains
             call set_status(status, st_not_finite, 'a side of the elements or the error target ' &
                             //'is not a finite number')
         else if (min(options%dx, options%dy) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'a side of the elements is not positive: ' &
+            call set_status(status, st_bad_argument, 'sides of the elements must be above 0, got ' &
                             //trim(number_text(options%dx))//' by ' &
                             //trim(number_text(options%dy))//' mm')
         else if (min(options%dx, options%dy) < smallest &
                  .or. max(options%dx, options%dy) > largest) then
-            call set_status(status, st_out_of_range, 'a side of the elements is beyond 1e60')
+            call set_status(status, st_out_of_range, 'elements must be at most 1e60 mm long')
         else if (options%error_target < 0.0_wp) then
-            call set_status(status, st_bad_argument, 'the error target is negative: ' &
+            call set_status(status, st_bad_argument, 'the error target must not be negative, got ' &
                             //number_text(options%error_target))
         end if
     end subroutine check_options
@@ -81,11 +81,12 @@ contains
                             //number_text(compliance))
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, &
-                            'the tolerance is not a finite number: ' &
+                            'the tolerance must be a finite number, got ' &
                             //number_text(options%tolerance))
         else if (options%tolerance <= 0.0_wp .or. options%tolerance >= 1.0_wp) then
             call set_status(status, st_bad_argument, &
-                            'the tolerance is not in (0, 1): '//number_text(options%tolerance))
+                            'the tolerance must be between 0 and 1, got ' &
+                            //number_text(options%tolerance))
         else if (options%max_iterations < 1 .or. options%most_elements < 1) then
             call set_status(status, st_bad_argument, 'no iterations or no elements allowed')
         end if
@@ -99,10 +100,10 @@ contains
         call clear_status(status)
         if (.not. ieee_is_finite(load)) then
             call set_status(status, st_not_finite, &
-                            'the load is not a finite number: '//number_text(load))
+                            'the load must be a finite number, got '//number_text(load))
         else if (load <= 0.0_wp) then
             call set_status(status, st_bad_load, &
-                            'the load is not positive: '//trim(number_text(load))//' N')
+                            'the load must be above 0, got '//trim(number_text(load))//' N')
         else if (load < smallest .or. load > largest) then
             call set_status(status, st_out_of_range, 'the load is beyond all proportion: ' &
                             //trim(number_text(load))//' N')
@@ -135,7 +136,7 @@ contains
             call check_load(demand%load, status)
             if (is_error(status)) return
         else if (.not. ieee_is_finite(demand%penetration)) then
-            call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
+            call set_status(status, st_not_finite, 'the penetration must be a finite number, got ' &
                             //number_text(demand%penetration))
             return
         else if (demand%penetration <= minval(height)) then

@@ -182,10 +182,11 @@ contains
         else if (options%edges /= edges_sampled .and. options%edges /= edges_of_norm) then
             call set_status(status, st_bad_argument, 'no such kind of pressures')
         else if (.not. ieee_is_finite(options%tolerance)) then
-            call set_status(status, st_not_finite, 'the tolerance is not a finite number')
+            call set_status(status, st_not_finite, 'the tolerance must be a finite number, ' &
+                            // 'got ' // number_text(options%tolerance))
         else if (options%tolerance < least_tolerance &
                  .or. options%tolerance > largest_tolerance) then
-            call set_status(status, st_bad_argument, 'a tolerance outside 1e-12 to 0.1: ' // &
+            call set_status(status, st_bad_argument, 'the tolerance must be 1e-12 to 0.1, got ' // &
                             number_text(options%tolerance))
         else if (options%max_steps < 1 .or. options%most_elements < 1) then
             call set_status(status, st_bad_argument, 'no steps or no elements are allowed')
@@ -248,7 +249,7 @@ contains
                 call set_status(status, st_not_finite, 'a pressure is not a finite number')
                 return
             else if (any(grid%pressure(:, j) < 0.0_wp)) then
-                call set_status(status, st_bad_argument, 'a pressure is negative: ' // &
+                call set_status(status, st_bad_argument, 'pressures must not be negative, got ' // &
                                 number_text(minval(grid%pressure(:, j))))
                 return
             end if

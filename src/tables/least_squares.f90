@@ -46,7 +46,8 @@ contains
         m = size(matrix, 1)
         n = size(matrix, 2)
         if (m < n) then
-            call set_status(status, st_too_few_points, 'fewer points than coefficients: ' &
+            call set_status(status, st_too_few_points, &
+                            'points must be as many as coefficients, got ' &
                             // integer_text(m) // ' for ' // integer_text(n))
             return
         end if

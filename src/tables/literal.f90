@@ -38,7 +38,8 @@ contains
         end if
         if (distance < 0 .or. distance > 2*table_last_distance .or. mod(distance, 2) /= 0 &
             .or. b < 0.01_wp .or. b > 10.0_wp) then
-            call set_status(status, st_out_of_range, 'no such column, or b outside 0.01 to 10: ' &
+            call set_status(status, st_out_of_range, &
+                            'b must be 0.01 to 10 in a column of the table, got ' &
                             // trim(number_text(b)))
             return
         end if

@@ -181,19 +181,19 @@ contains
 
         call clear_status(status)
         if (.not. ieee_is_finite(b)) then
-            call set_status(status, st_not_finite, 'b = yd/xd is not a finite number: ' // &
+            call set_status(status, st_not_finite, 'b = yd/xd must be a finite number, got ' // &
                             trim(number_text(b)))
         else if (.not. ieee_is_finite(x)) then
-            call set_status(status, st_not_finite, 'X = x/xd is not a finite number: ' // &
+            call set_status(status, st_not_finite, 'X = x/xd must be a finite number, got ' // &
                             trim(number_text(x)))
         else if (b <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'b = yd/xd is not positive: ' // &
+            call set_status(status, st_bad_argument, 'b = yd/xd must be above 0, got ' // &
                             trim(number_text(b)))
         else if (b < 1.0_wp/largest .or. b > largest) then
-            call set_status(status, st_out_of_range, 'b = yd/xd is outside [1e-100, 1e100]: ' // &
+            call set_status(status, st_out_of_range, 'b = yd/xd must be 1e-100 to 1e100, got ' // &
                             trim(number_text(b)))
         else if (abs(x) > largest) then
-            call set_status(status, st_out_of_range, '|X| = |x/xd| is above 1e100: ' // &
+            call set_status(status, st_out_of_range, '|X| = |x/xd| must be at most 1e100, got ' // &
                             trim(number_text(x)))
         end if
     end subroutine check

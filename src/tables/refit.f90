@@ -147,8 +147,8 @@ contains
         call check_range(spec%l_min, spec%l_max, status)
         if (is_error(status)) return
         if (spec%degree < 0 .or. spec%degree > most_degree) then
-            call set_status(status, st_bad_argument, 'the degree is not from 0 to ' &
-                            // integer_text(most_degree) // ': ' // integer_text(spec%degree))
+            call set_status(status, st_bad_argument, 'the degree must be 0 to ' &
+                            // integer_text(most_degree) // ', got ' // integer_text(spec%degree))
         else if (spec%basis /= basis_monomial .and. spec%basis /= basis_chebyshev) then
             call set_status(status, st_bad_argument, 'no such basis: ' &
                             // integer_text(spec%basis))
@@ -168,14 +168,15 @@ contains
 
         call clear_status(status)
         if (.not. (ieee_is_finite(l_min) .and. ieee_is_finite(l_max))) then
-            call set_status(status, st_not_finite, 'an end of the range of log10 b is not finite')
+            call set_status(status, st_not_finite, 'the range of log10 b must be finite, got ' &
+                            // trim(number_text(l_min)) // ':' // number_text(l_max))
         else if (l_min < -most_l .or. l_max > most_l) then
-            call set_status(status, st_out_of_range, 'the range of log10 b goes beyond +-' // &
-                            trim(number_text(most_l)) // ': ' // trim(number_text(l_min)) // ':' &
-                            // number_text(l_max))
+            call set_status(status, st_out_of_range, 'the range of log10 b must be within +-' // &
+                            trim(number_text(most_l)) // ', got ' // trim(number_text(l_min)) &
+                            // ':' // number_text(l_max))
         else if (l_max - l_min < least_width) then
-            call set_status(status, st_bad_argument, 'the range of log10 b is narrower than ' // &
-                            trim(number_text(least_width)) // ': ' // trim(number_text(l_min)) &
+            call set_status(status, st_bad_argument, 'log10 b must have a range of at least ' // &
+                            trim(number_text(least_width)) // ', got ' // trim(number_text(l_min)) &
                             // ':' // number_text(l_max))
         end if
     end subroutine check_range
@@ -204,7 +205,7 @@ contains
                 return
             else if (abs(row%c(k)) > most_coefficient) then
                 call set_status(status, st_out_of_range, 'coefficient ' // integer_text(k) // &
-                                ' is beyond 1e100: ' // number_text(row%c(k)))
+                                ' must be within 1e100, got ' // number_text(row%c(k)))
                 return
             end if
         end do
@@ -216,7 +217,7 @@ contains
 
         call clear_status(status)
         if (n < 0 .or. n > most_distance) call set_status(status, st_out_of_range, &
-            'the strip distance is not from 0 to ' // integer_text(most_distance) // ': ' &
+            'the strip distance must be 0 to ' // integer_text(most_distance) // ', got ' &
             // integer_text(n))
     end subroutine check_distance
 

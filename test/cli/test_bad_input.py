@@ -21,8 +21,8 @@ class GapFiles(ProgramTest):
             (changed(7, "-10,1"), ["(gap.csv:7)"]),
             (changed(7, "-20,1,0.001"), ["(gap.csv:7)", "-20"]),
             (changed(7, lines[5]), ["(gap.csv:7)", lines[5].split(",")[0]]),
-            ("\n".join(lines[:5]) + "\n", ["gap.csv", ": 4 "]),
-            (lines[0] + "\n", ["gap.csv", ": 0 "]),
+            ("\n".join(lines[:5]) + "\n", ["gap.csv", "got 4 "]),
+            (lines[0] + "\n", ["gap.csv", "got 0 "]),
             ("y,h,r\n1,2,3\n", ["gap.csv", "y_mm"]),
             ("", ["gap.csv"]),
         ):

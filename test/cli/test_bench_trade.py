@@ -50,10 +50,11 @@ class Trade(LabTest):
         self.assertEqual(len(rows), 24 + 18)
 
     def test_bad_lists(self):
-        for line, says in (("sideways,x,always,strip,fastsim,,,,,\n", "stage is out of range"),
-                           ("both,x,always,strap,fastsim,,,,,\n", "normal is out of range: strap"),
+        for line, says in (("sideways,x,always,strip,fastsim,,,,,\n", "stage must be"),
+                           ("both,x,always,strap,fastsim,,,,,\n", "got strap"),
                            ("both,x,always,strip,fastsim,2000,,,,\n", "strips_per_patch")):
             self.write("methods.csv", HEADER + line)
             self.refused(1, "bench", "trade", "--methods", "methods.csv", "--contacts", CONTACTS,
                          says=(says, "methods.csv:2"))
-        self.refused(2, "bench", "normal", "--quick", says=("--quick goes without normal",))
+        self.refused(2, "bench", "normal", "--quick",
+                     says=("--quick must not be given with normal",))

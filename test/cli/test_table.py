@@ -328,11 +328,11 @@ class Audited(unittest.TestCase):
             (header + "10001,-2,1,half,monomial,1,0.1,1\n", ["10001", ":2)"]),
             (header + "1,1,1,half,monomial,1,0.1,1\n", ["1.00000:1.00000", ":2)"]),
             (header + "1,-9,1,half,monomial,1,0.1,1\n", ["-9", ":2)"]),
-            ("index,a1,a0\n3,0,0\n", ["even: 3", ":2)"]),
+            ("index,a1,a0\n3,0,0\n", ["got 3", ":2)"]),
             ("index,a1,a0\n2,0,\n", ["a0", ":2)"]),
             ("n,c0\n1,0\n", ["L_min"]),
             (header, ["no rows"]),
-            ("", ["no row of column names"]),
+            ("", ["column names must be given"]),
         ]
         for text, words in cases:
             with self.subTest(text=text):

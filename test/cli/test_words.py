@@ -86,7 +86,7 @@ class Words(ProgramTest):
     def test_the_missing_column_is_named(self):
         head = BATCH_COLUMNS + "\n"
         self.write("b.csv", head + ROW.rsplit(",", 2)[0] + "\n")
-        self.refused(1, "batch", "b.csv", says=["column: ceta", "(b.csv:2)"])
+        self.refused(1, "batch", "b.csv", says=["column ceta", "(b.csv:2)"])
         self.write("b.csv", head + ROW + ",7\n")
         self.refused(1, "batch", "b.csv", says=["beyond the column cphi_rad_per_mm", "'7'"])
 

@@ -122,8 +122,8 @@ contains
             do i = 2, size(command%options)
                 if (.not. command%options(i)%is_given) cycle
                 if (any(names == command%options(i)%name)) cycle
-                call usage_error(trim(command%options(i)%name) // ' goes without ' // what, &
-                                 command%name)
+                call usage_error(trim(command%options(i)%name) // ' must not be given with ' &
+                                 // what, command%name)
             end do
         end subroutine allow
     end subroutine run_bench

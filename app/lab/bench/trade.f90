@@ -17,8 +17,9 @@ module faststrip_lab_bench_trade
     use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
     use faststrip_command_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
     use faststrip_contact_methods, only: normal_method, tangential_method, normal_method_name, &
-                                         tangential_method_name, normal_norm, tangential_tang
-    use faststrip_command_methods, only: numerics_t, check_numerics
+                                         tangential_method_name, normal_norm, tangential_tang, &
+                                         normal_table, tangential_table
+    use faststrip_command_methods, only: numerics_t, check_numerics, one_of
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_wheelset_cases, &
                                                read_hertz_cases, read_scene_cases, n_figures, &
@@ -213,19 +214,20 @@ contains
             entries(row)%name = text('method')
             entries(row)%when = text('when')
             if (all(stages /= entries(row)%stage)) &
-                call refuse('stage', entries(row)%stage)
+                call refuse('stage', one_of(stages), entries(row)%stage)
             entries(row)%numerics%normal = normal_method(text('normal'))
-            if (entries(row)%numerics%normal < 0) call refuse('normal', text('normal'))
+            if (entries(row)%numerics%normal < 0) &
+                call refuse('normal', one_of(normal_table%name), text('normal'))
             entries(row)%numerics%tangential = tangential_method(text('tangential'))
             if (entries(row)%numerics%tangential < 0) &
-                call refuse('tangential', text('tangential'))
+                call refuse('tangential', one_of(tangential_table%name), text('tangential'))
             call take_number('strips_per_patch', entries(row)%numerics%strips_per_patch)
             call take_number('points_per_strip', entries(row)%numerics%points_per_strip)
             call take_number('fastsim_nx', entries(row)%numerics%fastsim_nx)
             call take_number('fastsim_ny', entries(row)%numerics%fastsim_ny)
             call take_side(entries(row)%numerics)
             call check_numerics(entries(row)%numerics, what, range, value)
-            if (len(what) > 0) call refuse(what, value)
+            if (len(what) > 0) call refuse(what, range, value)
         end do
 
     contains
@@ -267,11 +269,11 @@ contains
             numerics%element_dy = numerics%element_dx
         end subroutine take_side
 
-        subroutine refuse(name, wrong)
-            character(len=*), intent(in) :: name, wrong
+        subroutine refuse(name, must, wrong)
+            character(len=*), intent(in) :: name, must, wrong
 
-            call fail(exit_bad_input, trim(name) // ' is out of range: ' // wrong // ' (' // file &
-                      // ':' // integer_text(table%line(row)) // ')')
+            call fail(exit_bad_input, trim(name) // ' must be ' // must // ', got ' // wrong &
+                      // ' (' // file // ':' // integer_text(table%line(row)) // ')')
         end subroutine refuse
     end subroutine read_entries
 end module faststrip_lab_bench_trade

@@ -48,14 +48,14 @@ contains
             call usage_error('unknown fault: ' // work%fault, command%name)
         if (given(command, '--read')) then
             if (given(command, '-o')) &
-                call usage_error('--read goes without -o', command%name)
+                call usage_error('--read must not be given with -o', command%name)
             call read_verdicts(option_text(command, '--read', ''), numbers, family, verdicts)
             call print_verdicts(numbers, family, verdicts)
             return
         end if
         if (given(command, '--case')) then
             if (given(command, '--first') .or. given(command, '--cases')) &
-                call usage_error('--case goes without --first and --cases', command%name)
+                call usage_error('--case must not be given with --first and --cases', command%name)
             first = option_integer(command, '--case', 1, least=1)
             cases = 1
         end if

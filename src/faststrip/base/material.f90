@@ -39,16 +39,16 @@ contains
 
         if (.not. ieee_is_finite(e)) then
             call set_status(status, st_not_finite, "Young's modulus of the " // name // &
-                            ' is not a finite number: ' // trim(number_text(e)))
+                            ' must be a finite number, got ' // trim(number_text(e)))
         else if (.not. ieee_is_finite(nu)) then
             call set_status(status, st_not_finite, "Poisson's ratio of the " // name // &
-                            ' is not a finite number: ' // trim(number_text(nu)))
+                            ' must be a finite number, got ' // trim(number_text(nu)))
         else if (e <= 0.0_wp) then
             call set_status(status, st_bad_material, "Young's modulus of the " // name // &
-                            ' is not positive: ' // trim(number_text(e)) // ' MPa')
+                            ' must be above 0, got ' // trim(number_text(e)) // ' MPa')
         else if (nu <= -1.0_wp .or. nu > 0.5_wp) then
             call set_status(status, st_bad_material, "Poisson's ratio of the " // name // &
-                            ' is outside (-1, 0.5]: ' // trim(number_text(nu)))
+                            ' must be above -1 and at most 0.5, got ' // trim(number_text(nu)))
         end if
     end subroutine check_body
 
@@ -59,10 +59,11 @@ contains
 
         call clear_status(status)
         if (.not. ieee_is_finite(compliance)) then
-            call set_status(status, st_not_finite, 'the compliance is not a finite number: ' // &
+            call set_status(status, st_not_finite, &
+                            'the compliance must be a finite number, got ' // &
                             number_text(compliance))
         else if (compliance <= 0.0_wp) then
-            call set_status(status, st_bad_material, 'the compliance is not positive: ' // &
+            call set_status(status, st_bad_material, 'the compliance must be above 0, got ' // &
                             number_text(compliance))
         end if
     end subroutine check_compliance

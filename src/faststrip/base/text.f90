@@ -176,14 +176,14 @@ contains
         text = trim(buffer)
     end function integer_text
 
-    !> Record an error in a file as `<what>: <value> (<file>:<line>)`.
+    !> Record an error in a file as `<what>, got <value> (<file>:<line>)`.
     !>
     !> Where the message would not fit, first the value, then the beginning of the file's name
     !> is shortened: the line number stays readable.
     pure subroutine set_place_status(status, code, what, value, file, line)
         type(status_t), intent(out) :: status  !! what the caller reads
         integer, intent(in) :: code            !! one of the `st_` codes
-        character(len=*), intent(in) :: what   !! what is wrong
+        character(len=*), intent(in) :: what   !! what must be
         character(len=*), intent(in) :: value  !! the offending value; empty: left out
         character(len=*), intent(in) :: file   !! name of the file
         integer, intent(in) :: line            !! line number; below 1: left out
@@ -193,9 +193,9 @@ contains
 
         words = what
         if (len(value) > longest_value) then
-            words = words // ': ' // value(:longest_value) // '...'
+            words = words // ', got ' // value(:longest_value) // '...'
         else if (len(value) > 0) then
-            words = words // ': ' // value
+            words = words // ', got ' // value
         end if
         place = ')'
         if (line > 0) place = ':' // integer_text(line) // ')'

@@ -8,7 +8,7 @@
 module faststrip_contact_choice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_target_missed
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_choice_table, only: misfit_edges, saturation_edges, spin_edges, &
@@ -44,10 +44,11 @@ contains
         expected = 0.0_wp
         call clear_status(status)
         if (.not. ieee_is_finite(tolerance)) then
-            call set_status(status, st_bad_argument, 'a tolerance that is not finite')
+            call set_status(status, st_bad_argument, 'the tolerance must be a finite number, ' &
+                            // 'got ' // trim(number_text(tolerance)))
             return
         else if (tolerance <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'a tolerance that is not positive: ' &
+            call set_status(status, st_bad_argument, 'the tolerance must be above 0, got ' &
                             // trim(number_text(tolerance)))
             return
         end if
@@ -64,7 +65,8 @@ contains
             call take(penetration_methods, penetration_excess(misfit, :), tolerance, methods, &
                       expected, status)
         case default
-            call set_status(status, st_bad_argument, 'no such target of a choice')
+            call set_status(status, st_bad_argument, 'the target of a choice must be ' &
+                            // 'forces, pmax or penetration, got ' // count_text(target))
         end select
     end subroutine choose_methods
 

@@ -173,7 +173,8 @@ contains
         type(status_t), intent(inout) :: status
 
         if (method%number < 0) then
-            call set_status(status, st_bad_argument, 'no such ' // part // ' method: ' // &
+            call set_status(status, st_bad_argument, &
+                            part // ' method must be one of the list, got ' // &
                             count_text(number))
         else if (.not. method%in_core) then
             call set_status(status, st_bad_argument, 'no ' // part // ' method of the core: ' // &

@@ -38,7 +38,7 @@ contains
 
         call clear_status(status)
         if (.not. (allocated(gap%y) .and. allocated(gap%h) .and. allocated(gap%inv2r))) then
-            call set_status(status, st_bad_argument, 'the gap has no y, h or inv2r')
+            call set_status(status, st_bad_argument, 'the gap must have y, h and inv2r')
             return
         end if
         ! What is not allocated counts as an argument that is not present.
@@ -61,21 +61,22 @@ contains
         if (present(inclination)) then
             if (size(inclination) /= n) then
                 call set_status(status, st_bad_argument, &
-                                'y and inclination of the gap differ in length: ' // &
+                                'y and inclination of the gap must have one length, got ' // &
                                 trim(count_text(n)) // ', ' // trim(count_text(size(inclination))))
                 return
             end if
         end if
         if (size(h) /= n .or. size(inv2r) /= n) then
             call set_status(status, st_bad_argument, &
-                            'y, h and inv2r of the gap differ in length: ' // &
+                            'y, h and inv2r of the gap must have one length, got ' // &
                             trim(count_text(n)) // ', ' // trim(count_text(size(h))) // ', ' // &
                             trim(count_text(size(inv2r))))
             return
         end if
         if (n < min_gap_points) then
-            call set_status(status, st_too_few_points, 'the gap has fewer than ' // &
-                            trim(count_text(min_gap_points)) // ' points: ' // trim(count_text(n)))
+            call set_status(status, st_too_few_points, 'the gap must have at least ' // &
+                            trim(count_text(min_gap_points)) // ' points, got ' // &
+                            trim(count_text(n)))
             return
         end if
         before = 0.0_wp
@@ -87,7 +88,7 @@ contains
             if (i > 1) then
                 if (y(i) <= before) then
                     call set_status(status, st_not_increasing, 'y(' // trim(count_text(i)) // &
-                                    ') of the gap is not above the one before: ' // &
+                                    ') of the gap must be above the one before, got ' // &
                                     trim(number_text(y(i))))
                     return
                 end if
@@ -109,7 +110,8 @@ contains
 
         if (.not. ieee_is_finite(value)) then
             call set_status(status, st_not_finite, name // '(' // trim(count_text(i)) // &
-                            ') of the gap is not a finite number: ' // trim(number_text(value)))
+                            ') of the gap must be a finite number, got ' // &
+                            trim(number_text(value)))
         end if
     end subroutine check_finite
 end module faststrip_geometry_gap

@@ -63,7 +63,8 @@ contains
 
         call clear_status(status)
         if (max_points < 5) then ! Given: fewest points of a gap
-            call set_status(status, st_bad_argument, 'capacity for fewer than 5 gap points asked')
+            call set_status(status, st_bad_argument, 'capacity for gap points must be at ' // &
+                            'least 5, got ' // count_text(max_points))
             return
         end if
         curve%n = 0

@@ -85,11 +85,11 @@ contains
         if (is_error(status)) return
         if (.not. ieee_is_finite(noise)) then
             call set_status(status, st_not_finite, &
-                            'the noise is not a finite number: '//number_text(noise))
+                            'the noise must be a finite number, got '//number_text(noise))
             return
         else if (noise <= 0.0_wp) then
             call set_status(status, st_bad_argument, &
-                            'the noise is not positive: '//trim(number_text(noise))//' mm')
+                            'the noise must be above 0, got '//trim(number_text(noise))//' mm')
             return
         end if
         allocate (rest(size(gap%y)), curve(size(gap%y)), source=0.0_wp)

@@ -55,7 +55,7 @@ contains
         call clear_status(status)
         if (name /= 's1002') then
             call set_status(status, st_bad_argument, &
-                            'no such wheel profile (there is s1002): ' // name)
+                            'the wheel profile must be s1002, got ' // name)
             return
         end if
         profile%kind = profile_s1002
@@ -80,7 +80,7 @@ contains
             call make_rail_head(en60e1_transition, cant, profile%head, status)
         case default
             call set_status(status, st_bad_argument, &
-                            'no such rail profile (there are uic60 and 60e1): ' // name)
+                            'the rail profile must be uic60 or 60e1, got ' // name)
         end select
         if (is_error(status)) then
             profile%kind = profile_none
@@ -108,7 +108,7 @@ contains
         valid = ieee_is_finite(cant)
         if (valid) valid = abs(cant) <= 1.0_wp
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'rail cant outside -1 to 1: ' // &
+            call set_status(status, st_bad_argument, 'rail cant must be -1 to 1, got ' // &
                             number_text(cant))
             return
         end if
@@ -117,7 +117,7 @@ contains
         if (is_error(status)) return
         if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
             call set_status(status, st_bad_argument, &
-                            'a point of the profile is more than 10 m away: ' // &
+                            'points of the profile must be within 10 m, got ' // &
                             trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
             return
         end if

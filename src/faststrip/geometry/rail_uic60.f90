@@ -80,14 +80,15 @@ contains
         valid = ieee_is_finite(transition)
         if (valid) valid = transition >= least_transition .and. transition <= largest_transition
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'transition R300/R80 outside 1 to 20 mm: ' &
+            call set_status(status, st_bad_argument, &
+                            'transition R300/R80 must be 1 to 20 mm, got ' &
                             // number_text(transition))
             return
         end if
         valid = ieee_is_finite(cant)
         if (valid) valid = abs(cant) <= largest_cant
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'rail cant outside -0.1 to 0.1: ' // &
+            call set_status(status, st_bad_argument, 'rail cant must be -0.1 to 0.1, got ' // &
                             number_text(cant))
             return
         end if
@@ -212,7 +213,7 @@ contains
         if (inside) inside = y >= head%joint(1) .and. y <= head%joint(8)
         if (.not. inside) then
             call set_status(status, st_out_of_range, &
-                            'no rail head at y = ' // trim(number_text(y)) // ' mm')
+                            'y must be on the rail head, got ' // trim(number_text(y)) // ' mm')
         else if (y < head%joint(2)) then
             dz = head%flank_dz(1)
             z = head%flank_z(1) + dz*(y - head%flank_y(1))

@@ -218,9 +218,11 @@ contains
         call check_length('depth of the gauge below the crown', track%gauge_depth, status)
         if (status%code /= 0) return
         if (.not. ieee_is_finite(shift)) then
-            call set_status(status, st_bad_argument, 'the lateral shift is not a finite number')
+            call set_status(status, st_bad_argument, 'the lateral shift must be a finite ' // &
+                            'number, got ' // number_text(shift))
         else if (abs(shift) > largest_shift) then
-            call set_status(status, st_bad_argument, 'lateral shift beyond 10 m: ' // &
+            call set_status(status, st_bad_argument, &
+                            'the lateral shift must be within 10 m, got ' // &
                             trim(number_text(shift)) // ' mm')
         end if
     end subroutine check_setup
@@ -237,7 +239,7 @@ contains
         if (valid) valid = value > 0.0_wp .and. value <= largest_length
         if (.not. valid) then
             call set_status(status, st_bad_argument, name // &
-                            ' not between 0 and 1e6 mm: ' // trim(number_text(value)))
+                            ' must be above 0 and at most 1e6 mm, got ' // trim(number_text(value)))
         end if
     end subroutine check_length
 
@@ -344,7 +346,7 @@ contains
         contact%radius = wheelset%radius + contact%z_wheel - z_line
         if (contact%radius <= 0.0_wp) then
             call set_status(status, st_bad_argument, &
-                            'no positive rolling radius at the contact: ' // &
+                            'the rolling radius at the contact must be above 0, got ' // &
                             trim(number_text(contact%radius)) // ' mm')
         end if
     end subroutine complete_contact

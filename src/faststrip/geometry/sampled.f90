@@ -5,7 +5,7 @@ module faststrip_geometry_sampled
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
                                          spline_not_a_knot
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_out_of_range, st_too_few_points
+                                     count_text, st_out_of_range, st_too_few_points
     implicit none
     private
 
@@ -37,7 +37,8 @@ contains
         real(wp), allocatable :: work(:)
 
         if (size(y) < min_profile_points) then
-            call set_status(status, st_too_few_points, 'a profile has fewer than 5 points')
+            call set_status(status, st_too_few_points, 'a profile must have at least 5 ' // &
+                            'points, got ' // count_text(size(y)))
             return
         end if
         profile%y = y

@@ -143,14 +143,15 @@ contains
         valid = ieee_is_finite(step)
         if (valid) valid = step >= smallest_step .and. step <= largest_step
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'step of the gap outside 0.001 to 1000 mm: ' &
+            call set_status(status, st_bad_argument, &
+                            'step of the gap must be 0.001 to 1000 mm, got ' &
                             // trim(number_text(step)))
             return
         end if
         valid = ieee_is_finite(height)
         if (valid) valid = height > 0.0_wp
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'height of the gap not positive: ' // &
+            call set_status(status, st_bad_argument, 'height of the gap must be above 0, got ' // &
                             trim(number_text(height)) // ' mm')
         end if
     end subroutine check_sampling

@@ -56,7 +56,7 @@ contains
         if (inside) inside = s >= s1002_first .and. s <= s1002_last
         if (.not. inside) then
             call set_status(status, st_out_of_range, &
-                            'no S1002 profile at s = ' // trim(number_text(s)) // ' mm')
+                            's must be on the S1002 profile, got ' // trim(number_text(s)) // ' mm')
         else if (s >= s1002_joints(1)) then
             f = 1.364323640_wp - 0.066666667_wp*s
             df = -0.066666667_wp

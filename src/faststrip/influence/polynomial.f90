@@ -65,7 +65,7 @@ contains
         call clear_status(status)
         value = 0.0_wp
         if (.not. ieee_is_finite(b)) then
-            call set_status(status, st_not_finite, 'b = yd/xd is not a finite number: ' // &
+            call set_status(status, st_not_finite, 'b = yd/xd must be a finite number, got ' // &
                             trim(number_text(b)))
             return
         end if
@@ -75,8 +75,8 @@ contains
             return
         end if
         if (b < b_least .or. b > b_most) then
-            call set_status(status, st_out_of_range, 'the table covers b = yd/xd from 0.01 to '// &
-                            '10: ' // trim(number_text(b)))
+            call set_status(status, st_out_of_range, 'b = yd/xd must be 0.01 to 10 for the '// &
+                            'table, got ' // trim(number_text(b)))
             return
         end if
         row = abs(n)

@@ -5,8 +5,8 @@
 module faststrip_interop_c
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
                                            c_null_char, c_associated, c_f_pointer
-    use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_ok, &
-                                     st_bad_argument, st_workspace_too_small
+    use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
+                                     st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, read_result, &
@@ -152,9 +152,10 @@ contains
         code = status%code
         if (is_error(status)) return
         if (n < 0) then
-            call set_status(handle%status, st_bad_argument, 'the gap has fewer than no points')
+            call set_status(handle%status, st_bad_argument, 'the number of gap points must ' // &
+                            'not be negative, got ' // count_text(n))
         else if (.not. (c_associated(y) .and. c_associated(h) .and. c_associated(inv2r))) then
-            call set_status(handle%status, st_bad_argument, 'y, h or inv2r of the gap is missing')
+            call set_status(handle%status, st_bad_argument, 'the gap must have y, h and inv2r')
         else
             call c_f_pointer(y, y_of, [n])
             call c_f_pointer(h, h_of, [n])

@@ -37,8 +37,8 @@
 !> of the largest pressure is above a limit. FSERRS has them.
 module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
-    use faststrip_base_status, only: status_t, status_word, set_status, is_error, st_bad_argument, &
-                                     st_workspace_too_small
+    use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
+                                     st_bad_argument, st_workspace_too_small
     use faststrip_normal_limitations, only: check_resolution
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
@@ -186,7 +186,8 @@ contains
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
         if (n < 0) then
-            call set_status(handle%status, st_bad_argument, 'a gap of fewer than no points')
+            call set_status(handle%status, st_bad_argument, 'the number of gap points must ' // &
+                            'not be negative, got ' // count_text(n))
         else
             call handle_gap(handle, y(:n), h(:n), a(:n))
         end if

@@ -278,8 +278,8 @@ contains
             return
         end if
         if (ratio <= 1.0_wp .or. ratio > largest) then
-            call set_status(status, st_bad_argument, 'the ratio of the numbers of strips is not ' &
-                            //'above 1: '//number_text(ratio))
+            call set_status(status, st_bad_argument, 'the ratio of the numbers of strips must ' &
+                            //'be above 1, got '//number_text(ratio))
         else if (min(fine%pmax, fine%area, fine%penetration - h_lowest) < smallest &
                  .or. max(coarse%pmax, coarse%area, abs(coarse%penetration)) > largest &
                  .or. max(fine%pmax, fine%area, abs(fine%penetration)) > largest) then
@@ -311,14 +311,14 @@ contains
                             'compliance, penetration or pmax is not a finite number')
         else if (compliance <= 0.0_wp) then
             call set_status(status, st_bad_material, &
-                            'the compliance is not positive: '//number_text(compliance))
+                            'the compliance must be above 0, got '//number_text(compliance))
         else if (curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set')
         else if (.not. allocated(strips%p0)) then
             call set_status(status, st_workspace_too_small, &
                             'no workspace was reserved for the strips')
         else if (strips%n < 1) then
-            call set_status(status, st_bad_argument, 'there are no strips to certify')
+            call set_status(status, st_bad_argument, 'there must be strips to certify, got none')
         else if (result%penetration <= curve%h_lowest) then
             call set_status(status, st_no_contact, 'the penetration is not above the lowest gap: ' &
                             //trim(number_text(result%penetration))//' mm')

@@ -12,9 +12,9 @@ module faststrip_normal_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_bad_load, st_bad_material, st_no_contact, &
-                                     st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
-                                     st_out_of_range, st_workspace_too_small
+                                     count_text, st_bad_argument, st_bad_load, st_bad_material, &
+                                     st_no_contact, st_no_convergence, st_no_hertz_ellipse, &
+                                     st_not_finite, st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: demand_t
@@ -142,18 +142,18 @@ contains
                             trim(number_text(inv2r_y)) // ' 1/mm, load ' // &
                             trim(number_text(load)) // ' N')
         else if (compliance <= 0.0_wp) then
-            call set_status(status, st_bad_material, 'compliance is not positive: ' // &
+            call set_status(status, st_bad_material, 'compliance must be above 0, got ' // &
                             trim(number_text(compliance)) // ' 1/MPa')
         else if (load <= 0.0_wp) then
-            call set_status(status, st_bad_load, 'load is not positive: ' // &
+            call set_status(status, st_bad_load, 'load must be above 0, got ' // &
                             trim(number_text(load)) // ' N')
         else if (inv2r_x <= 0.0_wp) then
             call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
-                            'curvature along x is not positive: ' // &
+                            'curvature along x must be above 0, got ' // &
                             trim(number_text(inv2r_x)) // ' 1/mm')
         else if (inv2r_y <= 0.0_wp) then
             call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
-                            'curvature along y is not positive: ' // &
+                            'curvature along y must be above 0, got ' // &
                             trim(number_text(inv2r_y)) // ' 1/mm')
         end if
     end subroutine check_arguments
@@ -239,7 +239,7 @@ contains
         real(wp) :: depth
 
         if (.not. ieee_is_finite(penetration)) then
-            call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
+            call set_status(status, st_not_finite, 'the penetration must be a finite number, got ' &
                             // number_text(penetration))
             return
         end if
@@ -272,7 +272,8 @@ contains
 
         call clear_status(status)
         if (n < 1) then
-            call set_status(status, st_bad_argument, 'fewer than one strip asked')
+            call set_status(status, st_bad_argument, 'the number of strips must be at least ' &
+                            // '1, got ' // count_text(n))
             return
         end if
         if (hertz%a <= 0.0_wp .or. hertz%b <= 0.0_wp) then

@@ -28,9 +28,9 @@ module faststrip_normal_lattice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     add_words, st_bad_argument, st_bad_load, st_not_finite, &
-                                     st_no_contact, st_out_of_range, st_edge_of_data, &
-                                     st_overlap_left, st_linear_algebra, &
+                                     count_text, add_words, st_bad_argument, st_bad_load, &
+                                     st_not_finite, st_no_contact, st_out_of_range, &
+                                     st_edge_of_data, st_overlap_left, st_linear_algebra, &
                                      st_workspace_too_small
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
@@ -94,7 +94,8 @@ contains
 
         call clear_status(status)
         if (max_strips < 3) then
-            call set_status(status, st_bad_argument, 'capacity for fewer than 3 strips asked')
+            call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
+                            // '3, got ' // count_text(max_strips))
             return
         end if
         if (workspace%cells%capacity >= min(max_strips, most_cells)) return
@@ -131,7 +132,7 @@ contains
         if (is_error(status)) return
         if (load <= 0.0_wp) then
             call set_status(status, st_bad_load, &
-                            'the load is not positive: ' // trim(number_text(load)) // ' N')
+                            'the load must be above 0, got ' // trim(number_text(load)) // ' N')
             return
         end if
         mirrored = curve%is_image
@@ -210,9 +211,11 @@ contains
         if (is_error(status)) return
         if (.not. ieee_is_finite(target)) then
             call set_status(status, st_not_finite, &
-                            'load or penetration is not a finite number: ' // number_text(target))
+                            'load or penetration must be a finite number, got ' // &
+                            number_text(target))
         else if (n_strips < 3) then
-            call set_status(status, st_bad_argument, 'fewer than 3 strips per patch asked')
+            call set_status(status, st_bad_argument, 'strips per patch must be at least 3, ' &
+                            // 'got ' // count_text(n_strips))
         else if (curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set')
         else if (curve%least_inv2r <= 0.0_wp) then

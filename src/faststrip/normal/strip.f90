@@ -79,10 +79,10 @@ contains
         if (is_error(status)) return
         if (.not. ieee_is_finite(load)) then
             call set_status(status, st_not_finite, &
-                            'the load is not a finite number: '//number_text(load))
+                            'the load must be a finite number, got '//number_text(load))
         else if (load <= 0.0_wp) then
             call set_status(status, st_bad_load, &
-                            'the load is not positive: '//trim(number_text(load))//' N')
+                            'the load must be above 0, got '//trim(number_text(load))//' N')
         else
             call solve(workspace, compliance, demand_t(load=load), options, strips, result, status)
         end if
@@ -123,7 +123,7 @@ contains
         call check_input(workspace, compliance, options, strips, status)
         if (is_error(status)) return
         if (.not. ieee_is_finite(penetration)) then
-            call set_status(status, st_not_finite, 'the penetration is not a finite number: ' &
+            call set_status(status, st_not_finite, 'the penetration must be a finite number, got ' &
                             //number_text(penetration))
             return
         end if
@@ -237,10 +237,12 @@ contains
         call check_compliance(compliance, status)
         if (is_error(status)) return
         if (options%strips_per_patch < 1 .and. options%strips_per_patch /= strips_auto) then
-            call set_status(status, st_bad_argument, 'fewer than one strip per patch asked')
+            call set_status(status, st_bad_argument, 'strips per patch must be at least 1, ' &
+                            // 'got ' // count_text(options%strips_per_patch))
         else if (.not. (options%tolerance > 0.0_wp &
                         .and. options%tolerance <= largest_tolerance)) then
-            call set_status(status, st_bad_argument, 'the tolerance is outside (0, 0.01]: ' &
+            call set_status(status, st_bad_argument, 'the tolerance must be above 0 and at ' &
+                            // 'most 0.01, got ' &
                             //number_text(options%tolerance))
         else if (workspace%curve%n == 0) then
             call set_status(status, st_workspace_too_small, 'no gap was set in the workspace')

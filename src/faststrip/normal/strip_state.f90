@@ -1,7 +1,7 @@
 !> What a strip solution works on: the gap, the strips of the pass, and what the last pass left.
 module faststrip_normal_strip_state
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
@@ -52,7 +52,8 @@ contains
         type(status_t), intent(out) :: status !! `st_bad_argument`
 
         if (max_strips < fewest_strips) then
-            call set_status(status, st_bad_argument, 'capacity for fewer than 3 strips asked')
+            call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
+                            // '3, got ' // count_text(max_strips))
             return
         end if
         call reserve_gap_curve(workspace%curve, max_points, status)

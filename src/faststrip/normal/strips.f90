@@ -1,7 +1,8 @@
 !> The strips of a contact: what the normal solution hands to the tangential one.
 module faststrip_normal_strips
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument
+    use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
+                                     st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_exchanged
     implicit none
     private
@@ -34,7 +35,8 @@ contains
         strips%n = 0
         strips%n_patches = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'capacity for fewer than one strip asked')
+            call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
+                            // '1, got ' // count_text(capacity))
             return
         end if
         if (allocated(strips%p0)) then

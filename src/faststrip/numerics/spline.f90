@@ -6,7 +6,7 @@ module faststrip_numerics_spline
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_lapack, only: dgtsv
-    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_linear_algebra, st_not_finite, &
                                      st_not_increasing, st_too_few_points, st_workspace_too_small
     implicit none
@@ -93,17 +93,19 @@ contains
             return
         end if
         if (size(x) < 2) then
-            call set_status(status, st_too_few_points, 'spline: fewer than 2 points')
+            call set_status(status, st_too_few_points, 'spline: there must be at least 2 ' &
+                            // 'points, got ' // count_text(size(x)))
             return
         end if
         do i = 1, size(x)
             if (.not. (ieee_is_finite(x(i)) .and. ieee_is_finite(y(i)))) then
-                call set_status(status, st_not_finite, 'spline: a point is not finite: (' // &
+                call set_status(status, st_not_finite, 'spline: points must be finite, got (' // &
                                 trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
                 return
             end if
             if (max(abs(x(i)), abs(y(i))) > largest) then
-                call set_status(status, st_bad_argument, 'spline: a point is beyond 1e30: (' // &
+                call set_status(status, st_bad_argument, &
+                                'spline: points must be within 1e30, got (' // &
                                 trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
                 return
             end if
@@ -111,7 +113,7 @@ contains
         do i = 2, size(x)
             if (x(i) - x(i - 1) < 1.0_wp/largest) then
                 call set_status(status, st_not_increasing, &
-                                'spline: a knot is not above the one before: ' // &
+                                'spline: knots must ascend, got ' // &
                                 trim(number_text(x(i))))
                 return
             end if

@@ -31,8 +31,9 @@
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
-                                     st_bad_material, st_not_finite, st_out_of_range
+    use faststrip_base_status, only: status_t, set_status, is_error, number_text, count_text, &
+                                     st_bad_argument, st_bad_material, st_not_finite, &
+                                     st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
@@ -146,10 +147,11 @@ contains
                             trim(number_text(hertz%b)) // ' mm, load ' // &
                             trim(number_text(hertz%load)) // ' N')
         else if (g <= 0.0_wp) then
-            call set_status(status, st_bad_material, 'shear modulus is not positive: ' // &
+            call set_status(status, st_bad_material, 'shear modulus must be above 0, got ' // &
                             trim(number_text(g)) // ' MPa')
         else if (min(c%c11, c%c22, c%c23) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'creepage coefficients are not positive: ' // &
+            call set_status(status, st_bad_argument, &
+                            'creepage coefficients must be above 0, got ' // &
                             trim(number_text(c%c11)) // ', ' // trim(number_text(c%c22)) // &
                             ', ' // trim(number_text(c%c23)))
         else if (max(hertz%a, hertz%b, abs(hertz%y), g, hertz%load, c%c11, c%c22, c%c23) > largest &
@@ -222,8 +224,8 @@ contains
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
         if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_elements) then
-            call set_status(status, st_bad_argument, 'a grid of fewer than one or more than ' // &
-                            '10000 elements along or across')
+            call set_status(status, st_bad_argument, 'elements along and across must be 1 to ' // &
+                            '10000, got ' // trim(count_text(nx)) // ' and ' // count_text(ny))
             return
         end if
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)

@@ -55,7 +55,7 @@
 !> fitted to them; the errors there stand in docs/validation.md.
 module faststrip_tangential_faststrip
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, is_error, st_out_of_range, &
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range, &
                                      st_workspace_too_small
     use faststrip_base_material, only: material_t, check_material
     use faststrip_base_creepage, only: creepage_t
@@ -108,7 +108,8 @@ contains
         call check_strips(strips, status)
         if (is_error(status)) return
         if (points_per_strip < 1 .or. points_per_strip > most_points) then
-            call set_status(status, st_out_of_range, 'points per strip outside 1 to 1000')
+            call set_status(status, st_out_of_range, 'points per strip must be 1 to 1000, ' // &
+                            'got ' // count_text(points_per_strip))
             return
         end if
         if (present(field)) then

@@ -60,12 +60,13 @@ contains
             return
         end if
         if (a_over_b < 1.0_wp/largest_ratio .or. a_over_b > largest_ratio) then
-            call set_status(status, st_out_of_range, "a/b outside 1e-12 to 1e12: " // &
+            call set_status(status, st_out_of_range, "a/b must be 1e-12 to 1e12, got " // &
                             trim(number_text(a_over_b)))
             return
         end if
         if (nu <= -1.0_wp .or. nu > 0.5_wp) then
-            call set_status(status, st_bad_material, "Poisson's ratio outside (-1, 0.5]: " // &
+            call set_status(status, st_bad_material, &
+                            "Poisson's ratio must be above -1 and at most 0.5, got " // &
                             trim(number_text(nu)))
             return
         end if

@@ -29,19 +29,22 @@ contains
 
         call clear_status(status)
         if (.not. ieee_is_finite(mu)) then
-            call set_status(status, st_not_finite, 'coefficient of friction is not finite')
+            call set_status(status, st_not_finite, 'coefficient of friction must be a ' // &
+                            'finite number, got ' // number_text(mu))
         else if (mu < 0.0_wp) then
-            call set_status(status, st_bad_argument, 'coefficient of friction is negative: ' // &
+            call set_status(status, st_bad_argument, &
+                            'coefficient of friction must not be negative, got ' // &
                             trim(number_text(mu)))
         else if (.not. (ieee_is_finite(creepage%cksi) .and. ieee_is_finite(creepage%ceta) &
                         .and. ieee_is_finite(creepage%cphi))) then
-            call set_status(status, st_not_finite, 'creepages are not finite: ' // &
+            call set_status(status, st_not_finite, 'creepages must be finite numbers, got ' // &
                             trim(number_text(creepage%cksi)) // ', ' // &
                             trim(number_text(creepage%ceta)) // ', ' // &
                             trim(number_text(creepage%cphi)) // ' rad/mm')
         else if (max(mu, abs(creepage%cksi), abs(creepage%ceta), abs(creepage%cphi)) &
                  > largest) then
-            call set_status(status, st_out_of_range, 'friction or creepage above 1e6: ' // &
+            call set_status(status, st_out_of_range, &
+                            'friction and creepages must be at most 1e6, got ' // &
                             trim(number_text(mu)) // '; ' // &
                             trim(number_text(creepage%cksi)) // ', ' // &
                             trim(number_text(creepage%ceta)) // ', ' // &

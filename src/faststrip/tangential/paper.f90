@@ -32,7 +32,7 @@
 !> Slip is what scaling back leaves over of the elastic step, as in FASTSIM.
 module faststrip_tangential_paper
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, &
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument, &
                                      st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
@@ -143,7 +143,8 @@ contains
         call check_input(strips, material, mu, creepage, status)
         if (is_error(status)) return
         if (points < 1 .or. points > most_points) then
-            call set_status(status, st_out_of_range, 'points per strip outside 1 to 1000')
+            call set_status(status, st_out_of_range, 'points per strip must be 1 to 1000, ' // &
+                            'got ' // count_text(points))
             return
         end if
         if (present(field)) then

@@ -1,8 +1,8 @@
 !> What every tangential method gives: forces, friction power, and on demand a field.
 module faststrip_tangential_types
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
-                                     st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
+                                     st_bad_argument, st_workspace_too_small
     implicit none
     private
 
@@ -66,7 +66,8 @@ contains
         call clear_status(status)
         forces%n = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'capacity for fewer than one strip asked')
+            call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
+                            // '1, got ' // count_text(capacity))
             return
         end if
         if (allocated(forces%fx)) then
@@ -86,7 +87,8 @@ contains
         call clear_status(status)
         field%n = 0
         if (capacity < 1) then
-            call set_status(status, st_bad_argument, 'capacity for fewer than one element asked')
+            call set_status(status, st_bad_argument, 'capacity for elements must be at ' &
+                            // 'least 1, got ' // count_text(capacity))
             return
         end if
         if (allocated(field%x)) then
