@@ -33,7 +33,7 @@ module faststrip_influence_offcentre
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: atanh_last
     use faststrip_influence_angle_rules, only: cosine
-    use faststrip_influence_offcentre_rules, only: demand_t, for_value, for_gradient, &
+    use faststrip_influence_offcentre_rules, only: accuracy_t, for_value, for_gradient, &
                                                    least_far_rule, scalar_size, scalar_start
     use faststrip_influence_offcentre_far, only: far_moments, narrow_far_moments, &
                                                  smooth_far_moments
@@ -127,21 +127,21 @@ contains
 
     !> The three integrals `int sqrt(1-u^2) ker`, its derivative in X, `int u^2/sqrt(1-u^2) ker` for
     !> any edges el <= er, x >= 0.
-    pure subroutine any_edges(x, xd, el, er, demand, m)
+    pure subroutine any_edges(x, xd, el, er, accuracy, m)
         real(wp), intent(in) :: x, xd, el, er
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
         real(wp) :: other(3)
 
         if (el >= 0.0_wp) then
-            call one_side(x, xd, el, er, demand, m)
+            call one_side(x, xd, el, er, accuracy, m)
         else if (er <= 0.0_wp) then
-            call one_side(x, xd, -er, -el, demand, m)
+            call one_side(x, xd, -er, -el, accuracy, m)
         else
-            call one_side(x, xd, 0.0_wp, er, demand, m)
+            call one_side(x, xd, 0.0_wp, er, accuracy, m)
             if (-el < er .or. -el > er) then
-                call one_side(x, xd, 0.0_wp, -el, demand, other)
+                call one_side(x, xd, 0.0_wp, -el, accuracy, other)
                 m = m + other
             else
                 m = 2.0_wp*m
@@ -151,9 +151,9 @@ contains
     end subroutine any_edges
 
     !> The same for 0 <= el <= er: scaling, and the limit of a point source.
-    pure subroutine one_side(x, xd, el, er, demand, m)
+    pure subroutine one_side(x, xd, el, er, accuracy, m)
         real(wp), intent(in) :: x, xd, el, er
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
         ! Tuned [half-lengths]: Distances in half-lengths beyond are as far as this. Origin:
@@ -166,11 +166,11 @@ contains
         if (x > near .or. el > near) then
             call point_moments(x, xd, el, er, m)
         else if (er > far) then
-            call unit_moments(x/xd, el/xd, far/xd, demand, m)
+            call unit_moments(x/xd, el/xd, far/xd, accuracy, m)
             m(1) = m(1) + 0.5_wp*pi*(log(er) - log(far))
             m(3) = m(3) + 0.5_wp*pi*(log(er) - log(far))
         else
-            call unit_moments(x/xd, el/xd, er/xd, demand, m)
+            call unit_moments(x/xd, el/xd, er/xd, accuracy, m)
         end if
     end subroutine one_side
 
@@ -208,9 +208,9 @@ contains
     end subroutine point_moments
 
     !> The same for X >= 0, 0 <= cl <= cr in half-lengths: choose the rule.
-    pure subroutine unit_moments(x, cl, cr, demand, m)
+    pure subroutine unit_moments(x, cl, cr, accuracy, m)
         real(wp), intent(in) :: x, cl, cr
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
         real(wp) :: sigma, other(3)
@@ -223,24 +223,24 @@ contains
             return
         end if
         sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cl*cl) + sqrt((x + 1.0_wp)**2 + cl*cl))
-        rule = least_far_rule(sigma, demand)
-        if (rule <= demand%last_far) then
+        rule = least_far_rule(sigma, accuracy)
+        if (rule <= accuracy%last_far) then
             if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
                 call narrow_far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cl, cr, m)
             else
                 call far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cl, cr, m)
             end if
-        else if (cr <= demand%thin*(1.0_wp - x) .and. cr <= demand%loss*(cr - cl)) then
-            call series_moments(x, cl, cr, demand%tail, m)
+        else if (cr <= accuracy%thin*(1.0_wp - x) .and. cr <= accuracy%loss*(cr - cl)) then
+            call series_moments(x, cl, cr, accuracy%tail, m)
         else if (x > 1.0_wp .or. cl > on_the_edge) then
-            call near_moments(x, cl, cr, max(cl, x - 1.0_wp), demand, m)
-        else if (cr >= demand%split) then
+            call near_moments(x, cl, cr, max(cl, x - 1.0_wp), accuracy, m)
+        else if (cr >= accuracy%split) then
             sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cr*cr) + sqrt((x + 1.0_wp)**2 + cr*cr))
-            rule = least_far_rule(sigma, demand)
-            if (rule <= demand%last_far) then
+            rule = least_far_rule(sigma, accuracy)
+            if (rule <= accuracy%last_far) then
                 call smooth_far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cr, m)
             else
-                call smooth_near_moments(x, cr, demand, m)
+                call smooth_near_moments(x, cr, accuracy, m)
             end if
             call logarithm_moments(x, other)
             m = m - other

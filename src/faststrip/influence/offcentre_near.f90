@@ -4,7 +4,7 @@ module faststrip_influence_offcentre_near
     use faststrip_numerics_logarithm, only: log_1p
     use faststrip_influence_angle_rules, only: cosine, sine
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
-    use faststrip_influence_offcentre_rules, only: demand_t, interval, least_near_rule, &
+    use faststrip_influence_offcentre_rules, only: accuracy_t, interval, least_near_rule, &
                                                    scalar_size, scalar_start
     implicit none
     private
@@ -14,16 +14,16 @@ module faststrip_influence_offcentre_near
 contains
 
     !> Trapezium rule in phi, `u = X + c sinh(mid + half cos(phi))`.
-    pure subroutine near_moments(x, cl, cr, c, demand, m)
+    pure subroutine near_moments(x, cl, cr, c, accuracy, m)
         real(wp), intent(in) :: x, cl, cr, c
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
         real(wp) :: mid, half
         integer :: rule
 
         call interval(x, c, mid, half)
-        rule = least_near_rule(half, demand)
+        rule = least_near_rule(half, accuracy)
         if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
             call narrow_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
                                   sine(scalar_start(rule)), x, cl, cr, c, mid, half, m)
@@ -105,9 +105,9 @@ contains
     end subroutine narrow_near_sums
 
     !> The part ln(c + s) of the kernel of an edge on the field point, trapezium rule in phi.
-    pure subroutine smooth_near_moments(x, c, demand, m)
+    pure subroutine smooth_near_moments(x, c, accuracy, m)
         real(wp), intent(in) :: x, c
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
         real(wp) :: mid, half
@@ -115,7 +115,7 @@ contains
 
         call interval(x, c, mid, half)
         ! The nearest singularities are twice as far as those of a kernel with two edges.
-        rule = least_near_rule(0.5_wp*half, demand)
+        rule = least_near_rule(0.5_wp*half, accuracy)
         call smooth_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
                               sine(scalar_start(rule)), x, c, mid, half, m)
     end subroutine smooth_near_moments

@@ -6,7 +6,7 @@ module faststrip_influence_offcentre_rules
     implicit none
     private
 
-    public :: demand_t, for_value, for_gradient, least_far_rule, least_near_rule, interval
+    public :: accuracy_t, for_value, for_gradient, least_far_rule, least_near_rule, interval
     public :: n_scalar_rules, scalar_size, scalar_start
 
     ! Fewer sizes than the columns have, for choosing one costs as much as some nodes: 4, 6, 8, 12,
@@ -27,8 +27,8 @@ module faststrip_influence_offcentre_rules
     real(wp), parameter :: value_near(n_scalar_rules) = half_t(choice, exact)
     real(wp), parameter :: gradient_near(n_scalar_rules) = half_t(choice, fine)
 
-    !> What one accuracy asks of the rules.
-    type :: demand_t
+    !> Limits of the rules and forms that meet one accuracy.
+    type :: accuracy_t
         real(wp) :: far(n_scalar_rules)  !! least sigma of each far rule
         real(wp) :: near(n_scalar_rules) !! largest half interval of each near rule
         integer :: last_far       !! largest far rule worth its price
@@ -36,39 +36,40 @@ module faststrip_influence_offcentre_rules
         real(wp) :: tail          !! of the series, where it may be cut
         real(wp) :: loss          !! largest cr/(cr - cl) when primitives are subtracted
         real(wp) :: split         !! least cr for taking the logarithm apart
-    end type demand_t
+    end type accuracy_t
 
     ! Tuned [several]: Limits of the forms for values. Origin: chosen for time and errors of single
-    ! values, 3e-16 (95 %; largest 2e-15); the order is that of demand_t. One at a time, at half and
-    ! double: last_far takes 1.04 and 1.09 times as long, and at half errs by 4e-15; thin takes 1.08
-    ! and 0.94; tail and split change nothing; loss errs by 1e-15 and 6e-15.
-    type(demand_t), parameter :: for_value = demand_t(value_far, value_near, 9, 0.1_wp, &
-                                                      1.0e-16_wp, 20.0_wp, 0.5_wp)
+    ! values, 3e-16 (95 %; largest 2e-15); the order is that of accuracy_t. One at a time, at half
+    ! and double: last_far takes 1.04 and 1.09 times as long, and at half errs by 4e-15; thin takes
+    ! 1.08 and 0.94; tail and split change nothing; loss errs by 1e-15 and 6e-15.
+    type(accuracy_t), parameter :: for_value = accuracy_t(value_far, value_near, 9, 0.1_wp, &
+                                                          1.0e-16_wp, 20.0_wp, 0.5_wp)
     ! Tuned [several]: Limits of the forms for derivatives. Origin: the same for derivatives, errors
     ! 7e-12, of d_x 4e-11. last_far takes 1.08 and 1.2 times as long, and at half errs by 2e-9; thin
     ! takes 1.09 and 0.96; tail errs by 2e-12 and 1e-11; loss and split change nothing.
-    type(demand_t), parameter :: for_gradient = demand_t(gradient_far, gradient_near, 7, 0.2_wp, &
-                                                         1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
+    type(accuracy_t), parameter :: for_gradient = accuracy_t(gradient_far, gradient_near, 7, &
+                                                             0.2_wp, 1.0e-11_wp, 1.0e3_wp, &
+                                                             1.0e-3_wp)
 
 contains
 
     !> The smallest trapezium rule in theta that is accurate enough; n_scalar_rules + 1 if none is.
-    pure integer function least_far_rule(sigma, demand) result(rule)
+    pure integer function least_far_rule(sigma, accuracy) result(rule)
         real(wp), intent(in) :: sigma
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
 
         do rule = 1, n_scalar_rules
-            if (sigma >= demand%far(rule)) exit
+            if (sigma >= accuracy%far(rule)) exit
         end do
     end function least_far_rule
 
     !> The smallest trapezium rule in phi that is accurate enough; the largest if none is.
-    pure integer function least_near_rule(half, demand) result(rule)
+    pure integer function least_near_rule(half, accuracy) result(rule)
         real(wp), intent(in) :: half
-        type(demand_t), intent(in) :: demand
+        type(accuracy_t), intent(in) :: accuracy
 
         do rule = 1, n_scalar_rules - 1
-            if (half <= demand%near(rule)) exit
+            if (half <= accuracy%near(rule)) exit
         end do
     end function least_near_rule
 
