@@ -35,7 +35,7 @@ contains
         call release_tang(stage%workspace)
     end subroutine release_tang_stage
 
-    !> Solve the tangential problem on NORM's grid, or on one laid under the ellipse or the strips.
+    !> Solve the tangential problem on NORM's grid, or on one under the ellipse or the strips.
     subroutine solve_by_tang(stage, numerics, case, workspace, norm, with_field, tangential, &
                              field, status)
         type(tang_stage_t), intent(inout) :: stage   !! grows

@@ -38,7 +38,7 @@ contains
 
     !> Middle of column i, mm.
     elemental real(wp) function element_x(grid, i)
-        type(contact_grid_t), intent(in) :: grid !! a placed grid
+        type(contact_grid_t), intent(in) :: grid !! with its elements positioned
         integer, intent(in) :: i                 !! any integer
 
         element_x = grid%x_first + (i - 1)*grid%dx
@@ -46,7 +46,7 @@ contains
 
     !> Middle of row j, mm.
     elemental real(wp) function element_y(grid, j)
-        type(contact_grid_t), intent(in) :: grid !! a placed grid
+        type(contact_grid_t), intent(in) :: grid !! with its elements positioned
         integer, intent(in) :: j                 !! any integer
 
         element_y = grid%y_first + (j - 1)*grid%dy
@@ -55,7 +55,7 @@ contains
     !> Carry the pressures of another grid over: their squares, nearly a parabola across a patch,
     !> are interpolated linearly along x and along y.
     pure subroutine take_pressures(grid, other)
-        type(contact_grid_t), intent(inout) :: grid !! placed; `pressure` is written
+        type(contact_grid_t), intent(inout) :: grid !! positioned; `pressure` is written
         type(contact_grid_t), intent(in) :: other   !! with pressures
 
         integer :: i, j, k, l

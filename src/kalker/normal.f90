@@ -25,10 +25,10 @@ module faststrip_kalker_normal
                                             solve_on_grid, guess_on_heights, take_figures
     use faststrip_kalker_normal_options, only: norm_options_t, norm_most_elements, check_options, &
                                                check_numbers, check_load, check_heights
-    use faststrip_kalker_normal_place, only: extent_t, guess_extent, extent_of_strips, &
-                                             extent_of_grid, place_grid, take_missing_rows, &
-                                             columns_suffice, reaches_end_of_data, &
-                                             guess_pressures
+    use faststrip_kalker_normal_position, only: extent_t, guess_extent, extent_of_strips, &
+                                                extent_of_grid, position_grid, take_missing_rows, &
+                                                columns_suffice, reaches_end_of_data, &
+                                                guess_pressures
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
@@ -43,8 +43,8 @@ module faststrip_kalker_normal
     public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
-    ! Tuned [placings]. Origin: safeguard.
-    integer, parameter :: max_placings = 12       ! of the grid, for one spacing
+    ! Tuned [positions]. Origin: safeguard.
+    integer, parameter :: max_positions = 12      ! of the grid, for one spacing
     ! Of the half-length, when columns are missing, at first and in the end.
     ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: enlargement = 1.3_wp, late_enlargement = 2.0_wp
@@ -95,7 +95,7 @@ module faststrip_kalker_normal
         !> Told of each grid before it is solved, for those who have to wait.
         subroutine norm_watch(grid)
             import :: contact_grid_t
-            type(contact_grid_t), intent(in) :: grid !! placed
+            type(contact_grid_t), intent(in) :: grid !! positioned
         end subroutine norm_watch
     end interface
 
@@ -396,16 +396,16 @@ contains
 
         type(task_t) :: task
         type(minimised_t) :: found
-        integer :: placing
+        integer :: k
         logical :: is_missing
 
         call set_task(problem%demand, workspace%curve%h_lowest, problem%compliance, spacing%dy, &
                       problem%options, task, status)
         if (is_error(status)) return
         task%tolerance = spacing%tolerance
-        do placing = 1, max_placings
-            call place_grid(workspace%curve, extent, spacing%dx, spacing%dy, &
-                            problem%options%most_elements, workspace%grid, status)
+        do k = 1, max_positions
+            call position_grid(workspace%curve, extent, spacing%dx, spacing%dy, &
+                               problem%options%most_elements, workspace%grid, status)
             if (is_error(status)) return
             if (.not. task%by_load .and. task%penetration <= minval(workspace%grid%height)) then
                 call set_status(status, st_no_contact, 'the elements are too large: none has its ' &
@@ -413,7 +413,7 @@ contains
                 return
             end if
             if (present(watch)) call watch(workspace%grid)
-            if (placing == 1 .and. spacing%from_strips) then
+            if (k == 1 .and. spacing%from_strips) then
                 call pressures_of_strips(strips, workspace%grid)
             else if (workspace%last%nx > 0) then
                 call take_pressures(workspace%grid, workspace%last)
@@ -428,7 +428,7 @@ contains
             if (.not. columns_suffice(workspace%grid)) then
                 is_missing = .true.
                 extent%half_length = max(extent%half_length, spacing%dx) &
-                                     *merge(enlargement, late_enlargement, placing <= 3)
+                                     *merge(enlargement, late_enlargement, k <= 3)
             end if
             if (.not. is_missing) then
                 call finish(workspace, problem%compliance, found, result)

@@ -16,7 +16,7 @@ contains
     !> xd are linear in y, towards an end of a patch they fall to zero.
     pure subroutine pressures_of_strips(strips, grid)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
-        type(contact_grid_t), intent(inout) :: grid  !! placed; `pressure` is written
+        type(contact_grid_t), intent(inout) :: grid  !! positioned; `pressure` is written
 
         integer :: i, j, k
         real(wp) :: y, p0_squared, xd_squared

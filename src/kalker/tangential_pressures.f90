@@ -24,33 +24,33 @@ module faststrip_kalker_tangential_pressures
 
 contains
 
-    !> Lay a grid under a strip solution and put its pressures there, scaled to its load.
+    !> Position a grid under a strip solution and put its pressures there, scaled to its load.
     subroutine sample_strips(strips, dx, dy, most_elements, grid, status)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         real(wp), intent(in) :: dx, dy               !! sides of the elements, mm
         integer, intent(in) :: most_elements         !! the grid may have
-        type(contact_grid_t), intent(inout) :: grid  !! placed; heights are zero
+        type(contact_grid_t), intent(inout) :: grid  !! positioned; heights are zero
         type(status_t), intent(out) :: status        !! those of `check_strips`; `st_bad_argument`,
                                                      !! `st_not_finite` (sides), `st_out_of_range`
                                                      !! (elements), `st_no_contact` (none is hit)
 
         call check_strips(strips, status)
         if (is_error(status)) return
-        call place(maxval(strips%half_length(:strips%n)), strips%y_left(1), &
-                   strips%y_right(strips%n), dx, dy, most_elements, grid, status)
+        call position_grid(maxval(strips%half_length(:strips%n)), strips%y_left(1), &
+                           strips%y_right(strips%n), dx, dy, most_elements, grid, status)
         if (is_error(status)) return
         call pressures_of_strips(strips, grid)
         call scale_to(strips_load(strips), grid, status)
     end subroutine sample_strips
 
-    !> Lay a grid under an ellipse and put Hertz's pressures there, scaled to the load.
+    !> Position a grid under an ellipse and put Hertz's pressures there, scaled to the load.
     subroutine sample_ellipse(a, b, y0, load, dx, dy, most_elements, grid, status)
         real(wp), intent(in) :: a, b         !! semi-axes along x and y, mm
         real(wp), intent(in) :: y0           !! middle, mm
         real(wp), intent(in) :: load         !! N
         real(wp), intent(in) :: dx, dy       !! sides of the elements, mm
         integer, intent(in) :: most_elements !! the grid may have
-        type(contact_grid_t), intent(inout) :: grid !! placed; heights are zero
+        type(contact_grid_t), intent(inout) :: grid !! positioned; heights are zero
         type(status_t), intent(out) :: status !! `st_bad_argument`, `st_not_finite`,
                                               !! `st_out_of_range`, `st_no_contact`
         integer :: i, j
@@ -67,7 +67,7 @@ contains
             call set_status(status, st_out_of_range, 'an ellipse beyond all proportion')
             return
         end if
-        call place(a, y0 - b, y0 + b, dx, dy, most_elements, grid, status)
+        call position_grid(a, y0 - b, y0 + b, dx, dy, most_elements, grid, status)
         if (is_error(status)) return
         pmax = 1.5_wp*(load/(pi*a))/b ! Given: Hertz
         do j = 1, grid%ny
@@ -79,8 +79,8 @@ contains
         call scale_to(load, grid, status)
     end subroutine sample_ellipse
 
-    !> Lay a grid about the middle of a rectangle.
-    subroutine place(half_length, y_left, y_right, dx, dy, most_elements, grid, status)
+    !> Position a grid about the middle of a rectangle.
+    subroutine position_grid(half_length, y_left, y_right, dx, dy, most_elements, grid, status)
         real(wp), intent(in) :: half_length, y_left, y_right, dx, dy
         integer, intent(in) :: most_elements
         type(contact_grid_t), intent(inout) :: grid
@@ -114,7 +114,7 @@ contains
         grid%x_first = -0.5_wp*(grid%nx - 1)*dx
         grid%y_first = 0.5_wp*(y_left + y_right) - 0.5_wp*(grid%ny - 1)*dy
         grid%height = 0.0_wp
-    end subroutine place
+    end subroutine position_grid
 
     subroutine scale_to(load, grid, status)
         real(wp), intent(in) :: load

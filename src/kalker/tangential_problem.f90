@@ -12,8 +12,8 @@
 !>   both elements slide. In adhesion both vanish and the node's slip serves.
 !> - **K2** *Leading edge.* Where nothing slides ahead, the traction is like the root of the
 !>   distance from the edge. A lattice of tractions, and nodes half a step ahead of them, has this
-!>   root begin `edge_place` = 0.826 dx ahead of the first middle, wherever the true edge is (the
-!>   end of a plane problem's solution, fitted far inside; 0.5 is the mean of the true place, and
+!>   root begin `edge_position` = 0.826 dx ahead of the first middle, wherever the true edge is
+!>   (the end of a plane problem's solution, fitted far inside; 0.5 is the mean of the true one, and
 !>   the difference is the first-order error of the forces). A compliance c on the leading element,
 !>   `u(first) + c p(first)`, moves it: in the plane problem with `u = -k int p ln|x|`, it lies at
 !>   f dx for `c = k dx edge_strength [1/(f + edge_reach) - 1]`, a rational function because c
@@ -55,10 +55,10 @@ module faststrip_kalker_tangential_problem
     real(wp), parameter :: edge_strength = 2.7046_wp
     ! Given: fitted, the plane contact of cylinders.
     real(wp), parameter :: edge_reach = 0.174_wp
-    ! Smallest place of an edge, just short of where the element carries nothing.
+    ! Smallest position of an edge, just short of where the element carries nothing.
     ! Given: fitted, see edge_fit.
     real(wp), parameter :: nearest_edge = -0.17_wp
-    ! norm_edge: of the plane contact of cylinders, 60 places of its edge in the grid.
+    ! norm_edge: of the plane contact of cylinders, 60 positions of its edge in the grid.
     ! Given: coefficients of a fit.
     real(wp), parameter :: edge_fit(0:4) = [-0.17462861_wp, 0.99658564_wp, 0.43443832_wp, &
                                             0.13650724_wp, 0.15087991_wp]
@@ -272,7 +272,7 @@ contains
         type(material_t), intent(in) :: material
         integer, intent(in) :: edges
 
-        real(wp) :: place, c, factor
+        real(wp) :: position, c, factor
         integer :: i, behind
 
         factor = 2.0_wp/(pi*combined_shear_modulus(material))
@@ -283,8 +283,8 @@ contains
                 if (i + behind >= problem%n) exit
                 if (problem%is_leading(i + behind + 1)) exit
             end do
-            place = edge_place(problem%pn(i:i + behind), edges)
-            c = edge_strength*(1.0_wp/(max(place, nearest_edge) + edge_reach) - 1.0_wp)
+            position = edge_position(problem%pn(i:i + behind), edges)
+            c = edge_strength*(1.0_wp/(max(position, nearest_edge) + edge_reach) - 1.0_wp)
             ! A negative one might make the element's own compliance negative at oblique edges.
             problem%edge(:, i) = max(c, 0.0_wp)*factor &
                                  *[1.0_wp - combined_poisson_ratio(material), 1.0_wp]
@@ -292,34 +292,34 @@ contains
     end subroutine treat_edges
 
     !> Way from the first middle to the edge over dx, from the pressures of the first elements.
-    pure real(wp) function edge_place(p, edges) result(place)
+    pure real(wp) function edge_position(p, edges) result(position)
         real(wp), intent(in) :: p(:)  !! up to three, leading one first
         integer, intent(in) :: edges
 
         real(wp) :: slope, bend, root, q(3), t
 
         if (edges == edges_of_norm) then
-            place = 0.5_wp - edge_reach
+            position = 0.5_wp - edge_reach
             if (size(p) < 2) return
             if (p(2) <= p(1)) return
             t = min(p(1)/p(2), largest_ratio)
-            place = edge_fit(0) + t*(edge_fit(1) + t*(edge_fit(2) + t*(edge_fit(3) &
+            position = edge_fit(0) + t*(edge_fit(1) + t*(edge_fit(2) + t*(edge_fit(3) &
                                                                        + t*edge_fit(4))))
             return
         end if
-        place = 0.5_wp
+        position = 0.5_wp
         if (size(p) < 2) return
         if (p(2) <= p(1)) return
         q(:2) = (p(:2)/p(2))**2
-        place = min(q(1)/(q(2) - q(1)), 1.0_wp)
+        position = min(q(1)/(q(2) - q(1)), 1.0_wp)
         if (size(p) < 3) return
         q(3) = (p(3)/p(2))**2
         bend = 0.5_wp*(q(3) - 2.0_wp*q(2) + q(1))
         slope = q(2) - q(1) - bend
         root = slope**2 - 4.0_wp*bend*q(1)
         if (slope <= 0.0_wp .or. root <= 0.0_wp) return
-        place = min(2.0_wp*q(1)/(slope + sqrt(root)), 1.0_wp)
-    end function edge_place
+        position = min(2.0_wp*q(1)/(slope + sqrt(root)), 1.0_wp)
+    end function edge_position
 
     !> Elastic part of the slip at the nodes by tractions on the elements.
     subroutine apply_influence(problem, p, slip)

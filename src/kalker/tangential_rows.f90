@@ -30,7 +30,7 @@ contains
 
     !> Cut the rows into blocks and make capacity.
     subroutine size_rows(rows, problem)
-        type(rows_t), intent(inout) :: rows      !! blocks laid out
+        type(rows_t), intent(inout) :: rows      !! blocks with their sizes
         type(problem_t), intent(in) :: problem   !! made
 
         integer :: row, first, n, parts, part, most, capacity

@@ -2,8 +2,8 @@
 !>
 !> Where nothing slides the tractions grow beyond all bounds at the trailing edge, and forces err by
 !> the first order of the elements' size, with a scatter by where the edge lies in them. Each grid
-!> is laid several times, shifted along x by parts of an element, which takes most of the scatter
-!> away; the line through the means of grids of several sizes gives the value for size zero.
+!> is positioned several times, shifted along x by parts of an element, which takes most of the
+!> scatter away; the line through the means of grids of several sizes gives the value for size zero.
 module faststrip_lab_bench_kalker
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
@@ -30,7 +30,7 @@ module faststrip_lab_bench_kalker
         2.5_wp, 1.0_wp/0.3_wp, 5.0_wp, 10.0_wp]
     real(wp), parameter :: quick_ratios(3) = [0.2_wp, 1.0_wp, 5.0_wp]
     real(wp), parameter :: nus(3) = [0.0_wp, 0.25_wp, 0.5_wp]
-    ! Rows of the grids, and how often each is laid.
+    ! Rows of the grids, and how often each is positioned.
     integer, parameter :: rows(9) = [24, 26, 28, 30, 32, 34, 36, 38, 40]
     integer, parameter :: shifts = 4
     ! C23 by the force of spin, C32 by the moment of lateral creepage; C32 is -C23.

@@ -151,10 +151,10 @@ contains
         call rotate(-head%y1, head%z1, crown_y, crown_z, head%joint(4), z_end)
         call rotate(head%y1, head%z1, crown_y, crown_z, head%joint(5), z_end)
         call rotate(head%y2, head%z2, crown_y, crown_z, head%joint(6), z_end)
-        call place_flank(-1.0_wp, head%flank_y(1), head%flank_z(1), head%flank_dz(1), y_end)
+        call turn_flank(-1.0_wp, head%flank_y(1), head%flank_z(1), head%flank_dz(1), y_end)
         head%joint(1) = y_end
         head%joint(2) = head%flank_y(1)
-        call place_flank(1.0_wp, head%flank_y(2), head%flank_z(2), head%flank_dz(2), y_end)
+        call turn_flank(1.0_wp, head%flank_y(2), head%flank_z(2), head%flank_dz(2), y_end)
         head%joint(7) = head%flank_y(2)
         head%joint(8) = y_end
 
@@ -170,7 +170,7 @@ contains
         end subroutine rotate
 
         ! One flank in the canted frame, and the y where the head ends.
-        pure subroutine place_flank(side, y, z, slope, y_last)
+        pure subroutine turn_flank(side, y, z, slope, y_last)
             real(wp), intent(in) :: side
             real(wp), intent(out) :: y, z, slope, y_last
             real(wp) :: outward, depth, z_last
@@ -187,7 +187,7 @@ contains
                          + side*(radius(3) - vertical_margin)
                 y = y_last
             end if
-        end subroutine place_flank
+        end subroutine turn_flank
     end subroutine turn_head
 
     !> The canted head and its first two derivatives; the origin is its highest point.

@@ -33,10 +33,10 @@ module faststrip_normal_lattice
                                      st_edge_of_data, st_overlap_left, st_linear_algebra, &
                                      st_workspace_too_small
     use faststrip_base_material, only: check_compliance
-    use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, place_elements, &
+    use faststrip_normal_lattice_elements, only: elements_t, reserve_elements, position_elements, &
                                                  solve_elements, element_columns
     use faststrip_geometry_gap_curve, only: gap_curve_t, mirror_gap_curve
-    use faststrip_normal_lattice_cells, only: lattice_cells_t, reserve_cells, place_cells, &
+    use faststrip_normal_lattice_cells, only: lattice_cells_t, reserve_cells, position_cells, &
                                               set_reach, record_strips
     use faststrip_normal_lattice_overlap, only: find_waves, overlap_tolerance
     use faststrip_normal_lattice_ranges, only: first_ranges, next_ranges
@@ -64,7 +64,7 @@ module faststrip_normal_lattice
     integer, parameter :: spare_cells = 10       ! and so many more
     ! Tuned [cells]. Origin: cost of the first solution.
     integer, parameter :: coarse_cells = 15      ! at most across the widest range of the first
-    ! Tuned [lattices]: How often the cells are placed. Origin: two for the error, one to find the
+    ! Tuned [lattices]: How often cells are positioned. Origin: two for the error, one to find the
     ! ranges.
     integer, parameter :: fewest_lattices = 3
     ! Tuned [lattices]: The same, most. Origin: safeguard.
@@ -230,7 +230,7 @@ contains
         end if
     end subroutine check_input
 
-    !> Place lattices until nothing overlaps outside the patches.
+    !> Position lattices until nothing overlaps outside the patches.
     subroutine solve(workspace, curve, compliance, demand, n_strips, strips, depth, status)
         type(lattice_workspace_t), intent(inout) :: workspace
         type(gap_curve_t), intent(in) :: curve
@@ -267,9 +267,9 @@ contains
             cells%n = 0
             do lattice = 1, max_lattices
                 if (lattice == 1) then
-                    call place_cells(cells, curve, min(wanted, coarse_cells), most)
+                    call position_cells(cells, curve, min(wanted, coarse_cells), most)
                 else
-                    call place_cells(cells, curve, min(wanted + 1, most), most)
+                    call position_cells(cells, curve, min(wanted + 1, most), most)
                 end if
                 call solve_cells(workspace, compliance, demand, depth, solved)
                 if (.not. solved) then
@@ -309,8 +309,8 @@ contains
 
         call set_reach(workspace%cells, depth)
         associate (cells => workspace%cells, n => workspace%cells%n)
-            call place_elements(workspace%elements, cells%y_left(:n), cells%y_right(:n), &
-                                cells%height(:n), cells%inv2r(:n), cells%reach(:n))
+            call position_elements(workspace%elements, cells%y_left(:n), cells%y_right(:n), &
+                                   cells%height(:n), cells%inv2r(:n), cells%reach(:n))
             call solve_elements(workspace%elements, compliance, demand, depth, solved)
             if (.not. solved) return
             call element_columns(workspace%elements, n, cells%p0(:n), cells%half_length(:n))

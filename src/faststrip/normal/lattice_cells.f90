@@ -6,7 +6,7 @@ module faststrip_normal_lattice_cells
     implicit none
     private
 
-    public :: lattice_cells_t, reserve_cells, place_cells, set_reach, record_strips
+    public :: lattice_cells_t, reserve_cells, position_cells, set_reach, record_strips
     public :: max_ranges, same
 
     ! Tuned [ranges]: Most ranges. Origin: capacity.
@@ -22,7 +22,7 @@ module faststrip_normal_lattice_cells
     ! integers to each other, and a half would leave the number to the rounding.
     ! Tuned [cells]. Origin: chosen: no ratio of small whole numbers.
     real(wp), parameter :: cells_rounding = 0.5369_wp
-    ! Tuned [1]. Origin: chosen: lengths hardly grow more from one placing to the next.
+    ! Tuned [1]. Origin: chosen: lengths hardly grow more from one lattice to the next.
     real(wp), parameter :: reach_margin = 1.3_wp ! of a cell, over the length found last
     ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: depth_margin = 1.05_wp ! the penetration may still rise by
@@ -67,7 +67,7 @@ contains
     end subroutine reserve_cells
 
     !> Divide the ranges into even cells, and keep the lengths of the lattice before.
-    pure subroutine place_cells(cells, curve, wanted, most)
+    pure subroutine position_cells(cells, curve, wanted, most)
         type(lattice_cells_t), intent(inout) :: cells !! with its ranges
         type(gap_curve_t), intent(in) :: curve        !! a gap that was set
         integer, intent(in) :: wanted                 !! cells across the widest range
@@ -85,7 +85,7 @@ contains
             call gap_at(curve, cells%y(k), h, cells%inv2r(k))
             cells%height(k) = h - curve%h_lowest
         end do
-    end subroutine place_cells
+    end subroutine position_cells
 
     !> Keep places and lengths of the cells that press.
     pure subroutine keep_lengths(cells)
@@ -176,7 +176,7 @@ contains
     !> How far the cells go along x, mm: to where the undeformed gap is the penetration, but not
     !> far beyond the lengths of the lattice before.
     pure subroutine set_reach(cells, depth)
-        type(lattice_cells_t), intent(inout) :: cells !! placed
+        type(lattice_cells_t), intent(inout) :: cells !! positioned
         real(wp), intent(in) :: depth !! penetration above the lowest height, mm
 
         real(wp) :: length, share

@@ -21,7 +21,7 @@ module faststrip_normal_lattice_elements
     implicit none
     private
 
-    public :: elements_t, reserve_elements, place_elements, solve_elements, element_columns
+    public :: elements_t, reserve_elements, position_elements, solve_elements, element_columns
 
     ! Tuned [elements]: Most and fewest rows. Origin: capacity, and cost: it rises with its cube.
     integer, parameter :: most_rows = 10, fewest_rows = 4 ! on one side of x = 0
@@ -83,7 +83,7 @@ contains
     end subroutine reserve_elements
 
     !> Divide the cells into elements and find their influence upon each other.
-    pure subroutine place_elements(elements, y_left, y_right, height, inv2r, reach)
+    pure subroutine position_elements(elements, y_left, y_right, height, inv2r, reach)
         type(elements_t), intent(inout) :: elements !! reserved
         real(wp), intent(in) :: y_left(:), y_right(:) !! of the cells, (n), mm
         real(wp), intent(in) :: height(:)             !! gap in their middles, (n), mm
@@ -122,7 +122,7 @@ contains
                 end do
             end do
         end associate
-    end subroutine place_elements
+    end subroutine position_elements
 
     !> Mean of 1/r between two elements whose middles are x apart along x, 1/mm.
     pure real(wp) function mean_inverse(e, i, j, x) result(mean)
@@ -174,7 +174,7 @@ contains
     !> solution for the elements that press as far as none is left without pressure, which lowers
     !> the energy, and elements join when that is reached.
     subroutine solve_elements(elements, compliance, demand, depth, solved)
-        type(elements_t), intent(inout) :: elements !! placed
+        type(elements_t), intent(inout) :: elements !! positioned
         real(wp), intent(in) :: compliance          !! H, 1/MPa
         type(demand_t), intent(in) :: demand        !! load, or penetration above the lowest height
         real(wp), intent(inout) :: depth            !! penetration above the lowest height, mm

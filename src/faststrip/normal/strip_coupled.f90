@@ -18,7 +18,7 @@ module faststrip_normal_strip_coupled
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
-    use faststrip_normal_strip_state, only: strip_workspace_t, place_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
@@ -69,7 +69,7 @@ contains
     !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
     !> nothing of the patches and the workspace's strips counts.
     pure subroutine settle_coupled(workspace, compliance, demand, tolerance, patches, cost, settled)
-        type(strip_workspace_t), intent(inout) :: workspace !! with strips placed and started
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
         real(wp), intent(in) :: tolerance            !! relative size of the residuals left
@@ -214,7 +214,7 @@ contains
             call move(workspace, ends, scale, step(2*n + 2:m), patches)
             possible = in_order(workspace, patches)
             if (.not. possible) return
-            call place_edges(workspace, patches)
+            call position_edges(workspace, patches)
             call mark_leaving_strips(strips%y_left(:n), strips%y_right(:n), strips%inv2r(:n), &
                                      strips%p0(:n), strips%half_length(:n), strips%leaves(:n))
             possible = .not. any(strips%leaves(:n))
@@ -357,10 +357,10 @@ contains
                 else
                     moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
                 end if
-                call place_edges(workspace, moved)
+                call position_edges(workspace, moved)
                 call strip_residual(workspace%strips, compliance, demand, other)
                 jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
-                call place_edges(workspace, patches)
+                call position_edges(workspace, patches)
             end do
             call lu_factor(m, jacobian, workspace%newton%pivot, singular)
         end associate

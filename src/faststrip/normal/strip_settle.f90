@@ -3,12 +3,12 @@
 !>
 !> A level goes from state to state. Each is a procedure that says which comes next:
 !>
-!>     place    cut the patches into strips              -> newton, couple, give_up
-!>     newton   solve for the strips, ends given         -> move, place, give_up
-!>     move     let ends move, overlaps join             -> place, couple, done
-!>     couple   solve for strips and ends together       -> done, place
-!>     done     the ends rest
-!>     give_up  a limit was met; the best converged pass counts if its ends moved little
+!>     position  cut the patches into strips              -> newton, couple, give_up
+!>     newton    solve for the strips, ends given         -> move, position, give_up
+!>     move      let ends move, overlaps join             -> position, couple, done
+!>     couple    solve for strips and ends together       -> done, position
+!>     done      the ends rest
+!>     give_up   a limit was met; the best converged pass counts if its ends moved little
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
@@ -19,21 +19,21 @@ module faststrip_normal_strip_settle
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, place_strips, remember
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
 
     public :: level_t, settling_t, settle
-    public :: state_place, state_newton, state_move, state_couple, state_done, state_give_up
+    public :: state_position, state_newton, state_move, state_couple, state_done, state_give_up
 
     ! Given: numbers of states.
-    integer, parameter :: state_place = 1   !! cut the patches into strips
-    integer, parameter :: state_newton = 2  !! solve for the strips, ends given
-    integer, parameter :: state_move = 3    !! let ends move, overlaps join
-    integer, parameter :: state_couple = 4  !! solve for strips and ends together
-    integer, parameter :: state_done = 5    !! the ends rest
-    integer, parameter :: state_give_up = 6 !! a limit was met
+    integer, parameter :: state_position = 1 !! cut the patches into strips
+    integer, parameter :: state_newton = 2   !! solve for the strips, ends given
+    integer, parameter :: state_move = 3     !! let ends move, overlaps join
+    integer, parameter :: state_couple = 4   !! solve for strips and ends together
+    integer, parameter :: state_done = 5     !! the ends rest
+    integer, parameter :: state_give_up = 6  !! a limit was met
 
     ! Tuned [passes]. Origin: safeguard.
     integer, parameter :: max_passes = 40    ! in one level
@@ -75,11 +75,11 @@ module faststrip_normal_strip_settle
 
     !> Where the settling of a level stands, and what it leaves.
     type :: settling_t
-        integer :: state = state_place    !! one of the `state_` numbers
+        integer :: state = state_position !! one of the `state_` numbers
         type(patches_t) :: patches        !! those the next pass starts with
         type(patches_t) :: solved         !! those of this pass
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
-        integer :: pass = 0               !! how often strips were placed
+        integer :: pass = 0               !! how often strips were positioned
         integer :: splits = 0             !! patches split by strips that left
         integer :: couplings = 0          !! how often strips and ends were tried together
         real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
@@ -105,8 +105,8 @@ contains
         call begin(level, settling)
         do
             select case (settling%state)
-            case (state_place)
-                call place(workspace, level, size(strips%p0), result%cost, settling)
+            case (state_position)
+                call position(workspace, level, size(strips%p0), result%cost, settling)
             case (state_newton)
                 call solve_pass(workspace, compliance, demand, level, settling, result)
             case (state_move)
@@ -126,7 +126,7 @@ contains
         type(settling_t), intent(inout) :: settling
 
         call free_ends(settling%patches)
-        settling%state = state_place
+        settling%state = state_position
         settling%solved = settling%patches
         settling%pass = 0
         settling%splits = 0
@@ -144,8 +144,8 @@ contains
         end associate
     end subroutine begin
 
-    !> Place: cut the patches into strips, if passes, strips and work are left.
-    pure subroutine place(workspace, level, capacity, cost, settling)
+    !> Position: cut the patches into strips, if passes, strips and work are left.
+    pure subroutine position(workspace, level, capacity, cost, settling)
         type(strip_workspace_t), intent(inout) :: workspace
         type(level_t), intent(in) :: level
         integer, intent(in) :: capacity ! of the strips of the answer
@@ -161,14 +161,14 @@ contains
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call drop_slivers(narrowest, settling%patches)
         if (settling%patches%n == 0) return
-        call place_strips(workspace, settling%patches, n)
+        call position_strips(workspace, settling%patches, n)
         if (n > min(workspace%max_strips, capacity)) return
         if (cost_work(cost) > work_to_begin + most_steps*step_work(max(n, level%most_strips))) &
             return
         workspace%strips%penetration = settling%penetration
         settling%solved = settling%patches
         settling%state = merge(state_couple, state_newton, level%near .and. settling%pass == 1)
-    end subroutine place
+    end subroutine position
 
     !> Newton: solve for the strips between ends that are given.
     subroutine solve_pass(workspace, compliance, demand, level, settling, result)
@@ -197,7 +197,7 @@ contains
         end select
     end subroutine solve_pass
 
-    !> Strips leave: cut them off and place the others anew.
+    !> Strips leave: cut them off and position the others anew.
     pure subroutine cut(workspace, level, settling)
         type(strip_workspace_t), intent(in) :: workspace
         type(level_t), intent(in) :: level
@@ -212,7 +212,7 @@ contains
             settling%state = state_give_up
         else
             call share_strips(level%strips_per_patch, settling%patches)
-            settling%state = state_place
+            settling%state = state_position
         end if
     end subroutine cut
 
@@ -247,7 +247,7 @@ contains
         ! The last passes count, whatever they reach.
         if (settling%at_rest .or. settling%pass >= max_passes/2) &
             settling%tolerance = level%tolerance
-        settling%state = merge(state_couple, state_place, moved < coupling_move &
+        settling%state = merge(state_couple, state_position, moved < coupling_move &
                                .and. settling%couplings < max_couplings)
     end subroutine move
 
@@ -263,7 +263,7 @@ contains
 
         logical :: found, changed
 
-        settling%state = state_place
+        settling%state = state_position
         settling%couplings = settling%couplings + 1
         call settle_coupled(workspace, compliance, demand, level%tolerance, settling%solved, &
                             result%cost, found)
@@ -277,7 +277,7 @@ contains
         settling%state = state_done
     end subroutine couple
 
-    !> Let overlaps join the patches. If that changes them, they are placed anew, far from a
+    !> Let overlaps join the patches. If that changes them, they are positioned anew, far from a
     !> solution.
     pure subroutine join_overlaps(workspace, compliance, level, settling, changed)
         type(strip_workspace_t), intent(in) :: workspace
@@ -292,7 +292,7 @@ contains
         settling%at_rest = .false.
         settling%tolerance = far_tolerance
         call share_strips(level%strips_per_patch, settling%patches)
-        settling%state = state_place
+        settling%state = state_position
     end subroutine join_overlaps
 
     !> Keep a converged pass as the best one.

@@ -14,7 +14,7 @@ module faststrip_normal_strip_state
     private
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
-    public :: place_edges, place_strips, remember, mirror_old, flattest
+    public :: position_edges, position_strips, remember, mirror_old, flattest
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -84,10 +84,10 @@ contains
     !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
     !> ends, the largest pressure and the penetration of the 20 contacts of the paper's section 5
     !> come out best.
-    pure subroutine place_strips(workspace, patches, n)
+    pure subroutine position_strips(workspace, patches, n)
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
-        integer, intent(out) :: n ! number of strips; if they are too many, nothing is placed
+        integer, intent(out) :: n ! number of strips; if they are too many, none is positioned
 
         real(wp) :: middle, half, y, eta, ratio
         integer :: p, k, i, q
@@ -95,7 +95,7 @@ contains
         n = sum(patches%at(:patches%n)%n_strips)
         if (n > workspace%max_strips) return
         workspace%strips%n = n
-        call place_edges(workspace, patches)
+        call position_edges(workspace, patches)
         associate (strips => workspace%strips)
             i = 0
             do p = 1, patches%n
@@ -125,10 +125,10 @@ contains
                 end do
             end do
         end associate
-    end subroutine place_strips
+    end subroutine position_strips
 
     !> Cut the patches into strips: their edges, and the gap on their centre lines.
-    pure subroutine place_edges(workspace, patches)
+    pure subroutine position_edges(workspace, patches)
         type(strip_workspace_t), intent(inout) :: workspace !! with capacity enough
         type(patches_t), intent(in) :: patches
 
@@ -157,7 +157,7 @@ contains
                 end do
             end do
         end associate
-    end subroutine place_edges
+    end subroutine position_edges
 
     !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
     pure real(wp) function graded(t)

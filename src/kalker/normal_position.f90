@@ -6,7 +6,7 @@
 !> approach: rows of which that holds and that are not in the grid are looked at afterwards, on the
 !> line x = 0, with the rows of the solution as strips. Whether the columns suffice is seen by the
 !> outermost.
-module faststrip_kalker_normal_place
+module faststrip_kalker_normal_position
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -22,7 +22,7 @@ module faststrip_kalker_normal_place
     implicit none
     private
 
-    public :: extent_t, guess_extent, extent_of_strips, extent_of_grid, place_grid
+    public :: extent_t, guess_extent, extent_of_strips, extent_of_grid, position_grid
     public :: take_missing_rows, columns_suffice, reaches_end_of_data, guess_pressures
 
     !> What a grid has to hold.
@@ -127,13 +127,13 @@ contains
         extent%y_to = element_y(grid, last) + grid%dy
     end subroutine extent_of_grid
 
-    !> Place a grid that holds an extent, as far as the gap has data, and take the heights.
-    subroutine place_grid(curve, extent, dx, dy, most_elements, grid, status)
+    !> Position a grid that holds an extent, as far as the gap has data, and take the heights.
+    subroutine position_grid(curve, extent, dx, dy, most_elements, grid, status)
         type(gap_curve_t), intent(in) :: curve     !! a gap that was set
         type(extent_t), intent(in) :: extent       !! to be held
         real(wp), intent(in) :: dx, dy             !! sides of the elements, mm, > 0
         integer, intent(in) :: most_elements       !! refuse more
-        type(contact_grid_t), intent(inout) :: grid !! placed; its pressures are of no meaning
+        type(contact_grid_t), intent(inout) :: grid !! positioned; its pressures are of no meaning
         type(status_t), intent(out) :: status      !! `st_out_of_range`
 
         integer :: first, last, i, j
@@ -162,7 +162,7 @@ contains
                 grid%height(i, j) = h + a*element_x(grid, i)**2
             end do
         end do
-    end subroutine place_grid
+    end subroutine position_grid
 
     !> The rows whose middles the gap's points enclose.
     pure subroutine rows_of_data(curve, dy, from, to, status)
@@ -196,7 +196,7 @@ contains
     pure subroutine take_missing_rows(curve, compliance, grid, approach, extent, is_missing)
         type(gap_curve_t), intent(in) :: curve   !! the gap of the grid
         real(wp), intent(in) :: compliance       !! H of eq. (4), 1/MPa
-        type(contact_grid_t), intent(in) :: grid !! placed by `place_grid`, with pressures
+        type(contact_grid_t), intent(in) :: grid !! positioned by `position_grid`, with pressures
         real(wp), intent(in) :: approach         !! D of its solution, mm
         type(extent_t), intent(inout) :: extent  !! grows
         logical, intent(out) :: is_missing       !! is there such a row?
@@ -243,7 +243,7 @@ contains
     !> Is the last row for which there are points of the gap in contact?
     pure logical function reaches_end_of_data(curve, grid) result(reaches)
         type(gap_curve_t), intent(in) :: curve   !! the gap of the grid
-        type(contact_grid_t), intent(in) :: grid !! placed by `place_grid`, with pressures
+        type(contact_grid_t), intent(in) :: grid !! positioned by `position_grid`, with pressures
 
         integer :: from, to, held
         type(status_t) :: status
@@ -260,7 +260,7 @@ contains
     pure subroutine guess_pressures(curve, extent, grid)
         type(gap_curve_t), intent(in) :: curve      !! the gap of the grid
         type(extent_t), intent(in) :: extent        !! as guessed
-        type(contact_grid_t), intent(inout) :: grid !! placed; `pressure` is written
+        type(contact_grid_t), intent(inout) :: grid !! positioned; `pressure` is written
 
         real(wp) :: h, a, a_lowest, rise
         integer :: i, j
@@ -275,4 +275,4 @@ contains
             end do
         end do
     end subroutine guess_pressures
-end module faststrip_kalker_normal_place
+end module faststrip_kalker_normal_position
