@@ -22,7 +22,7 @@ STORED = "reference/stored.csv"
 # Chapters after the verdicts, with what introduces them; pictures and tables say where they go.
 CHAPTER_TEXTS = {
     "paper": ("The paper, redone", "Ours as lines, CONTACT and the paper's tables as symbols."),
-    "trade": ("The trade: accuracy against time", "What an error costs, method by method."),
+    "trade": ("Error against time", "What an error costs, method by method."),
     "examples": ("Examples", "The cases of example/cases, each by every method."),
     "auto": ("Only what a case requires",
              "Models chosen by the error they are predicted to have."),

@@ -333,7 +333,7 @@ SECTIONS = (
     ("Validation: against other codes",
      "CONTACT's penetration and largest pressure are those of its 0.1 mm grid; everything else is"
      " extrapolated in its grid. References of `kalker_normal` and `kalker_tangential` are this"
-     " project's own, themselves held against CONTACT.", "validation"),
+     " project's own, themselves compared with CONTACT.", "validation"),
     ("The 20 contacts of the paper's section 5",
      "Against full CONTACT, mean / largest size of the error. c is the root of area over pi.",
      "contacts"),
@@ -353,7 +353,7 @@ SECTIONS = (
      " median (`bench certificate`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
      " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
      " second of the 20 contacts and on random gaps of other distributions.", "certificate"),
-    ("The trade: error against time",
+    ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
      " core, from nothing (`bench trade`).", "trade"),
     ("Only what a contact requires",

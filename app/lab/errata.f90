@@ -317,7 +317,7 @@ contains
                        '3 pi/8 = 1.178 too stiff')
         call stiffness('(41)', 'C11 adding s (ae - xe), nx = 48', &
                        march_reading_t(.false., .true., .false., .true., .true., 48), &
-                       'the way from the edge is added at every point: nx/3 too stiff')
+                       'the distance from the edge is added at every point: nx/3 too stiff')
         call stiffness('(25)-(48)', 'C11 corrected', kalker, 'the last step, Ex/2 at first')
 
     contains

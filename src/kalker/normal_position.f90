@@ -130,7 +130,7 @@ contains
     !> Position a grid that holds an extent, as far as the gap has data, and take the heights.
     subroutine position_grid(curve, extent, dx, dy, most_elements, grid, status)
         type(gap_curve_t), intent(in) :: curve     !! a gap that was set
-        type(extent_t), intent(in) :: extent       !! to be held
+        type(extent_t), intent(in) :: extent       !! to be covered
         real(wp), intent(in) :: dx, dy             !! sides of the elements, mm, > 0
         integer, intent(in) :: most_elements       !! refuse more
         type(contact_grid_t), intent(inout) :: grid !! positioned; its pressures are of no meaning
@@ -202,7 +202,7 @@ contains
         logical, intent(out) :: is_missing       !! is there such a row?
 
         real(wp) :: p0(grid%ny), xd(grid%ny), y, h, a, u
-        integer :: from, to, held, j, k
+        integer :: from, to, first, j, k
         type(status_t) :: status
 
         do k = 1, grid%ny
@@ -212,9 +212,9 @@ contains
         end do
         is_missing = .false.
         call rows_of_data(curve, grid%dy, from, to, status)
-        held = nint(grid%y_first/grid%dy - 0.5_wp)
+        first = nint(grid%y_first/grid%dy - 0.5_wp)
         do j = from, to
-            if (j >= held .and. j < held + grid%ny) cycle
+            if (j >= first .and. j < first + grid%ny) cycle
             y = (j + 0.5_wp)*grid%dy
             call gap_at(curve, y, h, a)
             if (h >= approach) cycle
@@ -245,14 +245,15 @@ contains
         type(gap_curve_t), intent(in) :: curve   !! the gap of the grid
         type(contact_grid_t), intent(in) :: grid !! positioned by `position_grid`, with pressures
 
-        integer :: from, to, held
+        integer :: from, to, first
         type(status_t) :: status
 
         call rows_of_data(curve, grid%dy, from, to, status)
-        held = nint(grid%y_first/grid%dy - 0.5_wp)
+        first = nint(grid%y_first/grid%dy - 0.5_wp)
         reaches = .false.
-        if (held == from) reaches = any(grid%pressure(:, 1) > 0.0_wp)
-        if (held + grid%ny - 1 == to) reaches = reaches .or. any(grid%pressure(:, grid%ny) > 0.0_wp)
+        if (first == from) reaches = any(grid%pressure(:, 1) > 0.0_wp)
+        if (first + grid%ny - 1 == to) &
+            reaches = reaches .or. any(grid%pressure(:, grid%ny) > 0.0_wp)
     end function reaches_end_of_data
 
     !> Pressures to start from: of the ellipse that fits the gap's width, falling off with the gap.

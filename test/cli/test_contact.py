@@ -66,7 +66,7 @@ def fastsim_force(a, b, c, creepage, elliptic=False, weighted=False, n=120):
     if weighted:
         parts = abs(cksi), abs(ceta), math.sqrt(a * b) * abs(cphi)
         l1 = l2 = l3 = (parts[0] * l1 + parts[1] * l2 + parts[2] * l3) / math.hypot(*parts)
-    top = FRICTION * LOAD / (math.pi * a * b) * (1.5 if elliptic else 2.0)
+    largest_bound = FRICTION * LOAD / (math.pi * a * b) * (1.5 if elliptic else 2.0)
     fx = fy = 0.0
     for i in range(n):
         y = b * (2 * i + 1 - n) / n
@@ -75,11 +75,11 @@ def fastsim_force(a, b, c, creepage, elliptic=False, weighted=False, n=120):
         px = py = 0.0
         for j in range(n):
             x = end - (j + 0.5) * h
-            way = 0.5 * h if j == 0 else h
-            px -= way * (cksi / l1 - y * cphi / l3)
-            py -= way * (ceta / l2 + (x + 0.5 * way) * cphi / l3)
+            step = 0.5 * h if j == 0 else h
+            px -= step * (cksi / l1 - y * cphi / l3)
+            py -= step * (ceta / l2 + (x + 0.5 * step) * cphi / l3)
             capacity = max(1.0 - (x / a) ** 2 - (y / b) ** 2, 0.0)
-            bound = top * (math.sqrt(capacity) if elliptic else capacity)
+            bound = largest_bound * (math.sqrt(capacity) if elliptic else capacity)
             size = math.hypot(px, py)
             if size > bound:
                 px, py = px * bound / size, py * bound / size

@@ -3,8 +3,8 @@
 !>
 !> Hertz ellipses are judged by the exact solution; the 20 gaps of the reference and random gaps by
 !> Kalker's method on two grids, carried on (`faststrip_lab_bench_certificate_truth`). Many strips
-!> are no truth: all strips share that their sections are taken for semi-ellipses. The gaps are held
-!> against CONTACT as well, on its grid.
+!> are no truth: all strips share that their sections are taken for semi-ellipses. The gaps are
+!> compared with CONTACT as well, on its grid.
 !>
 !> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
 !> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of

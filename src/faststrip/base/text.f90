@@ -122,7 +122,7 @@ contains
         if (n_digits > 0) next = i
     end subroutine scan_mantissa
 
-    ! The digits of an exponent with an optional sign, held within +-100000.
+    ! The digits of an exponent with an optional sign, limited to +-100000.
     pure subroutine scan_exponent(word, power, valid)
         character(len=*), intent(in) :: word
         integer, intent(out) :: power

@@ -57,7 +57,7 @@ contains
     !> of the other, so that the peak does not jump where another strip becomes the largest.
     !>
     !> A parabola through strips of one width rises above the largest by an eighth of its fall to a
-    !> neighbour; where widths or falls are unlike it is held to four times that.
+    !> neighbour; where widths or falls are unlike it is limited to four times that.
     pure real(wp) function curve_peak(left, right, value) result(peak)
         real(wp), intent(in) :: left(:)  !! left edges of the patch's strips, (n), mm
         real(wp), intent(in) :: right(:) !! right edges, (n), mm

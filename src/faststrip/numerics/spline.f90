@@ -198,7 +198,7 @@ contains
         end do
     end subroutine monotone_slopes
 
-    ! One-sided three-point slope, held to the sign and to three times the first secant.
+    ! One-sided three-point slope, limited to the sign and to three times the first secant.
     pure real(wp) function end_slope(h_near, h_far, near, far) result(slope)
         real(wp), intent(in) :: h_near, h_far, near, far
 

@@ -5,7 +5,7 @@
 !> beyond: at a kink two of them share the point. Intervals within a tear, the steps, are monotone,
 !> with the slopes of the stretches as far as that allows.
 !>
-!> So every interval has its own two slopes. Waves of tears that were not found are held too:
+!> So every interval has its own two slopes. Waves of tears that were not found are limited too:
 !> `tame_interval` bounds by how much an interval may leave the range of its two points.
 module faststrip_numerics_torn_spline
     use faststrip_base_kinds, only: wp
@@ -117,16 +117,16 @@ contains
         real(wp) :: secant
 
         secant = (y(2) - y(1))/(x(2) - x(1))
-        slope_from = held(slope_from)
-        slope_to = held(slope_to)
+        slope_from = limited(slope_from)
+        slope_to = limited(slope_to)
 
     contains
 
-        pure real(wp) function held(slope)
+        pure real(wp) function limited(slope)
             real(wp), intent(in) :: slope
 
-            held = sign(min(max(slope*sign(1.0_wp, secant), 0.0_wp), 3.0_wp*abs(secant)), secant)
-        end function held
+            limited = sign(min(max(slope*sign(1.0_wp, secant), 0.0_wp), 3.0_wp*abs(secant)), secant)
+        end function limited
     end subroutine make_monotone
 
     !> Make interval i monotone if it leaves the range of its two points by more than their

@@ -52,7 +52,7 @@ module faststrip_tangential_paper
     !> Which of the paper's statements (25)-(48) are taken as printed.
     type :: march_reading_t
         logical :: bound_of_strip = .true. !! (34) T0 = mu p0_i; else one T0, mu max(p0)
-        logical :: way_from_edge = .true.  !! (41) adds s (ae - xe); else s times the last step
+        logical :: step_from_edge = .true. !! (41) adds s (ae - xe); else s times the last step
         logical :: bare_moment = .true.    !! (44) with coordinates of the ellipse; else in mm
         logical :: scaled = .true.         !! (46)-(48); else the sum of the tractions
         logical :: from_reference = .true. !! (32) y from the reference point; else from y0 (28)
@@ -101,7 +101,7 @@ contains
             !! filled when present; needs capacity for n*points_per_strip elements
 
         call solve_patches(strips, material, mu, creepage, points_per_strip, &
-                           march_reading_t(way_from_edge=.false., bare_moment=.false., &
+                           march_reading_t(step_from_edge=.false., bare_moment=.false., &
                                            points=points_per_strip), result, status, field)
     end subroutine paper_solve
 
@@ -119,7 +119,7 @@ contains
             !! filled when present; needs capacity for n*points_per_strip elements
 
         call solve_patches(strips, material, mu, creepage, points_per_strip, &
-                           march_reading_t(bound_of_strip=.false., way_from_edge=.false., &
+                           march_reading_t(bound_of_strip=.false., step_from_edge=.false., &
                                            bare_moment=.false., points=points_per_strip, &
                                            true_sum=.true.), result, status, field)
     end subroutine corrected_solve
@@ -288,7 +288,7 @@ contains
         type(march_sum_t), intent(inout) :: total
         type(tangential_field_t), intent(inout), optional :: field
 
-        real(wp) :: t0, ux, uy, fx, fy, factor, y, width, ye, ae, step, way, xe, before, cell
+        real(wp) :: t0, ux, uy, fx, fy, factor, y, width, ye, ae, spacing, step, xe, before, cell
         real(wp) :: sx, sy, px, py, p, stress, lever, ahead_x, ahead_y, slip_x, slip_y, x
         integer :: j, state
 
@@ -305,8 +305,8 @@ contains
         fx = factor*patch%c3*total%b*patch%creepage%cphi
         fy = factor*patch%c3*total%a*patch%creepage%cphi
         ae = strips%half_length(i)/total%a                                   ! (36)
-        step = 2.0_wp*ae/total%points                                        ! (37)
-        cell = width/total%b*step                                            ! (33), (38)
+        spacing = 2.0_wp*ae/total%points                                     ! (37)
+        cell = width/total%b*spacing                                         ! (33), (38)
         stress = patch%stress
         if (.not. reading%scaled) stress = total%a*total%b*t0
         sx = ux - fx*ye                                                      ! (39)
@@ -314,12 +314,12 @@ contains
         py = 0.0_wp
         before = ae
         do j = 1, total%points
-            xe = ae - (j - 0.5_wp)*step
-            way = ae - xe
-            if (.not. reading%way_from_edge) way = before - xe
-            sy = uy + fy*(xe + 0.5_wp*way)                                   ! (40)
-            px = px - sx*way                                                 ! (41)
-            py = py - sy*way
+            xe = ae - (j - 0.5_wp)*spacing
+            step = ae - xe
+            if (.not. reading%step_from_edge) step = before - xe
+            sy = uy + fy*(xe + 0.5_wp*step)                                  ! (40)
+            px = px - sx*step                                                ! (41)
+            py = py - sy*step
             p = sqrt(px*px + py*py)                                          ! (42)
             state = state_adhesion
             slip_x = 0.0_wp
@@ -331,8 +331,8 @@ contains
                 px = px*((ae*ae - xe*xe)/p)                                  ! (43)
                 py = py*((ae*ae - xe*xe)/p)
                 ! Slip over rolling speed: creepage per slope times the slope scaled back.
-                slip_x = (px - ahead_x)/(way*factor*patch%c1)
-                slip_y = (py - ahead_y)/(way*factor*patch%c2)
+                slip_x = (px - ahead_x)/(step*factor*patch%c1)
+                slip_y = (py - ahead_y)/(step*factor*patch%c2)
             else
                 total%stuck = total%stuck + cell*total%a*total%b
             end if

@@ -54,7 +54,7 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: f, step         !! lambda times step, mm/MPa; step, mm
         real(wp), dimension(most_lanes) :: excess         !! |p|^2 over the squared bound, MPa^2
         real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
-        real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, held !! over the elements
+        real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, sticking !! over the elements
     end type block_t
 
 contains
@@ -180,7 +180,7 @@ contains
                 result%mz = result%mz + mz
                 area = points*block%cell(k)
                 sums%covered = sums%covered + area
-                sums%stuck = sums%stuck + area*(block%held(k)/points)**2
+                sums%stuck = sums%stuck + area*(block%sticking(k)/points)**2
                 if (.not. present(per_strip)) cycle
                 associate (i => block%strip(k))
                     per_strip%fx(i) = fx
@@ -248,7 +248,7 @@ contains
             block%sum_x(k) = 0.0_wp
             block%sum_y(k) = 0.0_wp
             block%arm_x(k) = 0.0_wp
-            block%held(k) = 0.0_wp
+            block%sticking(k) = 0.0_wp
         end do
     end subroutine fill_block
 
@@ -288,7 +288,7 @@ contains
             block%sum_x(k) = block%sum_x(k) + block%px(k)
             block%sum_y(k) = block%sum_y(k) + block%py(k)
             block%arm_x(k) = block%arm_x(k) + block%half_length(k)*t*block%py(k)
-            block%held(k) = block%held(k) + (0.5_wp - sign(0.5_wp, block%excess(k)))
+            block%sticking(k) = block%sticking(k) + (0.5_wp - sign(0.5_wp, block%excess(k)))
         end do
     end subroutine advance
 
