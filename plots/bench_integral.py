@@ -38,15 +38,16 @@ def main(arguments=None):
     ns = table.numbers("ns")
     error = np.maximum(np.abs(table.numbers("rel_err")), FLOOR)
     for row in np.flatnonzero(ns <= 0.0):
-        raise InputError(f"ns is not above zero: {ns[row]:g} ({options.bench}:{table.lines[row]})")
+        raise InputError(f"ns must be above zero, got {ns[row]:g}"
+                         f" ({options.bench}:{table.lines[row]})")
     for loop, line in zip(table.words("loop"), table.lines):
         if loop not in LOOPS:
             raise InputError(
-                f"neither scalar nor row in column loop: {loop} ({options.bench}:{line})"
+                f"loop must be scalar or row, got {loop} ({options.bench}:{line})"
             )
     for name in RUN:
         if len(set(table.words(name))) > 1:
-            raise InputError(f"more than one run, column {name} differs: {options.bench}")
+            raise InputError(f"{name} must be that of one run, got several: {options.bench}")
 
     figure = style.new_figure(9.0, 5.8)
     axes = figure.subplots()

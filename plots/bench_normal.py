@@ -38,13 +38,13 @@ def main(arguments=None):
     for name in ("strips", "us"):
         for row in np.flatnonzero(values[name] <= 0.0):
             raise InputError(
-                f"{name} is not above zero: {values[name][row]:g}"
+                f"{name} must be above zero, got {values[name][row]:g}"
                 f" ({options.bench}:{table.lines[row]})"
             )
     for start, line in zip(table.words("start"), table.lines):
         if start not in STARTS:
             raise InputError(
-                f"none of {', '.join(STARTS)} in column start: {start} ({options.bench}:{line})"
+                f"start must be one of {', '.join(STARTS)}, got {start} ({options.bench}:{line})"
             )
     runs = [(start, medians(rows, values)) for start, rows in scales.groups(table.words("start"))]
 

@@ -48,14 +48,14 @@ def main(arguments=None):
     for name in ("tolerance", "elements", "us"):
         for row in np.flatnonzero(values[name] <= 0.0):
             raise InputError(
-                f"{name} is not above zero: {values[name][row]:g}"
+                f"{name} must be above zero, got {values[name][row]:g}"
                 f" ({options.bench}:{table.lines[row]})"
             )
     for name, known in (("method", METHODS), ("start", STARTS)):
         for word, line in zip(table.words(name), table.lines):
             if word not in known:
                 raise InputError(
-                    f"none of {', '.join(known)} in column {name}: {word} ({options.bench}:{line})"
+                    f"{name} must be one of {', '.join(known)}, got {word} ({options.bench}:{line})"
                 )
     runs = [(*key, medians(rows, values)) for key, rows in
             scales.groups(table.words("method"), table.words("start"), values["tolerance"])]

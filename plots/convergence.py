@@ -32,14 +32,16 @@ def main(arguments=None):
     strips = table.numbers("strips")
     for row in np.flatnonzero(strips < 1.0):
         raise InputError(
-            f"strips is below one: {strips[row]:g} ({options.convergence}:{table.lines[row]})"
+            f"strips must be at least 1, got {strips[row]:g}"
+            f" ({options.convergence}:{table.lines[row]})"
         )
     ok = np.array([status in RESULTS for status in table.words("status")])
     errors = {name: 100.0 * np.abs(table.numbers(name, missing=True)) for name in QUANTITIES}
     for name, values in errors.items():
         values[~ok] = np.nan
         if not (values > 0.0).any():
-            raise InputError(f"no error above zero in column {name}: {options.convergence}")
+            raise InputError(f"{name} must have an error above zero, got none:"
+                             f" {options.convergence}")
     failed = [status for status in table.words("status") if status not in RESULTS]
     if failed:
         why = ", ".join(f"{failed.count(status)} {status}" for status in dict.fromkeys(failed))

@@ -55,13 +55,12 @@ def main(arguments=None):
     for basis, line in zip(table.words("basis"), table.lines):
         if basis not in BASES:
             raise InputError(
-                f"neither monomial nor chebyshev in column basis: {basis}"
-                f" ({options.degrees}:{line})"
+                f"basis must be monomial or chebyshev, got {basis} ({options.degrees}:{line})"
             )
     decays = {key: Decay(table, rows)
               for key, rows in scales.groups(table.words("fit"), table.words("basis"))}
     if not any((decay.high > 0.0).any() for decay in decays.values()):
-        raise InputError(f"no error above zero in column max_rel_err: {options.degrees}")
+        raise InputError(f"max_rel_err must have an error above zero, got none: {options.degrees}")
     fits = list(dict.fromkeys(fit for fit, _ in decays))
 
     figure = style.new_figure(5.6 * max(len(fits), 1.3), 7.6)

@@ -74,7 +74,8 @@ def stamp_lines(data):
                 stamps.setdefault(line.split()[1], {})[line] = path
     for known in stamps.values():
         if len(known) > 1:
-            raise InputError(f"stamps of several runs: {', '.join(map(str, known.values()))}")
+            raise InputError("stamps must be of one run, got "
+                             + ", ".join(map(str, known.values())))
     if set(stamps) != {"faststrip", "compiler"}:
         raise InputError(f"no stamp of revision and compiler: {data}")
     cpu = sorted(set(read_table(str(data / "bench_integral.csv")).words("cpu")))
@@ -105,7 +106,8 @@ class Measured:
         for k, line in enumerate(table.lines):
             *key, value = (table.words(name)[k] for name in COLUMNS)
             if tuple(key) in self.cells:
-                raise InputError(f"given twice: {'/'.join(key)} ({self.path}:{line})")
+                raise InputError(f"each figure must be given once, got {'/'.join(key)} twice"
+                                 f" ({self.path}:{line})")
             self.cells[tuple(key)] = value
 
     def rows(self, table):

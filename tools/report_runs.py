@@ -92,9 +92,10 @@ def read_runs(path, quick):
     for row, (name, when, program, words) in enumerate(zip(*columns, strict=True)):
         where = f"({path}:{table.lines[row]})"
         if when not in WHEN:
-            raise InputError(f"neither always, full nor quick: {when} {where}")
+            raise InputError(f"when must be always, full or quick, got {when} {where}")
         if program not in PROGRAMS:
-            raise InputError(f"neither faststrip, faststrip-lab nor python: {program} {where}")
+            raise InputError(f"program must be faststrip, faststrip-lab or python, got {program}"
+                             f" {where}")
         if not name or "/" in name:
             raise InputError(f"id must be the name of a file, got '{name}' {where}")
         try:

@@ -118,7 +118,7 @@ def filled(text, figures, path):
     for start, end in [fence.span() for fence in FENCE.finditer(text)] + [(len(text), len(text))]:
         words = text[last:start]
         if words.count("<!-- measured:") != len(PLACE.findall(words)):
-            raise InputError(f"a marked place that does not end: {path}")
+            raise InputError(f"every marked place must end: {path}")
         parts += [PLACE.sub(fill, words), text[start:end]]
         last = end
     return "".join(parts)
@@ -139,11 +139,12 @@ class Figures:
         percent = name.endswith("%")
         parts = name.rstrip("% ").split("/")
         if len(parts) != 3:
-            raise InputError(f"neither a table nor TABLE/ROW/COLUMN: {name}")
+            raise InputError(f"a marked place must be a table or TABLE/ROW/COLUMN, got {name}")
+        word = self.measured.word(*parts)
         try:
-            value = float(self.measured.word(*parts))
+            value = float(word)
         except ValueError:
-            raise InputError(f"not a number: {name}") from None
+            raise InputError(f"a figure must be a number, got {word}: {name}") from None
         return digits(100.0 * value if percent else value)
 
     def pair(self, table, row, name, factor=1.0):

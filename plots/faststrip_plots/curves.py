@@ -32,15 +32,15 @@ def read_curves(path):
     table = read_table(path, COLUMNS)
     values = {name: table.numbers(name) for name in COLUMNS[:4]}
     values.update({name: table.numbers(name, missing=True) for name in COLUMNS[4:]})
-    for name, least in (("n", 0.0), ("b", np.nextafter(0.0, 1.0)),
-                        ("exact", np.nextafter(0.0, 1.0))):
-        for row in np.flatnonzero(values[name] < least):
+    for name in ("b", "exact"):
+        for row in np.flatnonzero(values[name] <= 0.0):
             raise InputError(
-                f"{name} out of range: {values[name][row]:g} ({path}:{table.lines[row]})"
+                f"{name} must be above zero, got {values[name][row]:g} ({path}:{table.lines[row]})"
             )
-    for row in np.flatnonzero((values["n"] != np.round(values["n"])) | (values["n"] > 20)):
+    n = values["n"]
+    for row in np.flatnonzero((n != np.round(n)) | (n < 0) | (n > 20)):
         raise InputError(
-            f"n is not one of 0 to 20: {values['n'][row]:g} ({path}:{table.lines[row]})"
+            f"n must be one of 0 to 20, got {n[row]:g} ({path}:{table.lines[row]})"
         )
     curves = [
         Curve(int(n), {name: column[rows] for name, column in values.items()})
@@ -49,7 +49,7 @@ def read_curves(path):
     for curve in curves:
         if not curve.inside.any():
             raise InputError(
-                f"no L from {RANGE[0]:g} to {RANGE[1]:g} for n = {curve.n}: {path}"
+                f"L must have values from {RANGE[0]:g} to {RANGE[1]:g} for n = {curve.n}: {path}"
             )
     return sorted(curves, key=lambda curve: curve.n), revision(table)
 

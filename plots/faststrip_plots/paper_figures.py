@@ -285,8 +285,8 @@ def check_creepages(sweep_path, reference_path):
             near = np.flatnonzero(np.abs(shift - yw) < 1e-6)
             if near.size and abs(value - expected[near[0]]) > allowed:
                 raise InputError(
-                    f"{name} is not the reference's at shift {yw:g}: {value:g}, not"
-                    f" {expected[near[0]]:g} ({sweep_path}:{line}, {reference_path})"
+                    f"{name} at shift {yw:g} must be the reference's, {expected[near[0]]:g}, got"
+                    f" {value:g} ({sweep_path}:{line}, {reference_path})"
                 )
     return sign_set(theirs)
 

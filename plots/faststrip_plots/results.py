@@ -127,8 +127,8 @@ def read_sweep(path: str) -> Sweep:
         for first, second in zip(rows, rows[1:]):
             if yw[second] - yw[first] < SHIFT_TOLERANCE:
                 raise InputError(
-                    f"shift given twice for {key[0]} with {key[1]}: {yw[second]:g}"
-                    f" ({path}:{table.lines[max(first, second)]})"
+                    f"each shift must be given once for {key[0]} with {key[1]},"
+                    f" got {yw[second]:g} twice ({path}:{table.lines[max(first, second)]})"
                 )
         failures = Counter(
             "incomplete" if status[k] in RESULTS else status[k] for k in rows if not ok[k]
@@ -194,7 +194,7 @@ def read_reference(path: str) -> Reference:
 def _check_positive(table, name):
     for value, line in zip(table.numbers(name), table.lines):
         if value <= 0.0:
-            raise InputError(f"not positive in column {name}: {value:g} ({table.path}:{line})")
+            raise InputError(f"{name} must be above zero, got {value:g} ({table.path}:{line})")
 
 
 @dataclass(frozen=True)
@@ -214,8 +214,8 @@ def compare(sweep: Sweep, method: MethodSweep, reference: Reference) -> Comparis
         expected = reference.load[found[row]]
         if abs(method.load[row] - expected) > LOAD_TOLERANCE * expected:
             raise InputError(
-                f"N_N is not the load of the reference at shift {method.yw[row]:g}:"
-                f" {method.load[row]:g}, not {expected:g} ({sweep.path}, {reference.path})"
+                f"N_N at shift {method.yw[row]:g} must be the load of the reference, {expected:g},"
+                f" got {method.load[row]:g} ({sweep.path}, {reference.path})"
             )
     return Comparison(method, rows, found[rows])
 
@@ -290,7 +290,8 @@ def read_strips(path: str) -> Strips:
     for k, line in enumerate(table.lines):
         if not columns[0][k] < columns[2][k] < columns[1][k]:
             raise InputError(
-                f"y_mm is not between the edges of its strip: {columns[2][k]:g} ({path}:{line})"
+                f"y_mm must be between the edges of its strip, got {columns[2][k]:g}"
+                f" ({path}:{line})"
             )
     _check_positive(table, "half_length_mm")
     patches = []
@@ -321,7 +322,7 @@ def read_field(path: str) -> Field:
     x, y, p = (table.numbers(name) for name in ("x_mm", "y_mm", "pn_MPa"))
     inside = p > 0.0
     if not inside.any():
-        raise InputError(f"no pressure above zero in column pn_MPa: {path}")
+        raise InputError(f"pn_MPa must have a pressure above zero, got none: {path}")
     x, y, p = x[inside], y[inside], p[inside]
     rows_y = np.unique(y)
     rows = [np.flatnonzero(y == value) for value in rows_y]
@@ -334,7 +335,7 @@ def grid_step(field: Field) -> float:
     steps = np.concatenate([np.diff(np.unique(np.concatenate(field.x))), np.diff(field.y)])
     steps = steps[steps > 1e-9]
     if steps.size == 0:
-        raise InputError(f"a single point is not a grid: {field.path}")
+        raise InputError(f"a grid must have at least 2 points, got 1: {field.path}")
     return float(steps.min())
 
 
@@ -354,12 +355,12 @@ def read_profiles(path: str) -> Profiles:
     bodies = table.words("body")
     for body, line in zip(bodies, table.lines):
         if body not in ("wheel", "rail"):
-            raise InputError(f"neither wheel nor rail in column body: {body} ({path}:{line})")
+            raise InputError(f"body must be wheel or rail, got {body} ({path}:{line})")
     found = {}
     for body in ("wheel", "rail"):
         rows = points[[k for k, other in enumerate(bodies) if other == body]]
         if len(rows) < 2:
-            raise InputError(f"fewer than 2 points of the {body} in column body: {path}")
+            raise InputError(f"the {body} must have at least 2 points, got {len(rows)}: {path}")
         found[body] = rows
     return Profiles(found["wheel"], found["rail"], revision(table))
 
@@ -379,5 +380,6 @@ def read_gap(path: str) -> Gap:
     y, h = table.numbers("y_mm"), table.numbers("h_mm")
     for k in range(1, len(table)):
         if y[k] <= y[k - 1]:
-            raise InputError(f"y_mm does not ascend: {y[k]:g} ({path}:{table.lines[k]})")
+            raise InputError(f"y_mm must ascend, got {y[k]:g} after {y[k - 1]:g}"
+                             f" ({path}:{table.lines[k]})")
     return Gap(y, h, revision(table))

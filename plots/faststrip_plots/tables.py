@@ -52,13 +52,13 @@ class Table:
         if text == "":
             if missing:
                 return math.nan
-            raise InputError(f"empty cell in column {name} ({self.path}:{line})")
+            raise InputError(f"{name} must be a number, got an empty cell ({self.path}:{line})")
         try:
             value = float(text)
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or "_" in text:
-            raise InputError(f"not a finite number in column {name}: {text} ({self.path}:{line})")
+            raise InputError(f"{name} must be a finite number, got {text} ({self.path}:{line})")
         return value
 
 
@@ -77,7 +77,8 @@ def read_table(path: str, names: Iterable[str] = ()) -> Table:
             cells = _cells(text)
             if len(cells) != len(header):
                 raise InputError(
-                    f"{len(cells)} cells in a row, {len(header)} in the header ({path}:{number})"
+                    f"a row must have {len(header)} cells as the header, got {len(cells)}"
+                    f" ({path}:{number})"
                 )
             rows.append(cells)
             lines.append(number)
@@ -110,4 +111,4 @@ def _cells(text):
 def _check_header(header, path, number):
     for name in header:
         if header.count(name) > 1:
-            raise InputError(f"column given twice: {name} ({path}:{number})")
+            raise InputError(f"column names must differ, got {name} twice ({path}:{number})")

@@ -76,15 +76,16 @@ def read_manifest(path: str) -> list[dict]:
     seen = set()
     for row in rows:
         if not row["id"] or row["id"] in seen:
-            raise InputError(f"id missing or given twice: {row['id']} ({row['at']})")
+            raise InputError(f"id must be given, each once, got '{row['id']}' ({row['at']})")
         seen.add(row["id"])
         if row["chapter"] not in CHAPTERS:
-            raise InputError(f"neither verification nor validation: {row['chapter']} ({row['at']})")
+            raise InputError(f"chapter must be verification or validation, got {row['chapter']}"
+                             f" ({row['at']})")
         _bound(row)
         _way(row)
         row["unit"] = row["unit"] or _usual_unit(row)
         if _is_fraction(row) and not row["unit"].startswith("%"):
-            raise InputError(f"a unit of {row['metric']} begins with %: {row['unit']}"
+            raise InputError(f"a unit of {row['metric']} must begin with %, got {row['unit']}"
                              f" ({row['at']})")
     return rows
 
@@ -151,14 +152,15 @@ def _bound(row):
     except ValueError:
         bound = math.nan
     if not math.isfinite(bound):
-        raise InputError(f"not a tolerance: {text} ({row['at']})")
+        raise InputError(f"tolerance must be a number, got {text} ({row['at']})")
     return at_least, bound
 
 
 def _way(row):
     reduce, _, measure = row["metric"].partition("_")
     if reduce not in _WAYS or not (measure in ("value", "abs", "rel") or measure[:3] == "of:"):
-        raise InputError(f"not a metric: {row['metric']} ({row['at']})")
+        raise InputError(f"metric must be one of {', '.join(_WAYS)} with _value, _abs, _rel or"
+                         f" _of:, got {row['metric']} ({row['at']})")
     return reduce, measure
 
 
@@ -168,7 +170,7 @@ def _select(table, conditions, row):
     for part in filter(None, (text.strip() for text in conditions.split(";"))):
         column, equals, wanted = part.partition("=")
         if not equals:
-            raise InputError(f"not column=value: {part} ({row['at']})")
+            raise InputError(f"case must be column=value, got {part} ({row['at']})")
         chosen &= np.array([_same(word, wanted.strip()) for word in table.words(column.strip())])
     return chosen
 
@@ -194,14 +196,16 @@ def _reference(row, table, chosen):
     path, hash_sign, rest = text.partition("#")
     column, at_sign, key = rest.partition("@")
     if not hash_sign or not at_sign:
-        raise InputError(f"not FILE#COLUMN@KEY: {text} ({row['at']})")
+        raise InputError(f"reference_file must be a number or FILE#COLUMN@KEY, got {text}"
+                         f" ({row['at']})")
     other = read_table(path, (column, key))
     values, keys = other.numbers(column), other.words(key)
     found = []
     for word in np.array(table.words(key))[chosen]:
         places = [k for k, known in enumerate(keys) if _near(word, known)]
         if len(places) != 1:
-            raise InputError(f"{len(places)} rows with {key} {word} in {path} ({row['at']})")
+            raise InputError(f"{path} must have one row with {key} {word}, got {len(places)}"
+                             f" ({row['at']})")
         found.append(values[places[0]])
     return np.array(found)
 
@@ -226,7 +230,7 @@ def _sizes(row, table, chosen, values, reference, measure):
         for factor in measure[3:].split("*"):
             base = base * _factor(factor.strip(), table, chosen)
     if (base == 0.0).any():
-        raise InputError(f"relative to zero: {row['metric']} ({row['at']})")
+        raise InputError(f"the base of {row['metric']} must not be zero ({row['at']})")
     return difference / base
 
 

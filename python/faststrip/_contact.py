@@ -173,7 +173,7 @@ class Elements(NamedTuple):
 def _number_of(names: Dict[str, int], name: Any, what: str) -> int:
     if not isinstance(name, str) or name not in names:
         raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                             f"no {what} method {name!r}; there are {', '.join(names)}")
+                             f"{what} must be one of {', '.join(names)}, got {name!r}")
     return names[name]
 
 
@@ -357,7 +357,7 @@ class Contact:
         """
         if (load is None) == (penetration is None):
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "one of load and penetration is needed, got "
+                                 "one of load and penetration must be given, got "
                                  + ("none" if load is None else "both"))
         case = self._case
         case.by_load = load is not None

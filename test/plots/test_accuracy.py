@@ -182,15 +182,17 @@ class BadInput(unittest.TestCase):
             with self.subTest(value):
                 text = sweep_text(sweep_row(1), sweep_row(0, pmax_MPa=value))
                 self.refused({**self.files, "out/sweep.csv": text},
-                             f"not a finite number in column pmax_MPa: {value} (out/sweep.csv:5)")
+                             f"pmax_MPa must be a finite number, got {value} (out/sweep.csv:5)")
 
     def test_not_a_number_in_a_failed_row(self):
         text = sweep_text(failed_row(0, Fx_N="?"))
-        self.refused({**self.files, "out/sweep.csv": text}, "column Fx_N: ? (out/sweep.csv:4)")
+        self.refused({**self.files, "out/sweep.csv": text},
+                     "Fx_N must be a finite number, got ? (out/sweep.csv:4)")
 
     def test_empty_cell_of_the_reference(self):
         text = reference_text(0, Fy_extrap_N="")
-        self.refused({**self.files, "r.csv": text}, "empty cell in column Fy_extrap_N (r.csv:3)")
+        self.refused({**self.files, "r.csv": text},
+                     "Fy_extrap_N must be a number, got an empty cell (r.csv:3)")
 
     def test_empty_files(self):
         for text, words in (("", "the file is empty"), ("# only metadata\n", "the file is empty"),
@@ -201,24 +203,26 @@ class BadInput(unittest.TestCase):
     def test_ragged_row(self):
         text = self.files["out/sweep.csv"] + "1,2,3\n"
         self.refused({**self.files, "out/sweep.csv": text},
-                     "3 cells in a row, 24 in the header (out/sweep.csv:5)")
+                     "a row must have 24 cells as the header, got 3 (out/sweep.csv:5)")
 
     def test_column_given_twice(self):
         text = self.files["r.csv"].replace("pmax_MPa", "area_extrap_mm2")
-        self.refused({**self.files, "r.csv": text}, "column given twice: area_extrap_mm2 (r.csv:2)")
+        self.refused({**self.files, "r.csv": text},
+                     "column names must differ, got area_extrap_mm2 twice (r.csv:2)")
 
     def test_shift_given_twice(self):
         text = sweep_text(sweep_row(0), sweep_row(0))
         self.refused({**self.files, "out/sweep.csv": text},
-                     "shift given twice for strip with faststrip: 0 (out/sweep.csv:5)")
+                     "each shift must be given once for strip with faststrip, got 0"
+                     " twice (out/sweep.csv:5)")
 
     def test_another_load_than_the_reference(self):
         text = sweep_text(sweep_row(0, N_N=20000))
-        self.refused({**self.files, "out/sweep.csv": text}, "N_N is not the load of the reference")
+        self.refused({**self.files, "out/sweep.csv": text}, "must be the load of the reference, ")
 
     def test_reference_not_positive(self):
         self.refused({**self.files, "r.csv": reference_text(0, pmax_MPa=0)},
-                     "not positive in column pmax_MPa: 0 (r.csv:3)")
+                     "pmax_MPa must be above zero, got 0 (r.csv:3)")
 
     def test_output_that_cannot_be_written(self):
         with Folder(self.files) as folder:

@@ -222,33 +222,31 @@ class BadInput(unittest.TestCase):
                 (text(name).replace(f",{column}", ",other", 1),
                  f"missing column: {column} ({name}:3)"),
                 (changed(name, 1, **{column: "x1"}),
-                 f"not a finite number in column {column}: x1 ({name}:5)"),
+                 f"{column} must be a finite number, got x1 ({name}:5)"),
             ):
                 with self.subTest(command=command, words=words):
                     self.refused(command, content, words)
 
     def test_figures_that_cannot_be(self):
         for command, changes, words in (
-            ("integrals", dict(n=1.5), "n is not one of 0 to 20: 1.5"),
-            ("integrals", dict(n=21), "n is not one of 0 to 20: 21"),
-            ("integrals", dict(n=-1), "n out of range: -1"),
-            ("integrals", dict(b=0), "b out of range: 0"),
-            ("integrals", dict(exact=-1), "exact out of range: -1"),
-            ("degrees", dict(basis="fourier"), "neither monomial nor chebyshev in column basis:"
-                                               " fourier"),
-            ("bench_integral", dict(ns=0), "ns is not above zero: 0"),
-            ("bench_integral", dict(loop="both"), "neither scalar nor row in column loop: both"),
-            ("convergence", dict(strips=0), "strips is below one: 0"),
-            ("bench_normal", dict(us=-1), "us is not above zero: -1"),
-            ("bench_normal", dict(strips=0), "strips is not above zero: 0"),
-            ("bench_normal", dict(start="hot"), "none of cold, warm_load,"
-                                              " warm_shift in column start: hot"),
-            ("bench_reference", dict(us=-1), "us is not above zero: -1"),
-            ("bench_reference", dict(elements=0), "elements is not above zero: 0"),
-            ("bench_reference", dict(method="hope"), "none of norm, tang in column method: hope"),
-            ("bench_reference", dict(start="hot"), "none of cold, coarse, strips, warm_load,"
-                                                   " warm_creepage, new_plans in column start:"
-                                                   " hot"),
+            ("integrals", dict(n=1.5), "n must be one of 0 to 20, got 1.5"),
+            ("integrals", dict(n=21), "n must be one of 0 to 20, got 21"),
+            ("integrals", dict(n=-1), "n must be one of 0 to 20, got -1"),
+            ("integrals", dict(b=0), "b must be above zero, got 0"),
+            ("integrals", dict(exact=-1), "exact must be above zero, got -1"),
+            ("degrees", dict(basis="fourier"), "basis must be monomial or chebyshev, got fourier"),
+            ("bench_integral", dict(ns=0), "ns must be above zero, got 0"),
+            ("bench_integral", dict(loop="both"), "loop must be scalar or row, got both"),
+            ("convergence", dict(strips=0), "strips must be at least 1, got 0"),
+            ("bench_normal", dict(us=-1), "us must be above zero, got -1"),
+            ("bench_normal", dict(strips=0), "strips must be above zero, got 0"),
+            ("bench_normal", dict(start="hot"), "start must be one of cold, warm_load,"
+                                              " warm_shift, got hot"),
+            ("bench_reference", dict(us=-1), "us must be above zero, got -1"),
+            ("bench_reference", dict(elements=0), "elements must be above zero, got 0"),
+            ("bench_reference", dict(method="hope"), "method must be one of norm, tang, got hope"),
+            ("bench_reference", dict(start="hot"), "start must be one of cold, coarse, strips,"
+                                                   " warm_load, warm_creepage, new_plans, got hot"),
         ):
             with self.subTest(command=command, words=words):
                 name = COMMANDS[command][0]
@@ -256,20 +254,21 @@ class BadInput(unittest.TestCase):
 
     def test_curves_that_miss_the_range(self):
         rows = [row for row in curve_rows(0, 3) if row["n"] == 0 or row["L"] > 1.0]
-        self.refused("integrals", text(CURVES, rows), f"no L from -2 to 1 for n = 3: {CURVES}")
+        self.refused("integrals", text(CURVES, rows),
+                     f"L must have values from -2 to 1 for n = 3: {CURVES}")
 
     def test_no_errors_at_all(self):
         self.refused("degrees", text(DEGREES, [dict(r, max_rel_err=0) for r in ROWS[DEGREES]]),
-                     f"no error above zero in column max_rel_err: {DEGREES}")
+                     f"max_rel_err must have an error above zero, got none: {DEGREES}")
         self.refused("convergence",
                      text(CONVERGENCE, [dict(r, area_err="") for r in ROWS[CONVERGENCE]]),
-                     f"no error above zero in column area_err: {CONVERGENCE}")
+                     f"area_err must have an error above zero, got none: {CONVERGENCE}")
 
     def test_times_of_different_runs(self):
         for column in ("flags", "compiler", "cpu"):
             with self.subTest(column):
                 self.refused("bench_integral", changed(INTEGRAL, 0, **{column: "other"}),
-                             f"more than one run, column {column} differs: {INTEGRAL}")
+                             f"{column} must be that of one run, got several: {INTEGRAL}")
 
 
 class Drawn(unittest.TestCase):

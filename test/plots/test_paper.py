@@ -226,7 +226,7 @@ class BadInput(unittest.TestCase):
     def test_creepages_of_the_other_sign_set(self):
         for command in COMMANDS:
             self.refused(command, {"out/paper/sweep_A.csv": sweep("B")},
-                         "cksi is not the reference's at shift -2: -0.0002, not 0.0002"
+                         "cksi at shift -2 must be the reference's, 0.0002, got -0.0002"
                          " (out/paper/sweep_A.csv:4, reference/contact/s1002_uic60_A.csv)")
 
     def test_missing_columns(self):

@@ -139,7 +139,7 @@ class BadInput(unittest.TestCase):
                 ("column", {**FILES, name: text.replace(column, "other")},
                  f"missing column: {column} ({name}:3)"),
                 ("number", {**FILES, name: wrong},
-                 f"not a finite number in column {column}: x1 ({name}:5)"),
+                 f"{column} must be a finite number, got x1 ({name}:5)"),
                 ("rows", {**FILES, name: header + "\n"},
                  f"no row of data below the header: {name}"),
                 ("text", {**FILES, name: ""}, f"the file is empty: {name}"),
@@ -151,12 +151,13 @@ class BadInput(unittest.TestCase):
         name = "out/profiles_shift_0.csv"
         text = FILES[name].replace("rail", "track")
         self.refused("profiles", {**FILES, name: text},
-                     "neither wheel nor rail in column body: track")
+                     "body must be wheel or rail, got track")
 
     def test_one_body_only(self):
         name = "out/profiles_shift_0.csv"
         text = FILES[name].replace("rail", "wheel")
-        self.refused("profiles", {**FILES, name: text}, "fewer than 2 points of the rail")
+        self.refused("profiles", {**FILES, name: text},
+                     "the rail must have at least 2 points, got 0")
 
     def test_profiles_apart(self):
         name = "out/profiles_shift_0.csv"
@@ -167,23 +168,23 @@ class BadInput(unittest.TestCase):
         lines = FILES["gap.csv"].splitlines()
         text = "\n".join(lines[:3] + [lines[4], lines[3]]) + "\n"
         self.refused("profiles", {**FILES, "gap.csv": text},
-                     "y_mm does not ascend: -10 (gap.csv:5)", "--gap", "gap.csv")
+                     "y_mm must ascend, got -10 after -9 (gap.csv:5)", "--gap", "gap.csv")
 
     def test_strip_outside_its_edges(self):
         name = "out/strips_shift_0.csv"
         self.refused("patches", {**FILES, name: FILES[name].replace(",-2.5,", ",2.5,")},
-                     f"y_mm is not between the edges of its strip: 2.5 ({name}:4)")
+                     f"y_mm must be between the edges of its strip, got 2.5 ({name}:4)")
 
     def test_no_pressure(self):
         name = "reference/contact/fields/shift_0_B.csv"
         text = "x_mm,y_mm,pn_MPa\n0,0,0\n"
         self.refused("patches", {**FILES, name: text},
-                     f"no pressure above zero in column pn_MPa: {name}")
+                     f"pn_MPa must have a pressure above zero, got none: {name}")
 
     def test_single_grid_point(self):
         name = "reference/contact/fields/shift_0_B.csv"
         self.refused("patches", {**FILES, name: "x_mm,y_mm,pn_MPa\n0,0,1\n"},
-                     f"a single point is not a grid: {name}")
+                     f"a grid must have at least 2 points, got 1: {name}")
 
     def test_fields_of_another_contact(self):
         name = "out/fields_shift_0.csv"

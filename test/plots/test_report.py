@@ -72,11 +72,14 @@ class Verdicts(unittest.TestCase):
 
     def test_refusals(self):
         for change, says in (
-            ({"id": ""}, "id missing"), ({"chapter": "x"}, "neither verification"),
-            ({"metric": "top_rel"}, "not a metric: top_rel"), ({"metric": "max_"}, "not a metric"),
-            ({"tolerance": "small"}, "not a tolerance: small"),
-            ({"case": "1"}, "not column=value: 1"), ({"quantity": "z"}, "missing column: z"),
-            ({"reference_file": "t.csv"}, "not FILE#COLUMN@KEY"),
+            ({"id": ""}, "id must be given, each once, got ''"),
+            ({"chapter": "x"}, "chapter must be verification or validation, got x"),
+            ({"metric": "top_rel"}, "_rel or _of:, got top_rel"),
+            ({"metric": "max_"}, "_rel or _of:, got max_"),
+            ({"tolerance": "small"}, "tolerance must be a number, got small"),
+            ({"case": "1"}, "case must be column=value, got 1"),
+            ({"quantity": "z"}, "missing column: z"),
+            ({"reference_file": "t.csv"}, "FILE#COLUMN@KEY, got t.csv"),
             ({"reference_file": f"{self.folder}/t.csv#r@case", "method": ""}, None),
         ):
             if says is None:
@@ -99,7 +102,7 @@ class Verdicts(unittest.TestCase):
             row = self.row(**change)
             self.assertEqual(shown_tolerance(row), tolerance)
             self.assertEqual(shown(row, self.judged(**change).value), value)
-        with self.assertRaisesRegex(InputError, "a unit of max_rel begins with %: mm"):
+        with self.assertRaisesRegex(InputError, "a unit of max_rel must begin with %, got mm"):
             self.row(unit="mm")
 
     def test_every_tolerance_of_the_project_has_a_unit(self):
@@ -110,10 +113,10 @@ class Verdicts(unittest.TestCase):
 
     def test_a_reference_row_has_to_be_there_once(self):
         (self.folder / "t.csv").write_text("case,r\n1,1\n1,1\n2,2\n", encoding="utf-8")
-        with self.assertRaisesRegex(InputError, "2 rows with case 1"):
+        with self.assertRaisesRegex(InputError, "must have one row with case 1, got 2"):
             self.judged()
         (self.folder / "t.csv").write_text("case,r\n1,0\n2,2\n", encoding="utf-8")
-        with self.assertRaisesRegex(InputError, "relative to zero"):
+        with self.assertRaisesRegex(InputError, "the base of max_rel must not be zero"):
             self.judged()
 
     def test_the_manifest_of_the_project_is_sound(self):

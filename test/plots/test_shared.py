@@ -92,7 +92,8 @@ class Tables(unittest.TestCase):
     def test_empty_cells(self):
         table = self.read("a,b\n,1\n2,\n")
         self.assertTrue(math.isnan(table.numbers("a", missing=True)[0]))
-        with self.assertRaisesRegex(InputError, r"empty cell in column b \(.*a.csv:3\)"):
+        with self.assertRaisesRegex(InputError,
+                                    r"b must be a number, got an empty cell \(.*a.csv:3\)"):
             table.numbers("b")
 
 

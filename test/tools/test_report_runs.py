@@ -98,9 +98,10 @@ class Report(unittest.TestCase):
         self.assertFalse((self.folder / "a report/data/three.txt").exists())
 
     def test_what_is_refused(self):
-        for runs, says in ((",never,faststrip,x\n", "neither always, full nor quick: never"),
+        for runs, says in ((",never,faststrip,x\n",
+                            "when must be always, full or quick, got never"),
                            ("x,always,perl,x\n",
-                            "neither faststrip, faststrip-lab nor python: perl"),
+                            "program must be faststrip, faststrip-lab or python, got perl"),
                            (",always,faststrip,x\n", "id must be the name of a file, got ''"),
                            ("a/b,always,faststrip,x\n", "id must be the name of a file, got 'a/b'"),
                            ("x,always,faststrip,it's\n", "words must be those of a command")):

@@ -133,9 +133,10 @@ class InACopy(unittest.TestCase):
         readme = self.root / "README.md"
         good = readme.read_text(encoding="utf-8")
         for place, words in (
-            ("<!-- measured: contacts -->", "does not end: README.md"),
+            ("<!-- measured: contacts -->", "every marked place must end: README.md"),
             ("<!-- measured: no/such/figure -->1<!-- end -->", "no such figure: no/such/figure"),
-            ("<!-- measured: nothing -->1<!-- end -->", "neither a table nor"),
+            ("<!-- measured: nothing -->1<!-- end -->",
+             "must be a table or TABLE/ROW/COLUMN, got nothing"),
         ):
             readme.write_text(f"{good}\n{place}\n", encoding="utf-8")
             with self.assertRaisesRegex(InputError, words):
@@ -192,7 +193,7 @@ class Condensing(unittest.TestCase):
         lines = measured.stamp_lines(self.folder)
         self.assertEqual(lines, [*STAMP.splitlines(), "# processor a cpu"])
         self.csv("other.csv", "a", "1", stamp=STAMP.replace("0123abc", "4567def"))
-        with self.assertRaisesRegex(InputError, "stamps of several runs"):
+        with self.assertRaisesRegex(InputError, "stamps must be of one run, got "):
             measured.stamp_lines(self.folder)
 
     def test_what_is_written_is_read(self):
@@ -205,7 +206,8 @@ class Condensing(unittest.TestCase):
         self.assertEqual(table.number("t", "a, b", "c"), 0.333333)
         self.assertEqual(table.word("t", "a, b", "d"), "12")
         path.write_text(text + 't,"a, b",d,13\n', encoding="utf-8")
-        with self.assertRaisesRegex(InputError, "given twice: t/a, b/d"):
+        with self.assertRaisesRegex(InputError,
+                                    "each figure must be given once, got t/a, b/d twice"):
             measured.Measured(path)
 
 
