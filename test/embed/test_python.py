@@ -295,8 +295,9 @@ class Contacts(HostTest):
             self.assertEqual(made.solve(load=1e5), self.contact().solve(load=1e5))
         for name in ("normal", "tangential"):
             for value in (None, 1, [], "Strip", ""):
-                self.refused("bad_argument", contact, says=f"no {name} method {value!r}",
+                self.refused("bad_argument", contact, says=f"{name} must be one of ",
                              **{name: value})
+                self.refused("bad_argument", contact, says=f", got {value!r}", **{name: value})
         self.refused("bad_argument", contact, strips_per_patch="many", says="'many'")
         self.refused("bad_argument", contact, strips_per_patch=1001, says="got 1001")
         self.refused("bad_argument", contact, tangential="polach", with_elements=True,
