@@ -82,11 +82,12 @@ module faststrip_files_csv_writer
             integer(c_int) :: code
         end function c_remove
 
-        ! The number of the C library's last error, by gfortran's own library.
-        function last_error() bind(c, name='_gfortran_ierrno_i4') result(number)
-            import :: c_int
-            integer(c_int) :: number
-        end function last_error
+        ! Where the C library keeps the number of its last error (errno), by the name that the
+        ! Linux Standard Base gives it.
+        function c_errno_location() bind(c, name='__errno_location') result(place)
+            import :: c_ptr
+            type(c_ptr) :: place
+        end function c_errno_location
 
         function c_strerror(number) bind(c, name='strerror') result(text)
             import :: c_int, c_ptr
@@ -250,9 +251,11 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         character(len=:), allocatable :: name
+        integer(c_int), pointer :: last_error
         integer(c_int) :: number
 
-        number = last_error()
+        call c_f_pointer(c_errno_location(), last_error)
+        number = last_error
         if (writer%status%code /= 0) return
         name = writer%path
         if (name == '-') name = 'standard output'
