@@ -16,7 +16,7 @@
 !> the largest is then refined by a golden-section search between the neighbours of its point.
 module faststrip_tables_refit
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp, pi, log_10
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_out_of_range, st_linear_algebra, &
                                      st_not_finite
@@ -55,7 +55,6 @@ module faststrip_tables_refit
     integer, parameter :: author_nodes = 1000
     integer, parameter :: error_points = 6001     !! points on which the error of a row is measured
 
-    real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
     real(wp), parameter :: log10_2 = 0.301029995663981195213738894724493027_wp
 
     !> What to fit.

@@ -1,13 +1,12 @@
 !> Polynomials for the influence integral as a fast program would evaluate them: Horner's rule,
 !> `exp` for the power of ten, no checks. A file of its own, so that a call is a call.
 module faststrip_lab_bench_polynomials
-    use faststrip_base_kinds, only: wp
+    use faststrip_base_kinds, only: wp, log_10
     implicit none
     private
 
     public :: power_of_ten_influence, power_of_ten_row
 
-    real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
     real(wp), parameter :: log10_e = 1.0_wp/log_10
 

@@ -321,8 +321,9 @@ contains
         real(wp), intent(in) :: penetration       !! from h = 0, mm
         type(verdict_t), intent(inout) :: verdict
 
-        ! Below this part of the largest the solver may raise the longitudinal term.
-        real(wp), parameter :: flattest_ratio = 0.03_wp
+        ! Below this part of the largest the solver may raise the longitudinal term. The judge's
+        ! own bound, not the solver's share of the mean: so it notices a change of that.
+        real(wp), parameter :: raised_part = 0.03_wp
         real(wp) :: depth, bend(size(gap%y)), floor, lowest, h, inv2r, y, size_of_h, largest_term
         integer :: i, j, n
 
@@ -383,8 +384,8 @@ contains
 
             real(wp) :: raised
 
-            raised = max(highest_term, merge(flattest_ratio*largest_term, highest_term, &
-                                             lowest_term < flattest_ratio*largest_term))
+            raised = max(highest_term, merge(raised_part*largest_term, highest_term, &
+                                             lowest_term < raised_part*largest_term))
             call report_badness(verdict, judge_curve, &
                                 max(lowest_term - inv2r, inv2r - raised)/(rounding*largest_term))
         end subroutine hold_term

@@ -4,11 +4,14 @@ module faststrip_base_kinds
     implicit none
     private
 
-    public :: wp, pi
+    public :: wp, pi, log_10
 
     !> Working precision: IEEE binary64.
     integer, parameter :: wp = real64
 
     !> Ratio of a circle's circumference to its diameter.
     real(wp), parameter :: pi = 3.141592653589793238462643383279502884_wp
+
+    !> Natural logarithm of 10: a power of ten is `exp(log_10*exponent)`.
+    real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
 end module faststrip_base_kinds

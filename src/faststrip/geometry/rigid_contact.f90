@@ -16,7 +16,7 @@ module faststrip_geometry_rigid_contact
 
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
-    public :: creepage_set_a, creepage_set_b
+    public :: creepage_set_a, creepage_set_b, largest_length
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
@@ -64,7 +64,8 @@ module faststrip_geometry_rigid_contact
     integer, parameter :: n_bisections = 60
     ! Tuned [mm]: shifts beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_shift = 1.0e4_wp
-    ! Tuned [mm]: lengths beyond are refused. Origin: safeguard.
+    !> Lengths and coordinates beyond are refused, mm.
+    !> Tuned [mm]. Origin: safeguard.
     real(wp), parameter :: largest_length = 1.0e6_wp
 
 contains

@@ -3,7 +3,7 @@ module faststrip_geometry_undeformed_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_profile, only: profile_t, profile_at
-    use faststrip_geometry_rigid_contact, only: rigid_contact_t, wheelset_t
+    use faststrip_geometry_rigid_contact, only: rigid_contact_t, wheelset_t, largest_length
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
@@ -33,8 +33,6 @@ module faststrip_geometry_undeformed_gap
     integer, parameter :: max_samples = 200000, max_iterations = 100
     ! Tuned [mm]: longest spacing. Origin: safeguard.
     real(wp), parameter :: largest_step = 1.0e3_wp
-    ! Tuned [mm]: coordinates beyond are refused. Origin: safeguard.
-    real(wp), parameter :: largest_length = 1.0e6_wp
     ! Tuned [mm]: first width of a bracket at least. Origin: safeguard: above rounding.
     real(wp), parameter :: least_bracket = 1.0e-9_wp
     ! Tuned [1]: residual over the coordinate that ends the steps. Origin: safeguard: above

@@ -6,7 +6,7 @@
 !> worst) on -2 <= L <= 1, and are useless outside: -60 % at L = -3.
 module faststrip_influence_polynomial
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_base_kinds, only: wp
+    use faststrip_base_kinds, only: wp, log_10
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      message_length, st_not_finite, st_out_of_range
     implicit none
@@ -56,8 +56,6 @@ contains
 
         ! Given: the published range.
         real(wp), parameter :: b_least = 0.01_wp, b_most = 10.0_wp
-        ! Given: ln 10.
-        real(wp), parameter :: log_10 = 2.302585092994045684017991454684364208_wp
         real(wp) :: l, e
         integer :: k, row
         character(len=message_length) :: words

@@ -4,6 +4,7 @@ module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_normal_lattice_overlap, only: overlap_tolerance
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
@@ -22,8 +23,6 @@ module faststrip_normal_strip_ends
     real(wp), parameter :: damping = 0.6_wp
     ! Tuned [strip widths]. Origin: chosen.
     real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
-    ! Tuned [1]. Origin: far below the errors of 15 strips.
-    real(wp), parameter :: overlap_tolerance = 1.0e-3_wp ! of the penetration
     ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
     ! Tuned [strips]. Origin: chosen for the patch ends of many strips.
