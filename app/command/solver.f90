@@ -65,11 +65,13 @@ module faststrip_command_solver
 
 contains
 
-    !> Allocate for a choice of methods.
+    !> Allocate for a choice of methods. A solver that has served another choice keeps its capacity:
+    !> with INTENT(OUT) gfortran 12 would finalise it, free what it holds and leave the numbers that
+    !> tell how much that is.
     subroutine make_solver(numerics, with_field, solver, status, with_strip_forces)
         type(numerics_t), intent(in) :: numerics !! checked
         logical, intent(in) :: with_field       !! are the elements wanted?
-        type(solver_t), intent(out) :: solver   !! ready
+        type(solver_t), intent(inout) :: solver !! ready
         type(status_t), intent(out) :: status   !! from the library
         logical, intent(in), optional :: with_strip_forces !! are the sums of each strip wanted?
 
@@ -78,6 +80,7 @@ contains
         call clear_status(status)
         if (with_field .and. numerics%normal /= normal_auto) &
             call reserve_contact_field(solver%field, core_methods(numerics), status)
+        solver%with_strip_forces = .false.
         if (present(with_strip_forces)) solver%with_strip_forces = with_strip_forces
     end subroutine make_solver
 

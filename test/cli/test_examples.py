@@ -4,7 +4,7 @@ import math
 import subprocess
 import sys
 
-from cli_program import ROOT, ProgramTest
+from cli_program import ROOT, LabTest, ProgramTest
 
 CASES = ROOT / "example" / "cases"
 MADE = ["worn_wheel.txt", "near_conformal.csv", "polymer_roller.csv"]
@@ -53,3 +53,21 @@ class Examples(ProgramTest):
         for name in MADE:
             self.assertEqual((self.folder / name).read_text(encoding="utf-8"),
                              (CASES / name).read_text(encoding="utf-8"), name)
+
+
+class BenchExamples(LabTest):
+    def test_one_solver_serves_all_methods(self):
+        done = self.run_program("bench", "examples", "--examples", CASES, "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        rows = self.read("out.csv")
+        names = sorted(path.stem for path in CASES.glob("*.nml"))
+        self.assertEqual(len(rows), 5 * len(names))
+        for name in names:
+            strips, = (row for row in rows if row["example"] == name
+                       and row["method"] == "strips 15 + FASTSTRIP")
+            subprocess.run([ROOT / "bin" / "faststrip", "contact", CASES / f"{name}.nml",
+                            "--strips-per-patch", "15", "-o", "alone.csv"],
+                           cwd=self.folder, check=True)
+            alone, = self.read("alone.csv")
+            for column in ("penetration_mm", "pmax_MPa", "area_mm2", "Fx_N", "Fy_N", "status"):
+                self.assertEqual(strips[column], alone[column], (name, column))

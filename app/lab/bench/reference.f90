@@ -14,7 +14,7 @@ module faststrip_lab_bench_reference
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+                                       release_norm, set_norm_gap, norm_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_reference_tang, only: measure_tang
@@ -231,10 +231,11 @@ contains
     subroutine reserve_workspace_of(bench, i, workspace)
         type(bench_t), intent(in) :: bench
         integer, intent(in) :: i
-        type(norm_workspace_t), intent(out) :: workspace
+        type(norm_workspace_t), intent(inout) :: workspace ! INTENT(OUT) leaves stale sizes
 
         type(status_t) :: status
 
+        call release_norm(workspace)
         call reserve_norm(workspace, bench%points, status)
         call fail_on_error(status)
         call set_norm_gap(workspace, bench%cases(i)%gap, status)
