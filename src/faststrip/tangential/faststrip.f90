@@ -44,6 +44,11 @@
 !>   of the implicit march falls short of it by what its steps damp away (a third with 15 points);
 !>   the field takes the traction of each step at its middle, which leaves some percent, and its
 !>   slip is scaled to give the power.
+!> - **S9** **Full sliding**: the bound of S2 gives Carter's force, but its centre lies off the
+!>   strip's; with the fourth power of what a strip uses of its bound the traction moves back to the
+!>   middle, which leaves the forces alone. Far beyond saturation m goes to 1/2 and alpha to zero,
+!>   and from 30 to 300 times mu N of linear force the integral of mu p against the rigid slip
+!>   takes over (`full_sliding`), exact in x at any number of points.
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>

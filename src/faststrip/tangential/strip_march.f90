@@ -1,11 +1,12 @@
 !> The march in the strips of a patch, from the leading edge to the trailing one: several strips
-!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6, S7 and S8 are those of
+!> side by side, as lanes of the processor's vectors. The steps S2, S4 and S6 to S9 are those of
 !> `faststrip_tangential_faststrip`.
 module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_creepage, only: creepage_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_patch_law, only: patch_law_t, smallest_force
+    use faststrip_tangential_full_sliding, only: slide_fully
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           put_element, most_points, state_adhesion, state_slip
     implicit none
@@ -70,7 +71,7 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip !! gets the strips' sums
 
         type(block_t) :: block
-        real(wp) :: bound(most_points), t, thickness
+        real(wp) :: bound(most_points), t, thickness, off_centre
         integer :: i, points
 
         if (law%weight <= 0.0_wp) return
@@ -82,10 +83,16 @@ contains
             bound(points + 1 - i) = thickness*(1.0_wp + law%alpha*t)
         end do
         bound(:points) = bound(:points)*(0.25_wp*pi*points/sum(bound(:points)))
+        off_centre = 0.0_wp
+        do i = 1, points/2
+            t = real(points - 2*i + 1, wp)/points
+            off_centre = off_centre + t*(bound(i) - bound(points + 1 - i))
+        end do
+        off_centre = off_centre/(0.25_wp*pi*points)
         do i = first, last, most_lanes
             call fill_block(law, strips, i, min(i + most_lanes - 1, last), rolling, block)
             call march(block, bound(:points), strips, rolling%creepage, field)
-            call add_block(law, block, rolling, sums, per_strip)
+            call add_block(law, block, off_centre, rolling, sums, per_strip)
         end do
     end subroutine march_strips
 
@@ -157,13 +164,15 @@ contains
     end subroutine note_elements
 
     !> Add the sums of a block.
-    pure subroutine add_block(law, block, rolling, sums, per_strip)
+    pure subroutine add_block(law, block, off_centre, rolling, sums, per_strip)
         type(patch_law_t), intent(in) :: law
         type(block_t), intent(in) :: block
+        real(wp), intent(in) :: off_centre !! centre of the bound over half-length
         type(rolling_t), intent(in) :: rolling
         type(march_sums_t), intent(inout) :: sums
         type(strip_forces_t), intent(inout), optional :: per_strip
 
+        type(tangential_result_t) :: full
         real(wp) :: used, area, fx, fy, mz
         integer :: k
 
@@ -173,8 +182,17 @@ contains
                            /(0.25_wp*pi*points*block%peak_bound(k)), 1.0_wp)
                 fx = block%cell(k)*block%sum_x(k)
                 fy = block%cell(k)*block%sum_y(k)
-                mz = block%cell(k)*(1.0_wp + law%stretch_x*(1.0_wp - used))*block%arm_x(k) &
+                mz = block%cell(k)*((1.0_wp + law%stretch_x*(1.0_wp - used))*block%arm_x(k) &
+                     - used**4*off_centre*block%half_length(k)*block%sum_y(k)) &
                      - (block%y(k) + law%stretch_y*(1.0_wp - used)*(block%y(k) - law%y))*fx
+                if (law%sliding > 0.0_wp) then
+                    call slide_fully(0.25_wp*pi*points*block%cell(k)*block%peak_bound(k), &
+                                     block%half_length(k), block%y(k), creepage, full%fx, &
+                                     full%fy, full%mz)
+                    fx = fx + law%sliding*(full%fx - fx)
+                    fy = fy + law%sliding*(full%fy - fy)
+                    mz = mz + law%sliding*(full%mz - mz)
+                end if
                 result%fx = result%fx + fx
                 result%fy = result%fy + fy
                 result%mz = result%mz + mz
