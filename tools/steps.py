@@ -10,6 +10,9 @@
   hostile [N] [--seed S]
                 build, then try 500 (or N) hostile inputs: each must end with one clear line
   fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and judge the answers
+  force-data [N] [--folder FOLDER] [--jobs N] [--seed S] [--across N]
+                build, then solve 2000 (or N) random contacts by NORM and TANG, to fit creep
+                forces to; what is there in out/force_data/ is not made again
   demo          build, then compute and draw the example; results in out/
   strips        build, then time the strip solver and draw its convergence; in out/strips/
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
@@ -403,6 +406,11 @@ def fuzz(cases="100000"):
     print("no case failed a check; one row per case in out/fuzz.csv")
 
 
+def force_data(*words):
+    build()
+    do(sys.executable, "tools/force_data.py", *words)
+
+
 def demo():
     build()
     pathlib.Path("out").mkdir(exist_ok=True)
@@ -521,12 +529,12 @@ def clean(what=""):
             shutil.rmtree(path)
 
 
-STEPS = {step.__name__.removesuffix("_step"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, demo, strips, extremes, forces, scenes, stored,
-    report, install, docs, embed, tables, compilers, clean)}
+STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
+    build_step, test, lint, mutants, hostile, fuzz, force_data, demo, strips, extremes, forces,
+    scenes, stored, report, install, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None}
+         "hostile": None, "force-data": None, "stored": None, "report": None}
 
 
 def main(command="", *words):

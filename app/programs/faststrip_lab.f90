@@ -4,6 +4,8 @@ program faststrip_lab
     use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
     use faststrip_lab_fuzz, only: run_fuzz
     use faststrip_lab_errata, only: run_errata
+    use faststrip_lab_forces_data, only: run_force_data
+    use faststrip_lab_forces_features, only: run_force_features
     use faststrip_lab_bench, only: run_bench
     use faststrip_lab_scenes_reference_scenes, only: run_scenes
     implicit none
@@ -16,6 +18,8 @@ program faststrip_lab
     case ('fuzz'); call run_fuzz()
     case ('scenes'); call run_scenes()
     case ('errata'); call run_errata()
+    case ('force-data'); call run_force_data()
+    case ('force-features'); call run_force_features()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -35,6 +39,8 @@ contains
         call say('')
         call say('  bench WHAT             times and errors of the methods')
         call say('  errata                 the paper as printed and as it should be')
+        call say('  force-data             reference forces of random contacts')
+        call say('  force-features FILE... forces of FASTSTRIP beside these')
         call say('  fuzz                   random gaps, checked')
         call say('  scenes                 reference forces of many contacts')
         call say('')

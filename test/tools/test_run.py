@@ -127,7 +127,7 @@ class Usage(Project):
             import steps
         finally:
             sys.path.remove(str(ROOT / "tools"))
-        listed = re.findall(r"^  (\w+) ", self.run_it("help").stdout, re.MULTILINE)
+        listed = re.findall(r"^  ([\w-]+) ", self.run_it("help").stdout, re.MULTILINE)
         self.assertEqual(sorted(listed), sorted([*steps.STEPS, "help"]))
         self.assertLessEqual(set(steps.WORDS), set(steps.STEPS))
         for word in ("-h", "--help", "help"):
