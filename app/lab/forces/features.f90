@@ -10,6 +10,8 @@ module faststrip_lab_forces_features
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_sub_patches, only: has_neck
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
+    use faststrip_tangential_patch_law, only: patch_law_t, find_law
+    use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape, n_even, n_odd
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_forces_record, only: force_record_t, take_record
     implicit none
@@ -61,7 +63,9 @@ contains
                                  'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
                                  'friction_power_N', 'stick_fraction', 'Fx_tang_N', 'Fy_tang_N', &
                                  'Mz_tang_Nmm', 'Fx_fine_N', 'Fy_fine_N', 'Mz_fine_Nmm', &
-                                 'friction_power_fine_N', 'stick_fraction_fine'])
+                                 'friction_power_fine_N', 'stick_fraction_fine', &
+                                 'u1', 'u2', 'u3', 'even1', 'even2', 'even3', 'even4', 'even5', &
+                                 'odd1', 'odd2', 'odd3', 'odd4', 'odd5'])
         do file = 1, size(files)
             do row = 1, size(files(file)%records)
                 associate (record => files(file)%records(row))
@@ -98,11 +102,15 @@ contains
         type(force_record_t), intent(in) :: record
 
         type(patch_ellipse_t) :: ellipse
+        type(patch_shape_t) :: shape
+        type(patch_law_t) :: law
         type(tangential_result_t) :: forces
         type(status_t) :: status
-        integer :: i
+        real(wp) :: u(3)
+        integer :: i, k
 
         ellipse = patch_ellipse(record%strips, 1, record%strips%n)
+        shape = patch_shape(record%strips, 1, record%strips%n, ellipse)
         do i = 1, record%n_states
             associate (state => record%states(i))
                 call faststrip_tangential_solve(record%strips, record%material, record%mu, &
@@ -130,6 +138,16 @@ contains
                 call put_cell(writer, extrapolated(state%coarse%fy, state%forces%fy))
                 call put_cell(writer, extrapolated(state%coarse%mz, state%forces%mz))
                 call put_forces(writer, state%forces)
+                call find_law(ellipse, record%material, record%mu, state%creepage, law, status, u)
+                do k = 1, 3
+                    call put_cell(writer, u(k))
+                end do
+                do k = 1, n_even
+                    call put_cell(writer, shape%even(k))
+                end do
+                do k = 1, n_odd
+                    call put_cell(writer, shape%odd(k))
+                end do
                 call end_row(writer)
             end associate
         end do

@@ -74,18 +74,22 @@ module faststrip_tangential_patch_law
 contains
 
     !> What an ellipse says of the strips of a patch.
-    pure subroutine find_law(ellipse, material, mu, creepage, law, status)
+    pure subroutine find_law(ellipse, material, mu, creepage, law, status, linear)
         type(patch_ellipse_t), intent(in) :: ellipse !! of the patch or sub-patch
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction
         type(creepage_t), intent(in) :: creepage     !! about the reference point
         type(patch_law_t), intent(out) :: law !! without weight if there is nothing to carry
         type(status_t), intent(inout) :: status      !! that of `kalker_coefficients`
+        real(wp), intent(out), optional :: linear(3)
+            !! linear forces of the ellipse over mu N: by the longitudinal and the lateral creepage
+            !! of its centre, by spin
 
         type(kalker_coefficients_t) :: c
         real(wp) :: g, ab, force, along, across, turning, spin_share, saturation, slope, fading
         real(wp) :: march
 
+        if (present(linear)) linear = 0.0_wp
         force = mu*ellipse%load
         if (force <= smallest_force) return
         call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, status)
@@ -100,6 +104,9 @@ contains
         along = over_force(c%c11*g*ab*(creepage%cksi - ellipse%y*creepage%cphi), force)
         across = over_force(c%c22*g*ab*creepage%ceta, force)
         turning = over_force(c%c23*g*ab*sqrt(ab)*creepage%cphi, force)
+        if (present(linear)) linear = sign([along, across, turning], &
+                                           [creepage%cksi - ellipse%y*creepage%cphi, &
+                                            creepage%ceta, creepage%cphi])
         saturation = along**2 + across**2 + turning**2
         spin_share = 0.0_wp
         if (saturation > 0.0_wp) spin_share = turning**2/saturation
