@@ -12,6 +12,7 @@ from faststrip_plots.tables import InputError, read_table
 
 METHODS = {
     "faststrip": style.Look("FASTSTRIP", "#0b3c78", "-", 2.2),
+    "faststrip-fitted": style.Look("FASTSTRIP, fitted", "#5b8bd0", (0, (3, 1.2)), 1.7),
     "faststrip-paper": style.Look("FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.5),
     "faststrip-corrected": style.Look(
         "FASTSTRIP corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8
@@ -23,7 +24,7 @@ METHODS = {
     "polach": style.Look("Polach", "#4b8f3c", (0, (1, 1)), 1.5),
     "linear": style.Look("linear", "#8a8a8a", (0, (8, 2)), 1.1),
 }
-MARKERS = dict(zip(METHODS, "osD^v<>Px"))
+MARKERS = dict(zip(METHODS, "o*sD^v<>Px"))
 ERRORS = ("Fx_err", "Fy_err", "force_err", "Mz_err")
 RATIOS = (0.2, 1.0, 5.0)  # a/b of the panels
 STRIPS = 15  # of the times

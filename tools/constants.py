@@ -40,6 +40,7 @@ GIVEN_FILES = {
     "influence/closed_coefficients.f90": "fits, made by tools/influence_coefficients.py",
     "geometry/wheel_s1002.f90": "the profile of EN 13715",
     "tangential/kalker_table.f90": "Kalker's table, written by tools/kalker_table.py",
+    "tangential/force_weights.f90": "a fit, written by tools/force_weights.py",
     "contact/choice_table.f90": "measured errors, written by tools/choice_table.py",
 }
 PAGE = "docs/constants.md"

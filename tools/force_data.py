@@ -73,6 +73,8 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("out/force_data"))
     parser.add_argument("--jobs", type=positive, default=2)
     parser.add_argument("--seed", default="1")
+    parser.add_argument("--family",
+                        help="contacts of one family (default: of all but the last two)")
     parser.add_argument("--across", help="elements across a patch")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
@@ -80,6 +82,8 @@ def main():
     wanted = [shard for shard in every if not shard[2].exists()]
     tell(f"{len(every) - len(wanted)} of {len(every)} files are there")
     options = ["--seed", arguments.seed]
+    if arguments.family:
+        options += ["--family", arguments.family]
     if arguments.across:
         options += ["--across", arguments.across]
     code = make(wanted, arguments.jobs, options)

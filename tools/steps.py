@@ -10,9 +10,9 @@
   hostile [N] [--seed S]
                 build, then try 500 (or N) hostile inputs: each must end with one clear line
   fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and judge the answers
-  force-data [N] [--folder FOLDER] [--jobs N] [--seed S] [--across N]
-                build, then solve 2000 (or N) random contacts by NORM and TANG, to fit creep
-                forces to; what is there in out/force_data/ is not made again
+  corrections   build, then solve 32000 random contacts by NORM and TANG, fit what FASTSTRIP
+                misses of their forces, and write it into the sources; about an hour; what is
+                there in out/force_data/ is not made again
   demo          build, then compute and draw the example; results in out/
   strips        build, then time the strip solver and draw its convergence; in out/strips/
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
@@ -406,9 +406,24 @@ def fuzz(cases="100000"):
     print("no case failed a check; one row per case in out/fuzz.csv")
 
 
-def force_data(*words):
+def corrections():
+    """Fit the forces; judged on families that were left out and on every tenth contact."""
     build()
-    do(sys.executable, "tools/force_data.py", *words)
+    python_packages("fit", "jax and optax")
+    contacts = []
+    for family, seed, count in (("", 1, 14400), ("mixed", 2, 8000), ("ellipse", 3, 4000),
+                                ("zones", 4, 5600)):
+        out = pathlib.Path("out", "force_data", family or "all")
+        do(sys.executable, "tools/force_data.py", count, "--folder", out, "--seed", seed,
+           *(("--family", family) if family else ()))
+        contacts += sorted(out.glob("*.csv"))
+    features = pathlib.Path("out", "force_data", "features.csv")
+    do("bin/faststrip-lab", "force-features", *contacts, "-o", features)
+    heading("fitting, first without some families")
+    do(sys.executable, "tools/fit_forces.py", features,
+       *(word for families in LEFT_OUT for word in ("--leave-out", families)))
+    do(sys.executable, "tools/force_weights.py")
+    heading("done: src/faststrip/tangential/force_weights.f90")
 
 
 def demo():
@@ -487,13 +502,18 @@ def install(*words):
     print("Python: pip install ./python")
 
 
-def docs():
-    wanted, kept = "tools/requirements-docs.txt", ".venv/requirements-docs.txt"
+def python_packages(name, what):
+    """Install what only some steps need."""
+    wanted, kept = f"tools/requirements-{name}.txt", f".venv/requirements-{name}.txt"
     if not os.path.exists(kept) or not filecmp.cmp(wanted, kept, shallow=False):
-        heading("installing FORD")
-        quietly("pip-docs", [sys.executable, "-m", "pip", "install", "--quiet", "-r", wanted],
-                f"cannot install FORD: .venv/bin/python -m pip install -r {wanted}")
+        heading(f"installing {what}")
+        quietly(f"pip-{name}", [sys.executable, "-m", "pip", "install", "--quiet", "-r", wanted],
+                f"cannot install {what}: .venv/bin/python -m pip install -r {wanted}")
         shutil.copy(wanted, kept)
+
+
+def docs():
+    python_packages("docs", "FORD")
     do(sys.executable, "tools/document.py")
     heading("done: out/docs/index.html")
 
@@ -529,12 +549,15 @@ def clean(what=""):
             shutil.rmtree(path)
 
 
+# Families that the force correction is fitted without, to judge it.
+LEFT_OUT = ("tanh+exp", "worn+hollow+waisted+double", "wedge+unequal+quartic", "flat+wheel+power",
+            "mixed", "zones")
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, force_data, demo, strips, extremes, forces,
+    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, extremes, forces,
     scenes, stored, report, install, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "force-data": None, "stored": None, "report": None}
+         "hostile": None, "stored": None, "report": None}
 
 
 def main(command="", *words):

@@ -42,7 +42,8 @@ PLACE = re.compile(r"<!-- measured: (?P<name>.*?) -->(?P<text>.*?)<!-- end -->",
 FIGURES = ("penetration", "area", "pmax", "Fx", "Fy", "Mz")
 FORCES = ("Fx", "Fy", "Mz")
 LABELS = {
-    "faststrip": "FASTSTRIP", "fastsim": "FASTSIM", "faststrip-paper": "TFASTSTRIP as printed",
+    "faststrip": "FASTSTRIP", "faststrip-fitted": "FASTSTRIP, fitted",
+    "fastsim": "FASTSIM", "faststrip-paper": "TFASTSTRIP as printed",
     "faststrip-corrected": "TFASTSTRIP as corrected", "fastsim-elliptic": "FASTSIM, elliptic bound",
     "fastsim-weighted": "FASTSIM, one flexibility", "linear": "linear theory", "polach": "Polach",
     "she": "Shen, Hedrick and Elkins", "cold": "from nothing", "warm_load": "load changed by 5 %",

@@ -6,9 +6,9 @@ from cli_program import GAPS, ROOT, LabTest
 
 CONTACTS = ROOT / "reference" / "contact"
 SCENES = ROOT / "reference" / "scenes" / "scenes.csv"
-METHODS = ["faststrip", "faststrip-paper", "faststrip-corrected", "fastsim", "fastsim-elliptic",
-           "fastsim-weighted", "linear", "she", "polach"]
-LAWS = METHODS[6:]
+METHODS = ["faststrip", "faststrip-fitted", "faststrip-paper", "faststrip-corrected", "fastsim",
+           "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach"]
+LAWS = METHODS[7:]
 
 
 class Bench(LabTest):

@@ -34,16 +34,18 @@ module faststrip_lab_forces_contacts
 contains
 
     !> Draw a contact.
-    subroutine draw_force_contact(seed, number, contact)
+    subroutine draw_force_contact(seed, number, contact, family)
         integer, intent(in) :: seed                   !! >= 0
         integer, intent(in) :: number                 !! from 1
         type(force_contact_t), intent(out) :: contact !! drawn
+        integer, intent(in), optional :: family       !! index of `force_families`; else in turn
 
         real(wp) :: poisson
 
         call start_random(seed, number, contact%random)
         contact%number = number
         contact%family = force_family(number)
+        if (present(family)) contact%family = family
         contact%load = 10.0_wp**uniform(contact%random, 3.7_wp, 5.2_wp)
         contact%mu = uniform(contact%random, 0.1_wp, 0.6_wp)
         poisson = uniform(contact%random, 0.2_wp, 0.35_wp)

@@ -7,6 +7,7 @@ module faststrip_lab_forces_data
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
+    use faststrip_lab_forces_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, put_record_header, put_record
     use faststrip_lab_forces_reference, only: reference_workspaces_t, solve_reference
     implicit none
@@ -27,7 +28,8 @@ contains
         type(reference_workspaces_t) :: work
         type(force_contact_t) :: contact
         type(force_record_t) :: record
-        integer :: seed, first, contacts, across, number
+        integer :: seed, first, contacts, across, number, family
+        character(len=:), allocatable :: name
 
         command%name = 'force-data'
         command%usage = ''
@@ -40,6 +42,8 @@ contains
             option_t('--cases', 'INTEGER', 'number of contacts (default 200)'), &
             option_t('--seed', 'INTEGER', 'which series of contacts (default 1)'), &
             option_t('--first', 'INTEGER', 'number of the first contact (default 1)'), &
+            option_t('--family', 'NAME', &
+                     'contacts of one family (default: of all but the last two)'), &
             option_t('--across', 'INTEGER', &
                      'elements across the patch, each way, 8 to 500 (default ' &
                      // integer_text(usual_across) // ')'), &
@@ -49,6 +53,10 @@ contains
         seed = option_integer(command, '--seed', 1, least=0)
         first = option_integer(command, '--first', 1, least=1)
         across = option_integer(command, '--across', usual_across, least=8, most=500)
+        name = option_text(command, '--family', '')
+        family = findloc(force_families == name, .true., dim=1)
+        if (family == 0 .and. name /= '') &
+            call usage_error('--family must be a family of gaps, got ' // trim(name), command%name)
         if (contacts > huge(contacts) - first) &
             call usage_error('--cases must end before contact ' // integer_text(huge(contacts)) &
                              // ', got ' // integer_text(contacts), command%name)
@@ -59,7 +67,11 @@ contains
                          // ' elements across, *_coarse half as many; seed ' // integer_text(seed))
         call put_record_header(writer)
         do number = first, first + contacts - 1
-            call draw_force_contact(seed, number, contact)
+            if (family > 0) then
+                call draw_force_contact(seed, number, contact, family)
+            else
+                call draw_force_contact(seed, number, contact)
+            end if
             call solve_reference(work, contact, across, record)
             call put_record(writer, record)
             call progress('contact', number - first + 1, contacts)

@@ -15,11 +15,12 @@ module faststrip_lab_forces_gaps
     public :: draw_force_gap, force_family, force_families
 
     !> What the families are called.
-    character(len=9), parameter :: force_families(13) = [character(len=9) :: &
+    character(len=9), parameter :: force_families(15) = [character(len=9) :: &
         'ellipse', 'quartic', 'unequal', 'wedge', 'waisted', 'tanh', 'exp', 'worn', 'hollow', &
-        'power', 'flat', 'double', 'wheel']
-    ! Of 17 contacts in a row five are ellipses.
-    integer, parameter :: ellipses = 5
+        'power', 'flat', 'double', 'wheel', 'mixed', &
+        'zones']
+    ! Of 17 contacts in a row five are ellipses; the last two families come only when asked for.
+    integer, parameter :: ellipses = 5, in_turn = 13
     ! The gap reaches from -reach to reach.
     real(wp), parameter :: reach = 6.0_wp
     integer, parameter :: fine_points = 961
@@ -30,7 +31,7 @@ contains
     pure integer function force_family(number) result(family)
         integer, intent(in) :: number !! of the contact, from 1
 
-        family = max(1, 1 + modulo(number - 1, size(force_families) + ellipses - 1) &
+        family = max(1, 1 + modulo(number - 1, in_turn + ellipses - 1) &
                      - (ellipses - 1))
     end function force_family
 
@@ -141,9 +142,36 @@ contains
             if (chance(random, 0.7_wp)) h = h + uniform(random, -0.2_wp, 0.2_wp)*t
         case ('wheel')
             call draw_arcs(random, t, h)
+        case ('mixed')
+            call draw_arcs(random, t, h)
+            if (chance(random, 0.5_wp)) then
+                p = 10.0_wp**uniform(random, -0.8_wp, 0.8_wp)
+                where (t > 0.0_wp) h = p*h
+            end if
+            if (chance(random, 0.5_wp)) &
+                h = h + uniform(random, -0.3_wp, 0.6_wp) &
+                    *exp(-((t - uniform(random, -1.0_wp, 1.0_wp)) &
+                           /uniform(random, 0.3_wp, 1.2_wp))**2)
+            if (chance(random, 0.3_wp)) &
+                h = h + uniform(random, 0.0_wp, 0.4_wp) &
+                    *cos(uniform(random, 1.0_wp, 4.0_wp)*t + uniform(random, 0.0_wp, 2.0_wp*pi))
+            p = uniform(random, -1.0_wp, 1.0_wp)
+            q = uniform(random, -0.8_wp, 0.8_wp)
+            a = exp(p*tanh((t - q)*log_uniform(random, 0.5_wp, 5.0_wp)))
+        case ('zones')
+            ! A sharp place beside a flat one, as where a wheel runs from the rail's head to its
+            ! corner; the lower of both counts, rounded.
+            p = 10.0_wp**uniform(random, -1.6_wp, 0.0_wp)
+            q = uniform(random, 0.3_wp, 2.5_wp)
+            r = uniform(random, -0.4_wp, 0.4_wp)
+            h = p*(side*t - q)**2 + r - t**2
+            r = log_uniform(random, 0.01_wp, 0.3_wp)
+            h = t**2 + 0.5_wp*(h - sqrt(h**2 + r**2))
+            p = uniform(random, -0.6_wp, 0.6_wp)
+            a = exp(p*tanh(side*t*log_uniform(random, 0.5_wp, 5.0_wp)))
         end select
         ! A wheel's radius varies across the patch.
-        if (any(family == [character(len=9) :: 'ellipse', 'tanh', 'exp'])) return
+        if (any(family == [character(len=9) :: 'ellipse', 'tanh', 'exp', 'mixed', 'zones'])) return
         if (.not. chance(random, 0.3_wp)) return
         p = uniform(random, -0.5_wp, 0.5_wp)
         a = exp(max(-1.5_wp, min(1.5_wp, p*t)))

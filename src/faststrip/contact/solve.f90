@@ -36,7 +36,8 @@ module faststrip_contact_solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
                                          normal_strip, normal_equal_area, tangential_none, &
-                                         tangential_faststrip, tangential_faststrip_paper, &
+                                         tangential_faststrip, tangential_faststrip_fitted, &
+                                         tangential_faststrip_paper, &
                                          tangential_faststrip_corrected, tangential_fastsim, &
                                          tangential_fastsim_elliptic, &
                                          tangential_fastsim_weighted, tangential_linear, &
@@ -418,11 +419,11 @@ contains
             select case (methods%tangential)
             case (tangential_none)
                 call clear_status(status)
-            case (tangential_faststrip)
-                call faststrip_tangential_solve(workspace%strips, case%material, case%mu, &
-                                                case%creepage, &
-                                     methods%points_per_strip, tangential, status, field, &
-                                     per_strip)
+            case (tangential_faststrip, tangential_faststrip_fitted)
+                call faststrip_tangential_solve( &
+                    workspace%strips, case%material, case%mu, case%creepage, &
+                    methods%points_per_strip, tangential, status, field, per_strip, &
+                    with_fit=methods%tangential == tangential_faststrip_fitted)
             case (tangential_faststrip_paper)
                 call paper_solve(workspace%strips, case%material, case%mu, case%creepage, &
                                  methods%points_per_strip, tangential, status, field)

@@ -49,6 +49,9 @@
 !>   middle, which leaves the forces alone. Far beyond saturation m goes to 1/2 and alpha to zero,
 !>   and from 30 to 300 times mu N of linear force the integral of mu p against the rigid slip
 !>   takes over (`full_sliding`), exact in x at any number of points.
+!> - **S10** **Correction**, if it is asked for: what the march misses of the forces of a patch or
+!>   sub-patch is a smooth function of the creepages, of a/b, of Poisson's ratio and of the patch's
+!>   shape. It was fitted to TANG on random contacts and is added (`force_correction`).
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -62,14 +65,18 @@ module faststrip_tangential_faststrip
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range, &
                                      st_workspace_too_small
-    use faststrip_base_material, only: material_t, check_material
+    use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_patch_ellipse, only: patch_ellipse, patch_end, check_strips
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                              check_strips
     use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
                                             next_sub_patch, all_parted, all_joined
     use faststrip_tangential_motion, only: check_motion
-    use faststrip_tangential_patch_law, only: patch_law_t, find_law, add_law, mean_law, same_law
+    use faststrip_tangential_force_correction, only: rolling_state_t, force_correction
+    use faststrip_tangential_patch_law, only: patch_law_t, find_law, add_law, mean_law, same_law, &
+                                              smallest_force
+    use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, field_power, most_points
@@ -85,8 +92,12 @@ module faststrip_tangential_faststrip
 contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
+    !>
+    !> The elements of `field` have the tractions of the march, which add up to its forces without
+    !> S10, and a slip that gives the friction power with it.
+    !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
-                                               result, status, field, per_strip)
+                                               result, status, field, per_strip, with_fit)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -101,11 +112,15 @@ contains
             !! filled when present; needs capacity for n*points_per_strip elements
         type(strip_forces_t), intent(inout), optional :: per_strip
             !! filled when present; needs capacity for n strips
+        logical, intent(in), optional :: with_fit !! corrected (S10)? default false
 
         type(rolling_t) :: rolling
         type(march_sums_t) :: sums
         integer :: first, last
+        logical :: is_corrected
 
+        is_corrected = .false.
+        if (present(with_fit)) is_corrected = with_fit
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
         call check_material(material, status)
@@ -131,8 +146,8 @@ contains
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
-            call solve_patch(strips, first, last, material, rolling, sums, status, field, &
-                             per_strip)
+            call solve_patch(strips, first, last, material, rolling, is_corrected, sums, status, &
+                             field, per_strip)
             if (is_error(status)) return
         end do
         result = sums%result
@@ -162,41 +177,47 @@ contains
     end subroutine empty_strip_forces
 
     !> Add the forces of strips `first` to `last`, one patch.
-    pure subroutine solve_patch(strips, first, last, material, rolling, sums, status, field, &
-                                per_strip)
+    pure subroutine solve_patch(strips, first, last, material, rolling, is_corrected, sums, &
+                                status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
         type(rolling_t), intent(in) :: rolling
+        logical, intent(in) :: is_corrected
         type(march_sums_t), intent(inout) :: sums
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
+        type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: law
         type(tangential_result_t) :: before
-        real(wp) :: power
+        real(wp) :: power, linear(3), missing(3)
         integer :: first_element
 
         before = sums%result
+        missing = 0.0_wp
         first_element = 1
         if (present(field)) first_element = field%n + 1
         if (has_neck(strips%half_length(first:last))) then
-            call march_sub_patches(strips, first, last, material, rolling, sums, status, field, &
-                                   per_strip)
+            call march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &
+                                   missing, status, field, per_strip)
         else
-            call find_law(patch_ellipse(strips, first, last), material, rolling%mu, &
-                          rolling%creepage, law, status)
+            ellipse = patch_ellipse(strips, first, last)
+            call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
             call march_strips(law, strips, first, last, rolling, sums, field, per_strip)
+            if (is_corrected .and. law%weight > 0.0_wp) &
+                call add_missing(patch_shape(strips, first, last, ellipse), ellipse, law, linear, &
+                                 material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
         associate (result => sums%result, creepage => rolling%creepage)
-            power = max(-((result%fx - before%fx)*creepage%cksi &
-                          + (result%fy - before%fy)*creepage%ceta &
-                          + (result%mz - before%mz)*creepage%cphi), 0.0_wp)
+            if (is_corrected) &
+                call correct(strips, first, last, rolling%mu, before, missing, result, per_strip)
+            power = work(before, result, creepage)
+            if (present(field)) call match_power(power, first_element, field)
             result%friction_power = result%friction_power + power
         end associate
-        if (present(field)) call match_power(power, first_element, field)
         if (present(per_strip)) then
             associate (share => per_strip%friction_power(first:last))
                 if (sum(share) > 0.0_wp) share = share*(power/sum(share))
@@ -204,21 +225,86 @@ contains
         end if
     end subroutine solve_patch
 
+    !> What the creepages feed into the forces that were added, N.
+    pure real(wp) function work(before, after, creepage)
+        type(tangential_result_t), intent(in) :: before, after
+        type(creepage_t), intent(in) :: creepage
+
+        work = max(-((after%fx - before%fx)*creepage%cksi + (after%fy - before%fy)*creepage%ceta &
+                     + (after%mz - before%mz)*creepage%cphi), 0.0_wp)
+    end function work
+
+    !> Add what the march misses of a patch or a part of it (S10), with a weight.
+    pure subroutine add_missing(shape, ellipse, law, linear, material, rolling, weight, missing)
+        type(patch_shape_t), intent(in) :: shape
+        type(patch_ellipse_t), intent(in) :: ellipse
+        type(patch_law_t), intent(in) :: law
+        real(wp), intent(in) :: linear(3) !! linear forces over mu N
+        type(material_t), intent(in) :: material
+        type(rolling_t), intent(in) :: rolling
+        real(wp), intent(in) :: weight
+        real(wp), intent(inout) :: missing(3) !! N, N, N mm about the reference point
+
+        real(wp) :: part(3)
+
+        associate (c => rolling%creepage)
+            part = weight*rolling%mu*ellipse%load*force_correction(rolling_state_t( &
+                linear, [c%cksi - ellipse%y*c%cphi, c%ceta, c%cphi], ellipse%a, ellipse%b, &
+                combined_poisson_ratio(material), law%sliding), shape)
+        end associate
+        missing = missing + [part(1), part(2), &
+                             part(3)*sqrt(ellipse%a*ellipse%b) - ellipse%y*part(1)]
+    end subroutine add_missing
+
+    !> Add what is missing to the forces of a patch, of which no more than mu N is left (S10), and
+    !> to its strips in proportion to their loads.
+    pure subroutine correct(strips, first, last, mu, before, missing, result, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        real(wp), intent(in) :: mu
+        type(tangential_result_t), intent(in) :: before !! the sums without the patch
+        real(wp), intent(in) :: missing(3)              !! N, N, N mm
+        type(tangential_result_t), intent(inout) :: result
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        real(wp) :: loads(first:last), force(2), change(2), bound
+
+        associate (width => strips%y_right(first:last) - strips%y_left(first:last))
+            loads = strip_load(strips%p0(first:last), strips%half_length(first:last), width)
+        end associate
+        bound = mu*sum(loads)
+        if (bound <= smallest_force) return
+        force = [result%fx - before%fx, result%fy - before%fy]
+        change = force + missing(:2)
+        if (norm2(change) > bound) change = change*(bound/norm2(change))
+        change = change - force
+        result%fx = result%fx + change(1)
+        result%fy = result%fy + change(2)
+        result%mz = result%mz + missing(3)
+        if (.not. present(per_strip)) return
+        loads = loads*mu/bound
+        per_strip%fx(first:last) = per_strip%fx(first:last) + change(1)*loads
+        per_strip%fy(first:last) = per_strip%fy(first:last) + change(2)*loads
+    end subroutine correct
+
     !> March the strips of a patch with a neck, each by the mean of the laws of its sub-patches.
-    pure subroutine march_sub_patches(strips, first, last, material, rolling, sums, status, &
-                                        field, per_strip)
+    pure subroutine march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &
+                                      missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
         type(rolling_t), intent(in) :: rolling
+        logical, intent(in) :: is_corrected
         type(march_sums_t), intent(inout) :: sums
+        real(wp), intent(inout) :: missing(3) !! gets what the march misses; N, N, N mm
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         real(wp), dimension(first:last) :: openness, share
+        type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: mean(first:last), law
-        real(wp) :: level, weight
+        real(wp) :: level, weight, linear(3)
         integer :: i, begin, from, to
 
         call find_openness(strips%half_length(first:last), openness)
@@ -233,9 +319,12 @@ contains
                     if (level > all_parted .and. .not. any(around == level)) cycle
                     weight = level_weight(level, next_level(around, level))
                 end associate
-                call find_law(patch_ellipse(strips, from, to, share(from:to)), material, &
-                              rolling%mu, rolling%creepage, law, status)
+                ellipse = patch_ellipse(strips, from, to, share(from:to))
+                call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
                 if (is_error(status)) return
+                if (is_corrected .and. law%weight > 0.0_wp) &
+                    call add_missing(patch_shape(strips, from, to, ellipse, share(from:to)), &
+                                     ellipse, law, linear, material, rolling, weight, missing)
                 do i = from, to
                     call add_law(weight*share(i)*law%weight, law, mean(i))
                 end do

@@ -2,9 +2,9 @@
 !> are zero for an ellipse with Hertz's pressure.
 !>
 !> With eta = (y - yc)/b and xi = x/a of that ellipse, A and P the shares of the area and of the
-!> load: moments of third to sixth order of A, of first and second order of P. All vary continuously when
-!> strips without length join a patch. Those called odd change sign when left and right are
-!> exchanged, those called even stay.
+!> load: moments of third to sixth order of A, of first and second order of P. All vary
+!> continuously when strips without length join a patch. Those called odd change sign when left and
+!> right are exchanged, those called even stay.
 module faststrip_tangential_patch_shape
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, strip_load
@@ -15,6 +15,7 @@ module faststrip_tangential_patch_shape
     public :: patch_shape_t, patch_shape, n_even, n_odd
 
     !> Numbers of a shape that stay and that change sign when left and right are exchanged.
+    !> Given: as listed with them.
     integer, parameter :: n_even = 5, n_odd = 5
 
     !> What a patch has beyond its ellipse, without units.
