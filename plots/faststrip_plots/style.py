@@ -40,9 +40,6 @@ METHOD = {
     ("hertz", "fastsim"): Look("Hertz + FASTSIM", "#f08519", (0, (5, 1.8)), 1.8),
     ("norm", "tang"): Look("NORM + TANG", "#4d9748", (0, (1.6, 0.8)), 3.6),
     ("strip", "fastsim"): Look("strips + FASTSIM", "#a0306a", (0, (6, 1.6, 1.2, 1.6)), 1.6),
-    ("strip", "faststrip-fitted"): Look(
-        "strips + FASTSTRIP, fitted", "#5b8bd0", (0, (3, 1.2)), 1.7
-    ),
     ("strip", "faststrip-paper"): Look(
         "strips + FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.8
     ),

@@ -70,12 +70,28 @@ class Bench(LabTest):
         self.assertLess(statistics.fmean(own["stick"]), 2.5)
         # Nobody else comes near, except where there is no spin.
         for (name, group, method), sums in errors.items():
-            if method == "faststrip" or group == "long":
+            if method in ("faststrip", "faststrip-fitted") or group == "long":
                 continue
             best = errors[name, group, "faststrip"]
             for quantity in ("force", "Mz"):
                 self.assertLess(statistics.fmean(best[quantity]),
                                 0.6 * statistics.fmean(sums[quantity]), (name, group, method))
+
+    def test_the_fit_takes_half_of_the_errors_of_contacts_never_fitted(self):
+        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
+                                str(SCENES), "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        mean = {}
+        for row in self.read("out.csv"):
+            if row["method"] in ("faststrip", "faststrip-fitted"):
+                for quantity in ("Fx_err", "Fy_err", "Mz_err"):
+                    mean.setdefault((row["set"], quantity, row["method"]), []).append(
+                        abs(float(row[quantity])))
+        mean = {key: statistics.fmean(errors) for key, errors in mean.items()}
+        for quantity in ("Fx_err", "Fy_err", "Mz_err"):
+            for name, part in (("scenes", 0.5), ("hertz", 0.85), ("s1002_uic60_B", 0.7)):
+                self.assertLess(mean[name, quantity, "faststrip-fitted"],
+                                part * mean[name, quantity, "faststrip"], (name, quantity))
 
     def test_the_peers_are_beaten(self):
         # CONTACT's own fast methods on the same gaps, mean and largest of all three.

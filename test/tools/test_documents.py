@@ -20,7 +20,7 @@ LABEL = r"- \*\*([NFSPLK]\d+)\*\* "
 CONSTANTS = (
     ("strip_state.f90", "end_grading", "0.7", "$g = 0.7$"),
     ("strip_equations.f90", "leaving_length_ratio", "0.15", "its length falls below 0.15 of its"),
-    ("strip_ends.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
+    ("lattice_overlap.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
     ("strip_patches.f90", "fewest_strips_small_patch", "9", "but at least nine"),
     ("strip_levels.f90", "scout_strips", "7", "Seven strips find the patches"),
     ("strip_levels.f90", "first_level", "15", "15 refine them"),

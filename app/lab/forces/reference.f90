@@ -12,7 +12,7 @@ module faststrip_lab_forces_reference
                                            edges_of_norm
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_command_normal_stage, only: make_room
+    use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_creepages
     use faststrip_lab_forces_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, most_states
@@ -58,7 +58,7 @@ contains
         record%load = contact%load
         record%mu = contact%mu
         record%material = contact%material
-        call make_room(work%strips, contact, status)
+        call reserve_for_case(work%strips, contact, status)
         if (.not. is_error(status)) &
             call solve_contact_normal(work%strips, contact%contact_case_t, strips, status)
         if (is_left_out(status, strips, record)) return
