@@ -7,7 +7,7 @@ module faststrip_influence_angle_sums
     use faststrip_influence_angle_rules, only: fine, coarse, n_column_rules, rule_size, &
                                                rule_start, cosine, far_limit, near_a0, near_a1, &
                                                near_last, one_cosh, one_sinh, d_cosh, d_sinh
-    use faststrip_influence_closed_coefficients, only: atanh_series, atanh_last
+    use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
     use faststrip_influence_thin_kernel, only: expand_kernel, last_power
     implicit none
     private
@@ -27,14 +27,8 @@ module faststrip_influence_angle_sums
     real(wp), parameter :: thin_last(wide - 1, fine:coarse) = reshape( &
         [-1.0_wp, -1.0_wp, -1.0_wp, 0.26_wp, 0.045_wp, 0.16_wp, 0.28_wp, -1.0_wp], [wide - 1, 2])
 
-    ! Powers of the kernel of a strip of any width, as many as four at a time make.
-    real(wp), parameter :: twice_atanh(0:2*last_power) = [2.0_wp*atanh_series, 0.0_wp]
-    integer, parameter :: most_nodes = rule_size(n_column_rules)
-
     ! Largest X and distance of an edge, in half-lengths: beyond, scalar procedures lose less.
-    ! Tuned [half-lengths]. Origin: accuracy: beyond, differences of large numbers. d_x errs by
-    ! 4e-12 of itself here and at double, 3e-10 from 2e3 to 1e4; at half points between take 1.2
-    ! times as long.
+    ! Tuned [half-lengths]. Origin: accuracy: beyond, differences of large numbers.
     real(wp), parameter :: largest_sigma = 1.0e3_wp
     !> Least distance of a field point from the nearer edge, in half-lengths: below, no rule fits.
     !> Tuned [half-lengths]. Origin: the last rule's smallest interval.
@@ -96,109 +90,207 @@ contains
         real(wp), intent(in) :: u(n), x, cl, cr
         real(wp), intent(out) :: m(3)
 
-        real(wp), dimension(most_nodes) :: delta, root2, ker
-        real(wp) :: s0, s1, s2
+        real(wp) :: c(0:2*last_power), middle, delta, r, y, y2, y4, ker, s0, s1, s2
         integer :: j
 
-        delta(:n) = u - x
-        root2(:n) = 1.0_wp
-        call kernel_at_nodes(n, delta, root2, cl, cr, form, ker)
         s0 = 0.0_wp
         s1 = 0.0_wp
         s2 = 0.0_wp
-        !$omp simd reduction(+:s0, s1, s2)
-        do j = 1, n
-            s0 = s0 + ker(j)
-            s1 = s1 + u(j)*ker(j)
-            s2 = s2 + u(j)*u(j)*ker(j)
-        end do
-        m = pi/n*(cr - cl)*[s0 - s2, -s1, s2]
+        if (form < wide) call expand_kernel(form, cl, cr, c)
+        middle = (0.5_wp*(cl + cr))**2
+        select case (form)
+        case (1)
+            !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            do j = 1, n
+                delta = u(j) - x
+                r = 1.0_wp/sqrt(delta*delta + middle)
+                y = middle*(r*r)
+                y2 = y*y
+                ker = r*((c(0) + y*c(1)) + y2*((c(2) + y*c(3)) + y2*c(4)))
+                s0 = s0 + ker
+                s1 = s1 + u(j)*ker
+                s2 = s2 + u(j)*u(j)*ker
+            end do
+        case (2)
+            !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            do j = 1, n
+                delta = u(j) - x
+                r = 1.0_wp/sqrt(delta*delta + middle)
+                y = middle*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) + y4*c(8)))
+                s0 = s0 + ker
+                s1 = s1 + u(j)*ker
+                s2 = s2 + u(j)*u(j)*ker
+            end do
+        case (3)
+            !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            do j = 1, n
+                delta = u(j) - x
+                r = 1.0_wp/sqrt(delta*delta + middle)
+                y = middle*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                               + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) + y4*c(12))))
+                s0 = s0 + ker
+                s1 = s1 + u(j)*ker
+                s2 = s2 + u(j)*u(j)*ker
+            end do
+        case (4)
+            !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            do j = 1, n
+                delta = u(j) - x
+                r = 1.0_wp/sqrt(delta*delta + middle)
+                y = middle*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                               + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) &
+                                     + y4*(((c(12) + y*c(13)) + y2*(c(14) + y*c(15))) &
+                                           + y4*c(16)))))
+                s0 = s0 + ker
+                s1 = s1 + u(j)*ker
+                s2 = s2 + u(j)*u(j)*ker
+            end do
+        case default
+            !$omp simd private(delta, r, y, y2, y4, ker) reduction(+:s0, s1, s2)
+            do j = 1, n
+                delta = u(j) - x
+                r = 1.0_wp/(sqrt(delta*delta + cl*cl) + sqrt(delta*delta + cr*cr))
+                y = ((cr - cl)*r)**2
+                y2 = y*y
+                y4 = y2*y2
+                ker = r*((a(0) + y*a(1)) + y2*(a(2) + y*a(3)) &
+                         + y4*(((a(4) + y*a(5)) + y2*(a(6) + y*a(7))) &
+                               + y4*(((a(8) + y*a(9)) + y2*(a(10) + y*a(11))) &
+                                     + y4*((a(12) + y*a(13)) + y2*(a(14) + y*a(15))))))
+                s0 = s0 + ker
+                s1 = s1 + u(j)*ker
+                s2 = s2 + u(j)*u(j)*ker
+            end do
+        end select
+        m = merge(2.0_wp, 1.0_wp, form == wide)*pi/n*(cr - cl)*[s0 - s2, -s1, s2]
     end subroutine far_sums
 
     !> Trapezium rule in phi, tau = H cos(phi), `rest` is 1 - u; the nodes of
-    !> faststrip_influence_angle_rules. The kernel comes over sqrt(1 - u^2).
+    !> faststrip_influence_angle_rules.
     pure subroutine near_sums(n, p, q, dp, dq, x, cl, cr, form, m)
         integer, intent(in) :: n, form
         real(wp), intent(in), dimension(n) :: p, q, dp, dq
         real(wp), intent(in) :: x, cl, cr
         real(wp), intent(out) :: m(3)
 
-        real(wp), dimension(most_nodes) :: delta, root2, ker
-        real(wp) :: rest, u, weighted, s0, s1, s2
+        real(wp) :: c(0:2*last_power), middle, u, delta, rest, root, root2, r, y, y2, y4, ker, &
+                    s0, s1, s2
         integer :: j
 
-        !$omp simd private(rest)
-        do j = 1, n
-            rest = q(j) - x*p(j)
-            delta(j) = (1.0_wp - x) - rest
-            root2(j) = rest*(2.0_wp - rest)
-        end do
-        call kernel_at_nodes(n, delta, root2, cl, cr, form, ker)
         s0 = 0.0_wp
         s1 = 0.0_wp
         s2 = 0.0_wp
-        !$omp simd private(u, weighted) reduction(+:s0, s1, s2)
-        do j = 1, n
-            u = 1.0_wp - (q(j) - x*p(j))
-            weighted = (dq(j) - x*dp(j))*ker(j)
-            s0 = s0 + root2(j)*weighted
-            s1 = s1 + u*weighted
-            s2 = s2 + u*u*weighted
-        end do
-        m = pi/n*(cr - cl)*[s0, -s1, s2]
+        if (form < wide) call expand_kernel(form, cl, cr, c)
+        middle = (0.5_wp*(cl + cr))**2
+        select case (form)
+        case (1)
+            !$omp simd private(u, delta, rest, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
+            do j = 1, n
+                rest = q(j) - x*p(j)
+                u = 1.0_wp - rest
+                delta = (1.0_wp - x) - rest
+                root2 = rest*(2.0_wp - rest)
+                r = 1.0_wp/sqrt(root2*(delta*delta + middle))
+                y = middle*root2*(r*r)
+                y2 = y*y
+                ker = (dq(j) - x*dp(j))*r*((c(0) + y*c(1)) + y2*((c(2) + y*c(3)) + y2*c(4)))
+                s0 = s0 + root2*ker
+                s1 = s1 + u*ker
+                s2 = s2 + u*u*ker
+            end do
+        case (2)
+            !$omp simd private(u, delta, rest, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
+            do j = 1, n
+                rest = q(j) - x*p(j)
+                u = 1.0_wp - rest
+                delta = (1.0_wp - x) - rest
+                root2 = rest*(2.0_wp - rest)
+                r = 1.0_wp/sqrt(root2*(delta*delta + middle))
+                y = middle*root2*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = (dq(j) - x*dp(j))*r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) + y4*c(8)))
+                s0 = s0 + root2*ker
+                s1 = s1 + u*ker
+                s2 = s2 + u*u*ker
+            end do
+        case (3)
+            !$omp simd private(u, delta, rest, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
+            do j = 1, n
+                rest = q(j) - x*p(j)
+                u = 1.0_wp - rest
+                delta = (1.0_wp - x) - rest
+                root2 = rest*(2.0_wp - rest)
+                r = 1.0_wp/sqrt(root2*(delta*delta + middle))
+                y = middle*root2*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = (dq(j) - x*dp(j))*r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                               + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) + y4*c(12))))
+                s0 = s0 + root2*ker
+                s1 = s1 + u*ker
+                s2 = s2 + u*u*ker
+            end do
+        case (4)
+            !$omp simd private(u, delta, rest, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
+            do j = 1, n
+                rest = q(j) - x*p(j)
+                u = 1.0_wp - rest
+                delta = (1.0_wp - x) - rest
+                root2 = rest*(2.0_wp - rest)
+                r = 1.0_wp/sqrt(root2*(delta*delta + middle))
+                y = middle*root2*(r*r)
+                y2 = y*y
+                y4 = y2*y2
+                ker = (dq(j) - x*dp(j))*r*((c(0) + y*c(1)) + y2*(c(2) + y*c(3)) &
+                         + y4*(((c(4) + y*c(5)) + y2*(c(6) + y*c(7))) &
+                               + y4*(((c(8) + y*c(9)) + y2*(c(10) + y*c(11))) &
+                                     + y4*(((c(12) + y*c(13)) + y2*(c(14) + y*c(15))) &
+                                           + y4*c(16)))))
+                s0 = s0 + root2*ker
+                s1 = s1 + u*ker
+                s2 = s2 + u*u*ker
+            end do
+        case default
+            !$omp simd private(u, delta, rest, root, root2, r, y, y2, y4, ker) &
+            !$omp& reduction(+:s0, s1, s2)
+            do j = 1, n
+                rest = q(j) - x*p(j)
+                u = 1.0_wp - rest
+                delta = (1.0_wp - x) - rest
+                root2 = rest*(2.0_wp - rest)
+                root = sqrt(root2)
+                r = 1.0_wp/(root*(sqrt(delta*delta + cl*cl) + sqrt(delta*delta + cr*cr)))
+                y = ((cr - cl)*root*r)**2
+                y2 = y*y
+                y4 = y2*y2
+                ker = (dq(j) - x*dp(j))*r*((a(0) + y*a(1)) + y2*(a(2) + y*a(3)) &
+                         + y4*(((a(4) + y*a(5)) + y2*(a(6) + y*a(7))) &
+                               + y4*(((a(8) + y*a(9)) + y2*(a(10) + y*a(11))) &
+                                     + y4*((a(12) + y*a(13)) + y2*(a(14) + y*a(15))))))
+                s0 = s0 + root2*ker
+                s1 = s1 + u*ker
+                s2 = s2 + u*u*ker
+            end do
+        end select
+        m = merge(2.0_wp, 1.0_wp, form == wide)*pi/n*(cr - cl)*[s0, -s1, s2]
     end subroutine near_sums
-
-    !> The kernel of u - X = delta over the width and sqrt(root2): a root and a reciprocal, and a
-    !> series in y, four terms at a time for all nodes.
-    !>
-    !> With each form written out for each rule columns of tips take 0.97 of the time, those off the
-    !> centre line 1.06 of it, a cold solution the same; with the nodes in the outer loop columns
-    !> take 1.1 to 1.2 times as long, with Horner's rule there 1.25 to 1.3.
-    pure subroutine kernel_at_nodes(n, delta, root2, cl, cr, form, ker)
-        integer, intent(in) :: n, form
-        real(wp), intent(in) :: delta(n), root2(n), cl, cr
-        real(wp), intent(out) :: ker(n)
-
-        real(wp) :: c(0:2*last_power), y(most_nodes), sum_(most_nodes), middle, root
-        integer :: j, k, last
-
-        if (form < wide) then
-            call expand_kernel(form, cl, cr, c)
-            middle = (0.5_wp*(cl + cr))**2
-            !$omp simd
-            do j = 1, n
-                ker(j) = 1.0_wp/sqrt(root2(j)*(delta(j)*delta(j) + middle))
-                y(j) = middle*root2(j)*(ker(j)*ker(j))
-            end do
-            last = 4*form
-        else
-            !$omp simd private(root)
-            do j = 1, n
-                root = sqrt(root2(j))
-                ker(j) = 1.0_wp/(root*(sqrt(delta(j)*delta(j) + cl*cl) &
-                                       + sqrt(delta(j)*delta(j) + cr*cr)))
-                y(j) = ((cr - cl)*root*ker(j))**2
-            end do
-            c = twice_atanh
-            last = 2*last_power
-        end if
-        sum_(:n) = c(last)
-        do k = last - 4, 4, -4
-            !$omp simd
-            do j = 1, n
-                sum_(j) = four_terms(c(k:k + 3), y(j)) + y(j)**4*sum_(j)
-            end do
-        end do
-        !$omp simd
-        do j = 1, n
-            ker(j) = ker(j)*(four_terms(c(0:3), y(j)) + y(j)**4*sum_(j))
-        end do
-    end subroutine kernel_at_nodes
-
-    !> c(1) + c(2) y + c(3) y^2 + c(4) y^3.
-    pure real(wp) function four_terms(c, y)
-        real(wp), intent(in) :: c(4), y
-
-        four_terms = (c(1) + y*c(2)) + y*y*(c(3) + y*c(4))
-    end function four_terms
 end module faststrip_influence_angle_sums

@@ -29,8 +29,7 @@ contains
 
     !> The C_m: C_m = sum_k legendre(m - k, k) t^k with t = (h/c)^2 and k up to 2 form.
     !>
-    !> Written out, for it is called once for each field point: with a loop over k, over m, or
-    !> `matmul` the columns of tips take 1.1 times as long.
+    !> Written out, for it is called once for each field point.
     pure subroutine expand_kernel(form, cl, cr, c)
         integer, intent(in) :: form                  !! 1, 2, 3 or 4
         real(wp), intent(in) :: cl                   !! the nearer edge less the field point's y
