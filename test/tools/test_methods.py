@@ -48,19 +48,19 @@ class Methods(unittest.TestCase):
 
     def test_a_new_row_reaches_all_that_repeats_it(self):
         self.change(methods.LIST, "        method_t(9, 'polach'",
-                    "        method_t(11, 'new-one', needs='strips', gives_elements=.false., &\n"
-                    "                 help='what''s new (11)'), &\n"
+                    "        method_t(12, 'new-one', needs='strips', gives_elements=.false., &\n"
+                    "                 help='what''s new (12)'), &\n"
                     "        method_t(9, 'polach'")
         self.assertEqual(self.run_tool("--check").returncode, 1)
         self.assertEqual(self.run_tool().returncode, 0)
         self.assertEqual(self.run_tool("--check").returncode, 0)
         for path, words in (
-            (methods.LIST, "parameter :: tangential_new_one = 11"),
+            (methods.LIST, "parameter :: tangential_new_one = 12"),
             ("src/faststrip/faststrip.f90", " tangential_new_one"),
-            ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 11"),
-            ("src/faststrip/interop/f77.f90", "11 new-one"),
-            ("python/faststrip/_contact.py", '"new-one": 11,'),
-            ("docs/usage.md", "| `new-one` | what's new (11); no elements | strips |"),
+            ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 12"),
+            ("src/faststrip/interop/f77.f90", "12 new-one"),
+            ("python/faststrip/_contact.py", '"new-one": 12,'),
+            ("docs/usage.md", "| `new-one` | what's new (12); no elements | strips |"),
         ):
             self.assertIn(words, self.read(path), path)
 

@@ -41,6 +41,11 @@ class OfTheProject(unittest.TestCase):
             self.assertIn(program, ("bin/faststrip", "bin/faststrip-lab", "python"))
             if program == "python":
                 self.assertTrue((ROOT / row["command"].split()[1]).exists(), row["command"])
+            elif (ROOT / program).exists():
+                known = subprocess.run([ROOT / program, row["command"].split()[1], "--help"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                       check=False)
+                self.assertEqual(known.returncode, 0, row["command"])
 
 
 @unittest.skipUnless(shutil.which("git"), "no git")
