@@ -338,10 +338,12 @@ class Job:
         self.scratch.mkdir(parents=True)
         self.linked, self.compiled = set(), set()
 
-    def compile(self, changed):
+    def compile(self, changed, beginnings=("",)):
         """Compile a changed file, and what uses its module if that looks different now."""
         different = set()
         for source in self.base.sources:
+            if not source.name.startswith(beginnings):
+                continue
             if source.name != changed and not source.used & different:
                 continue
             own = self.folder / source.name

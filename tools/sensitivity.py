@@ -50,6 +50,7 @@ FLAGS = "-O2 -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
 ROOMS = ("normal", "tangential", "contact", "geometry", "kalker", "numerics", "influence")
 FIRST = ("normal/strip", "normal/certificate", "normal/lattice", "normal/sub_patches",
          "normal/limitations", "tangential/faststrip")
+PROGRAM_SOURCES = ("src/", "app/")
 FACTORS = ("half", "double")
 COLUMNS = ("outcome", "change", "penetration_error", "pmax_error", "area_error", "force_error",
            "force_change", "random_change", "random_status", "estimate_change",
@@ -209,7 +210,7 @@ def row_of(job, constant, plain):
         try:
             path.write_text(changed(source, constant, factor), encoding="utf-8")
             job.clear()
-            job.compile(constant.file)
+            job.compile(constant.file, PROGRAM_SOURCES)
             results = measure(job, job.folder / "changed")
         except Unfit:
             row[f"{factor}_outcome"] = "does not compile"
