@@ -232,7 +232,7 @@ class Installed(HostTest):
             self.assertEqual({name.replace("-", "_"): number for name, number in python.items()},
                              core)
             words = re.search(rf"IOPT\({option}\) {kind} method: (.*?)IOPT", f77, re.S)[1]
-            found = re.findall(r"(\d) ([\w-]+)", words)
+            found = re.findall(r"(\d+) ([\w-]+)", words)
             self.assertEqual({name: int(number) for number, name in found}, python)
 
     def test_the_man_page_names_every_subcommand(self):

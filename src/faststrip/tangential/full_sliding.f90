@@ -19,9 +19,10 @@ module faststrip_tangential_full_sliding
     ! its bound times xd.
     integer, parameter :: cells = 20
 
-    integer :: i
     ! Given: ends of the cells over xd, their shares of the strip's load and the centres of these.
-    real(wp), parameter :: angle(0:cells) = [(i*pi/cells, i=0, cells)]
+    integer, parameter :: number(0:cells) = &
+        [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
+    real(wp), parameter :: angle(0:cells) = number*pi/cells
     real(wp), parameter :: edge(0:cells) = cos(angle)
     real(wp), parameter :: primitive(0:cells) = (angle - sin(angle)*cos(angle))/pi
     real(wp), parameter :: share(cells) = primitive(1:) - primitive(:cells - 1)
@@ -31,7 +32,7 @@ module faststrip_tangential_full_sliding
     real(wp), parameter :: spread(cells) = (edge(1:) - edge(:cells - 1))**2/12.0_wp
 
     ! Given: the series of atanh(v)/v in the square of v.
-    real(wp), parameter :: series(0:6) = [(1.0_wp/(2*i + 1), i=0, 6)]
+    real(wp), parameter :: series(0:6) = 1.0_wp/[1, 3, 5, 7, 9, 11, 13]
 
     ! Slip at both ends of a cell whose sum is less than this lies within the pole, 1.
     ! Tuned [1]. Origin: safeguard: creepages this small give no slip.
