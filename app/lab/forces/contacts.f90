@@ -26,6 +26,7 @@ module faststrip_lab_forces_contacts
 
     !> One contact; its creepages are drawn when its strips are known.
     type, extends(contact_case_t) :: force_contact_t
+        integer :: seed = 0      !! of the series
         integer :: number = 0    !! from 1
         integer :: family = 0    !! index of `force_families`
         type(random_t) :: random !! for the creepages
@@ -43,6 +44,7 @@ contains
         real(wp) :: poisson
 
         call start_random(seed, number, contact%random)
+        contact%seed = seed
         contact%number = number
         contact%family = force_family(number)
         if (present(family)) contact%family = family

@@ -34,9 +34,9 @@ contains
         command%name = 'force-data'
         command%usage = ''
         command%about = &
-            'For developers: strips of random contacts with one patch, and their creep forces by' &
-            // new_line('a') // 'NORM and TANG for six creepages, on two grids. CSV, one row a' &
-            // ' contact;' // new_line('a') // 'lists are parted by blanks. A contact is the same' &
+            'For developers: creep forces of random contacts with one patch by NORM and TANG for' &
+            // new_line('a') // 'six creepages, on two grids. CSV, one row a contact; lists are' &
+            // new_line('a') // 'parted by blanks. A contact is the same' &
             // ' wherever the run starts.' // new_line('a')
         command%options = [ &
             option_t('--cases', 'INTEGER', 'number of contacts (default 200)'), &

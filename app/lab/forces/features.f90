@@ -1,18 +1,28 @@
-!> `faststrip-lab force-features`: what FASTSTRIP makes of the contacts of `force-data`.
+!> `faststrip-lab force-features`: what FASTSTRIP and FASTSIM make of the contacts of `force-data`.
 module faststrip_lab_forces_features
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, read_csv, open_csv, put_comment, &
                                    put_header, put_cell, end_row, close_csv
     use faststrip_command_console, only: fail_on_error, progress, put_origin
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text
+    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
+                                         option_integer
+    use faststrip_contact_methods, only: most_strips
+    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_sub_patches, only: has_neck
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_fastsim, only: fastsim_strips_solve
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_patch_law, only: patch_law_t, find_law
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape, n_even, n_odd
-    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_tangential_types, only: tangential_result_t, most_points
+    use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
+    use faststrip_lab_forces_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, take_record
     implicit none
     private
@@ -20,6 +30,8 @@ module faststrip_lab_forces_features
     public :: run_force_features
 
     integer, parameter :: most_files = 100000
+    ! As a user has them.
+    integer, parameter :: usual_strips = 15, rows = 50
     !> The contacts of one file.
     type :: file_t
         type(force_record_t), allocatable :: records(:)
@@ -36,17 +48,24 @@ contains
         type(command_t) :: command
         type(csv_writer_t) :: writer
         type(file_t), allocatable :: files(:)
+        type(workspace_t) :: workspace
         type(status_t) :: status
-        integer :: file, row
+        integer :: file, row, strips, points
 
         command%name = 'force-features'
         command%usage = 'FILE...'
-        command%about = 'For developers: creep forces of FASTSTRIP beside those of the files of' &
-                        // ' force-data.' // new_line('a') // 'CSV, one row for each creepage.' &
-                        // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
-                                    writes=.true.)]
+        command%about = 'For developers: creep forces of FASTSTRIP and FASTSIM beside those of' &
+                        // ' the files of' // new_line('a') &
+                        // 'force-data. CSV, one row for each creepage.' // new_line('a')
+        command%options = [ &
+            option_t('--strips', 'INTEGER', 'strips across a patch (default ' &
+                     // integer_text(usual_strips) // ')'), &
+            option_t('--points', 'INTEGER', 'points along a strip (default ' &
+                     // integer_text(default_points) // ')'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 1, most_files)
+        strips = option_integer(command, '--strips', usual_strips, least=1, most=most_strips)
+        points = option_integer(command, '--points', default_points, least=1, most=most_points)
         allocate (files(size(command%arguments)))
         do file = 1, size(files)
             call read_file(command%arguments(file)%text, files(file)%records)
@@ -54,14 +73,18 @@ contains
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_comment(writer, 'FASTSTRIP, ' // integer_text(default_points) &
-                         // ' points a strip, beside TANG on two grids, its forces and moment ' &
+        call put_comment(writer, 'FASTSTRIP, ' // integer_text(strips) // ' x ' &
+                         // integer_text(points) // ', and FASTSIM, ' // integer_text(rows) &
+                         // ' x ' // integer_text(rows) // ', beside TANG on two grids, its forces and moment ' &
                          // 'extrapolated (*_tang) and on the finer grid (*_fine); creepages and ' &
                          // 'moments about y = 0; a, b, yc of the ellipse of the patch''s moments')
-        call put_header(writer, [character(len=24) :: 'number', 'family', 'state', 'load_N', 'mu', &
-                                 'E_MPa', 'nu', 'strips', 'neck', 'a_mm', 'b_mm', 'yc_mm', 'cksi', &
+        call put_header(writer, [character(len=24) :: 'seed', 'number', 'family', 'state', 'load_N', 'mu', &
+                                 'E_MPa', 'nu', 'strips', 'neck', 'est_err_penetration', &
+                                 'est_err_pmax', 'est_err_area', 'a_mm', 'b_mm', 'yc_mm', 'cksi', &
                                  'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
-                                 'friction_power_N', 'stick_fraction', 'Fx_tang_N', 'Fy_tang_N', &
+                                 'friction_power_N', 'stick_fraction', 'Fx_fastsim_N', &
+                                 'Fy_fastsim_N', 'Mz_fastsim_Nmm', 'friction_power_fastsim_N', &
+                                 'stick_fraction_fastsim', 'Fx_tang_N', 'Fy_tang_N', &
                                  'Mz_tang_Nmm', 'Fx_fine_N', 'Fy_fine_N', 'Mz_fine_Nmm', &
                                  'friction_power_fine_N', 'stick_fraction_fine', &
                                  'u1', 'u2', 'u3', 'even1', 'even2', 'even3', 'even4', 'even5', &
@@ -69,7 +92,8 @@ contains
         do file = 1, size(files)
             do row = 1, size(files(file)%records)
                 associate (record => files(file)%records(row))
-                    if (record%status == 'ok') call put_states(writer, record)
+                    if (record%status == 'ok') &
+                        call put_contact(writer, workspace, record, strips, points)
                 end associate
             end do
             call progress('file', file, size(files))
@@ -96,27 +120,59 @@ contains
         end do
     end subroutine read_file
 
-    !> The rows of one contact.
-    subroutine put_states(writer, record)
+    !> The rows of one contact, unless its strips tell of several patches or of a limitation.
+    subroutine put_contact(writer, workspace, record, strips, points)
         type(csv_writer_t), intent(inout) :: writer
+        type(workspace_t), intent(inout) :: workspace ! grown as needed
         type(force_record_t), intent(in) :: record
+        integer, intent(in) :: strips, points         ! across and along
+
+        type(force_contact_t) :: contact
+        type(normal_result_t) :: normal
+        type(certificate_t) :: certificate
+        type(status_t) :: status
+
+        call draw_force_contact(record%seed, record%number, contact, &
+                                findloc(force_families == record%family, .true., dim=1))
+        contact%methods%strips_per_patch = strips
+        contact%estimate = .true.
+        contact%resolution_limit = huge(1.0_wp)
+        call reserve_for_case(workspace, contact, status)
+        call fail_on_error(status, 'contact ' // integer_text(record%number))
+        call solve_contact_normal(workspace, contact%contact_case_t, normal, status, certificate)
+        call fail_on_error(status, 'contact ' // integer_text(record%number))
+        if (status%code /= st_ok .or. normal%n_patches > 1) return
+        call put_states(writer, workspace%strips, certificate, record, points)
+    end subroutine put_contact
+
+    !> The rows of one contact with its strips.
+    subroutine put_states(writer, strips, certificate, record, points)
+        type(csv_writer_t), intent(inout) :: writer
+        type(contact_strips_t), intent(in) :: strips
+        type(certificate_t), intent(in) :: certificate
+        type(force_record_t), intent(in) :: record
+        integer, intent(in) :: points
 
         type(patch_ellipse_t) :: ellipse
         type(patch_shape_t) :: shape
         type(patch_law_t) :: law
-        type(tangential_result_t) :: forces
+        type(tangential_result_t) :: forces, fastsim
         type(status_t) :: status
         real(wp) :: u(3)
         integer :: i, k
 
-        ellipse = patch_ellipse(record%strips, 1, record%strips%n)
-        shape = patch_shape(record%strips, 1, record%strips%n, ellipse)
+        ellipse = patch_ellipse(strips, 1, strips%n)
+        shape = patch_shape(strips, 1, strips%n, ellipse)
         do i = 1, record%n_states
             associate (state => record%states(i))
-                call faststrip_tangential_solve(record%strips, record%material, record%mu, &
-                                                state%creepage, default_points, forces, status)
+                call faststrip_tangential_solve(strips, record%material, record%mu, &
+                                                state%creepage, points, forces, status)
+                if (.not. is_error(status)) &
+                    call fastsim_strips_solve(strips, record%material, record%mu, &
+                                              state%creepage, rows, rows, fastsim, status)
                 if (is_error(status)) &
                     call fail_on_error(status, 'contact ' // integer_text(record%number))
+                call put_cell(writer, record%seed)
                 call put_cell(writer, record%number)
                 call put_cell(writer, record%family)
                 call put_cell(writer, i)
@@ -124,9 +180,12 @@ contains
                 call put_cell(writer, record%mu)
                 call put_cell(writer, record%material%e_wheel)
                 call put_cell(writer, record%material%nu_wheel)
-                call put_cell(writer, record%strips%n)
+                call put_cell(writer, strips%n)
                 call put_cell(writer, merge(1, 0, &
-                                            has_neck(record%strips%half_length(:record%strips%n))))
+                                            has_neck(strips%half_length(:strips%n))))
+                call put_cell(writer, certificate%est_err_penetration)
+                call put_cell(writer, certificate%est_err_pmax)
+                call put_cell(writer, certificate%est_err_area)
                 call put_cell(writer, ellipse%a)
                 call put_cell(writer, ellipse%b)
                 call put_cell(writer, ellipse%y)
@@ -134,6 +193,7 @@ contains
                 call put_cell(writer, state%creepage%ceta)
                 call put_cell(writer, state%creepage%cphi)
                 call put_forces(writer, forces)
+                call put_forces(writer, fastsim)
                 call put_cell(writer, extrapolated(state%coarse%fx, state%forces%fx))
                 call put_cell(writer, extrapolated(state%coarse%fy, state%forces%fy))
                 call put_cell(writer, extrapolated(state%coarse%mz, state%forces%mz))

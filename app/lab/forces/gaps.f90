@@ -35,7 +35,7 @@ contains
                      - (ellipses - 1))
     end function force_family
 
-    !> Draw a gap.
+    !> Draw a gap; one draw a statement, for the order within one is the compiler's.
     subroutine draw_force_gap(random, family, compliance, load, gap)
         type(random_t), intent(inout) :: random
         integer, intent(in) :: family       !! index of `force_families`
@@ -98,8 +98,8 @@ contains
         select case (family)
         case ('quartic')
             p = uniform(random, -0.4_wp, 0.4_wp)
-            h = uniform(random, 0.0_wp, 0.5_wp)*t**2 &
-                + log_uniform(random, 0.1_wp, 3.0_wp)*(t - p)**4
+            q = uniform(random, 0.0_wp, 0.5_wp)
+            h = q*t**2 + log_uniform(random, 0.1_wp, 3.0_wp)*(t - p)**4
         case ('unequal')
             p = 10.0_wp**uniform(random, -1.5_wp, 1.5_wp)
             where (t > 0.0_wp) h = p*t**2
@@ -148,13 +148,17 @@ contains
                 p = 10.0_wp**uniform(random, -0.8_wp, 0.8_wp)
                 where (t > 0.0_wp) h = p*h
             end if
-            if (chance(random, 0.5_wp)) &
-                h = h + uniform(random, -0.3_wp, 0.6_wp) &
-                    *exp(-((t - uniform(random, -1.0_wp, 1.0_wp)) &
-                           /uniform(random, 0.3_wp, 1.2_wp))**2)
-            if (chance(random, 0.3_wp)) &
-                h = h + uniform(random, 0.0_wp, 0.4_wp) &
-                    *cos(uniform(random, 1.0_wp, 4.0_wp)*t + uniform(random, 0.0_wp, 2.0_wp*pi))
+            if (chance(random, 0.5_wp)) then
+                p = uniform(random, -0.3_wp, 0.6_wp)
+                q = uniform(random, -1.0_wp, 1.0_wp)
+                r = uniform(random, 0.3_wp, 1.2_wp)
+                h = h + p*exp(-((t - q)/r)**2)
+            end if
+            if (chance(random, 0.3_wp)) then
+                p = uniform(random, 0.0_wp, 0.4_wp)
+                q = uniform(random, 1.0_wp, 4.0_wp)
+                h = h + p*cos(q*t + uniform(random, 0.0_wp, 2.0_wp*pi))
+            end if
             p = uniform(random, -1.0_wp, 1.0_wp)
             q = uniform(random, -0.8_wp, 0.8_wp)
             a = exp(p*tanh((t - q)*log_uniform(random, 0.5_wp, 5.0_wp)))

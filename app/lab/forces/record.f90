@@ -1,5 +1,6 @@
-!> What is kept of a contact for fitting corrections of the creep forces: its strips, and forces of
-!> the reference for some creepages. One row of a CSV file; cells hold lists, parted by blanks.
+!> What is kept of a contact for fitting corrections of the creep forces: what it is drawn from,
+!> and forces of the reference for some creepages. One row of a CSV file; cells hold lists, parted
+!> by blanks.
 module faststrip_lab_forces_record
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, set_status, st_file_format
@@ -8,7 +9,6 @@ module faststrip_lab_forces_record
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
                                    real_text, require_column, cell_text, cell_number, cell_integer
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
@@ -30,23 +30,21 @@ module faststrip_lab_forces_record
 
     !> One contact.
     type :: force_record_t
+        integer :: seed = 0                    !! of the series of contacts
         integer :: number = 0                  !! from 1
         character(len=:), allocatable :: family !! its gap's
         character(len=:), allocatable :: status !! `ok`, or why it was left out
         real(wp) :: load = 0.0_wp              !! N
         real(wp) :: mu = 0.0_wp                !! coefficient of friction
         type(material_t) :: material           !! like bodies
-        type(contact_strips_t) :: strips       !! of one patch
         integer :: elements = 0                !! of the reference, in contact
         integer :: n_states = 0                !! those that count
         type(force_state_t) :: states(most_states)
     end type force_record_t
 
-    ! Columns with one value, with one a strip, with one a state.
-    character(len=16), parameter :: heads(8) = [character(len=16) :: &
-        'number', 'family', 'status', 'load_N', 'mu', 'E_MPa', 'nu', 'elements']
-    character(len=16), parameter :: strip_lists(4) = [character(len=16) :: &
-        'y_left_mm', 'y_right_mm', 'half_length_mm', 'p0_MPa']
+    ! Columns with one value, with one a state.
+    character(len=16), parameter :: heads(9) = [character(len=16) :: &
+        'seed', 'number', 'family', 'status', 'load_N', 'mu', 'E_MPa', 'nu', 'elements']
     character(len=16), parameter :: state_lists(13) = [character(len=16) :: &
         'cksi', 'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', &
         'stick_fraction', 'Fx_coarse_N', 'Fy_coarse_N', 'Mz_coarse_Nmm', 'steps', 'residual']
@@ -57,7 +55,7 @@ contains
     subroutine put_record_header(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call put_header(writer, [heads, strip_lists, state_lists])
+        call put_header(writer, [heads, state_lists])
     end subroutine put_record_header
 
     !> One contact.
@@ -65,6 +63,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer !! an open file with its header
         type(force_record_t), intent(in) :: record
 
+        call put_cell(writer, record%seed)
         call put_cell(writer, record%number)
         call put_cell(writer, record%family)
         call put_cell(writer, record%status)
@@ -73,12 +72,6 @@ contains
         call put_cell(writer, record%material%e_wheel)
         call put_cell(writer, record%material%nu_wheel)
         call put_cell(writer, record%elements)
-        associate (strips => record%strips, n => record%strips%n)
-            call put_list(writer, strips%y_left, n)
-            call put_list(writer, strips%y_right, n)
-            call put_list(writer, strips%half_length, n)
-            call put_list(writer, strips%p0, n)
-        end associate
         associate (states => record%states, n => record%n_states)
             call put_list(writer, states%creepage%cksi, n)
             call put_list(writer, states%creepage%ceta, n)
@@ -125,7 +118,9 @@ contains
         real(wp) :: e, nu
         integer :: column, n
 
-        call require_column(table, 'number', column, status)
+        call require_column(table, 'seed', column, status)
+        if (.not. is_error(status)) call cell_integer(table, row, column, record%seed, status)
+        if (.not. is_error(status)) call require_column(table, 'number', column, status)
         if (.not. is_error(status)) call cell_integer(table, row, column, record%number, status)
         if (.not. is_error(status)) call require_column(table, 'family', column, status)
         if (is_error(status)) return
@@ -139,17 +134,6 @@ contains
         call take_number(table, row, 'nu', nu, status)
         if (is_error(status)) return
         record%material = material_t(e, e, nu, nu)
-        call take_lists(table, row, strip_lists, values, status)
-        if (is_error(status)) return
-        n = size(values, 1)
-        call reserve_strips(record%strips, max(n, 1), status)
-        record%strips%n = n
-        record%strips%n_patches = min(n, 1)
-        record%strips%patch = 1
-        record%strips%y_left(:n) = values(:, 1)
-        record%strips%y_right(:n) = values(:, 2)
-        record%strips%half_length(:n) = values(:, 3)
-        record%strips%p0(:n) = values(:, 4)
         call take_lists(table, row, state_lists, values, status)
         if (is_error(status)) return
         n = size(values, 1)

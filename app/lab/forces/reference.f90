@@ -1,5 +1,5 @@
-!> One contact of `faststrip-lab force-data`: its strips, and NORM's and TANG's creep forces on two
-!> grids, one with elements twice as long and wide.
+!> One contact of `faststrip-lab force-data`: NORM's and TANG's creep forces on two grids, one with
+!> elements twice as long and wide.
 module faststrip_lab_forces_reference
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
@@ -53,6 +53,7 @@ contains
         real(wp) :: sides(2)
         type(status_t) :: status
 
+        record%seed = contact%seed
         record%number = contact%number
         record%family = trim(force_families(contact%family))
         record%load = contact%load
@@ -68,7 +69,6 @@ contains
         sides = [2.0_wp*strips%x_max, strips%y_max - strips%y_min]/across
         if (has_no_pressures(work, contact, 2.0_wp*sides, work%coarse, record)) return
         if (has_no_pressures(work, contact, sides, work%fine, record)) return
-        record%strips = work%strips%strips
         call solve_states(work, contact, creepages, record)
     end subroutine solve_reference
 
