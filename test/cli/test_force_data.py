@@ -9,7 +9,6 @@ from cli_program import ROOT, LabTest, numbers, rows_of
 # The families in the order of 17 contacts in a row.
 FAMILIES = ["ellipse"] * 5 + ["quartic", "unequal", "wedge", "waisted", "tanh", "exp", "worn",
                               "hollow", "power", "flat", "double", "wheel"]
-STRIPS = ("y_left_mm", "y_right_mm", "half_length_mm", "p0_MPa")
 STATES = ("cksi", "ceta", "cphi_rad_per_mm", "Fx_N", "Fy_N", "Mz_Nmm", "friction_power_N",
           "stick_fraction", "Fx_coarse_N", "Fy_coarse_N", "Mz_coarse_Nmm", "steps", "residual")
 
@@ -30,16 +29,11 @@ class ForceData(LabTest):
         good = [row for row in rows if row["status"] == "ok"]
         self.assertGreater(len(good), 28)
         for row in rows:
-            n, states = len(listed(row, "p0_MPa")), len(listed(row, "cksi"))
-            self.assertEqual({len(listed(row, name)) for name in STRIPS}, {n})
+            states = len(listed(row, "cksi"))
             self.assertEqual({len(listed(row, name)) for name in STATES}, {states})
-            self.assertEqual((n >= 15, states == 6), (row in good, row in good), row["number"])
+            self.assertEqual(states == 6, row in good, row["number"])
         for row in good:
-            load, bound = float(row["load_N"]), float(row["mu"]) * float(row["load_N"])
-            left, right, length, p0 = (listed(row, name) for name in STRIPS)
-            carried = sum(0.5 * math.pi * p * x * (r - q)
-                          for q, r, x, p in zip(left, right, length, p0, strict=True))
-            self.assertAlmostEqual(carried / load, 1.0, 6)
+            bound = float(row["mu"]) * float(row["load_N"])
             for fx, fy, power, *motion in zip(*(listed(row, name) for name in (
                     "Fx_N", "Fy_N", "friction_power_N", "Mz_Nmm", *STATES[:3])), strict=True):
                 self.assertLessEqual(math.hypot(fx, fy), 1.0001 * bound)
@@ -62,7 +56,7 @@ class ForceData(LabTest):
         fine = rows_of(self.run_program("force-data", "--first", 7, "--cases", 2).stdout)
         for a, b in zip(coarse, fine, strict=True):
             self.assertGreater(int(b["elements"]), 4 * int(a["elements"]))
-            for name in STRIPS + STATES[:3]:
+            for name in STATES[:3]:
                 self.assertEqual(a[name], b[name])
             for fx, other in zip(listed(a, "Fx_N"), listed(b, "Fx_N"), strict=True):
                 self.assertLess(abs(fx - other), 0.03 * float(a["mu"]) * float(a["load_N"]))
@@ -88,6 +82,13 @@ class ForceData(LabTest):
             strict=True)]
         self.assertLess(sum(errors) / len(errors), 0.03)
         self.assertGreater(max(errors), 1e-4)
+        done = self.run_program("force-features", "2.csv", "--strips", 7, "--points", 9)
+        few = rows_of(done.stdout)
+        self.assertEqual({row["strips"] for row in few}, {"7"})
+        many = [row for row in rows if int(row["number"]) >= 10]
+        self.assertEqual(numbers(few, "Fx_tang_N"), numbers(many, "Fx_tang_N"))
+        for a, b in zip(few, many, strict=True):
+            self.assertGreater(float(a["est_err_pmax"]), float(b["est_err_pmax"]))
 
     def test_files_that_are_there_are_not_made_again(self):
         words = [sys.executable, ROOT / "tools" / "force_data.py", "--across", "8"]
@@ -122,9 +123,9 @@ class ForceData(LabTest):
         self.refused(1, "force-features", "none.csv", says=["none.csv"])
         text = self.data("--cases", 1)
         row = rows_of(text)[0]
-        p0 = row["p0_MPa"]
-        for old, new, says in ((p0, p0.rsplit(" ", 1)[0], "p0_MPa"),
-                               (p0, p0.replace("E", "F", 1), "p0_MPa"),
+        fx = row["Fx_N"]
+        for old, new, says in ((fx, fx.rsplit(" ", 1)[0], "Fx_N"),
+                               (fx, fx.replace("E", "F", 1), "Fx_N"),
                                ("cksi,", "ksi,", "cksi"),
                                *((row[name], f"{row[name]} 1 1", name) for name in ("ceta",))):
             with self.subTest(says):

@@ -75,13 +75,14 @@ contains
         call put_origin(writer)
         call put_comment(writer, 'FASTSTRIP, ' // integer_text(strips) // ' x ' &
                          // integer_text(points) // ', and FASTSIM, ' // integer_text(rows) &
-                         // ' x ' // integer_text(rows) // ', beside TANG on two grids, its forces and moment ' &
-                         // 'extrapolated (*_tang) and on the finer grid (*_fine); creepages and ' &
-                         // 'moments about y = 0; a, b, yc of the ellipse of the patch''s moments')
-        call put_header(writer, [character(len=24) :: 'seed', 'number', 'family', 'state', 'load_N', 'mu', &
-                                 'E_MPa', 'nu', 'strips', 'neck', 'est_err_penetration', &
-                                 'est_err_pmax', 'est_err_area', 'a_mm', 'b_mm', 'yc_mm', 'cksi', &
-                                 'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
+                         // ' x ' // integer_text(rows) // ', beside TANG on two grids, its ' &
+                         // 'forces and moment extrapolated (*_tang) and on the finer grid ' &
+                         // '(*_fine); creepages and moments about y = 0; a, b, yc of the ' &
+                         // 'ellipse of the patch''s moments')
+        call put_header(writer, [character(len=24) :: 'seed', 'number', 'family', 'state', &
+                                 'load_N', 'mu', 'E_MPa', 'nu', 'strips', 'neck', &
+                                 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'a_mm', &
+                                 'b_mm', 'yc_mm', 'cksi', 'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
                                  'friction_power_N', 'stick_fraction', 'Fx_fastsim_N', &
                                  'Fy_fastsim_N', 'Mz_fastsim_Nmm', 'friction_power_fastsim_N', &
                                  'stick_fraction_fastsim', 'Fx_tang_N', 'Fy_tang_N', &

@@ -27,6 +27,9 @@ module faststrip_contact_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t
+    use faststrip_tangential_force_errors, only: force_errors_t, estimate_force_errors, &
+                                                 errors_of_march, errors_of_fitted, &
+                                                 errors_of_fastsim
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_variant_t
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve
@@ -49,7 +52,7 @@ module faststrip_contact_solve
     public :: contact_case_t, contact_result_t, workspace_t
     public :: reserve_workspace, reserve_contact_field, set_contact_gap
     public :: solve_contact, solve_contact_normal, solve_contact_tangential
-    public :: estimate_contact_errors
+    public :: estimate_contact_errors, estimate_contact_forces
     public :: most_gap_points
 
     ! Strips of a Hertz ellipse where the number is left to the solver.
@@ -76,6 +79,9 @@ module faststrip_contact_solve
         logical :: is_estimated = .false.                    !! is that known? Not of ellipses
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
+        type(force_errors_t) :: force_errors = force_errors_t() !! how wrong the forces are
+        logical :: forces_are_estimated = .false.
+            !! is that known? Of FASTSTRIP and FASTSIM, where the normal errors are
     end type contact_result_t
 
     !> Everything a solution needs beside the case; owned by the caller, one per thread.
@@ -206,6 +212,9 @@ contains
             if (is_error(forces)) then
                 status = forces
                 result = contact_result_t()
+            else if (result%is_estimated) then
+                call estimate_forces(workspace, case, result%certificate, result%force_errors, &
+                                     result%forces_are_estimated, status)
             end if
         else if (present(field)) then
             field%n = 0
@@ -269,6 +278,54 @@ contains
         call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
         call restore_environment(environment)
     end subroutine estimate_contact_errors
+
+    !> How wrong the forces of the workspace's strips are, for who asks for the parts of a solution.
+    subroutine estimate_contact_forces(workspace, case, certificate, errors, is_estimated, status)
+        type(workspace_t), intent(in) :: workspace      !! with a solution by strips
+        type(contact_case_t), intent(in) :: case        !! what was solved, by which method
+        type(certificate_t), intent(in) :: certificate  !! of the normal solution
+        type(force_errors_t), intent(out) :: errors     !! of the forces
+        logical, intent(out) :: is_estimated            !! is that known?
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+
+        type(environment_t) :: environment
+
+        call hold_environment(environment)
+        call estimate_forces(workspace, case, certificate, errors, is_estimated, status)
+        call restore_environment(environment)
+    end subroutine estimate_contact_forces
+
+    !> How wrong the forces are; methods that are no march in a patch have no estimate.
+    subroutine estimate_forces(workspace, case, certificate, errors, is_estimated, status)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(certificate_t), intent(in) :: certificate
+        type(force_errors_t), intent(out) :: errors
+        logical, intent(out) :: is_estimated
+        type(status_t), intent(inout) :: status
+
+        type(status_t) :: estimate
+        integer :: method, points
+
+        is_estimated = .false.
+        points = case%methods%points_per_strip
+        select case (case%methods%tangential)
+        case (tangential_faststrip)
+            method = errors_of_march
+        case (tangential_faststrip_fitted)
+            method = errors_of_fitted
+        case (tangential_fastsim)
+            method = errors_of_fastsim
+            points = case%methods%fastsim_nx
+        case default
+            return
+        end select
+        call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
+                                   method, points, certificate, errors, estimate)
+        is_estimated = .not. is_error(estimate)
+        if (is_estimated) call name_resolution(errors%fx, errors%fy, errors%mz, &
+                                               case%resolution_limit, status)
+    end subroutine estimate_forces
 
     subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status, curve)
         type(workspace_t), intent(inout) :: workspace
