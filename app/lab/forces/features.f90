@@ -82,14 +82,14 @@ contains
         call put_header(writer, [character(len=24) :: 'seed', 'number', 'family', 'state', &
                                  'load_N', 'mu', 'E_MPa', 'nu', 'strips', 'neck', &
                                  'est_err_penetration', 'est_err_pmax', 'est_err_area', 'a_mm', &
-                                 'b_mm', 'yc_mm', 'cksi', 'ceta', 'cphi_rad_per_mm', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
-                                 'friction_power_N', 'stick_fraction', 'Fx_fastsim_N', &
-                                 'Fy_fastsim_N', 'Mz_fastsim_Nmm', 'friction_power_fastsim_N', &
-                                 'stick_fraction_fastsim', 'Fx_tang_N', 'Fy_tang_N', &
-                                 'Mz_tang_Nmm', 'Fx_fine_N', 'Fy_fine_N', 'Mz_fine_Nmm', &
-                                 'friction_power_fine_N', 'stick_fraction_fine', &
-                                 'u1', 'u2', 'u3', 'even1', 'even2', 'even3', 'even4', 'even5', &
-                                 'odd1', 'odd2', 'odd3', 'odd4', 'odd5'])
+                                 'b_mm', 'yc_mm', 'cksi', 'ceta', 'cphi_rad_per_mm', &
+                                 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
+                                 'Fx_fastsim_N', 'Fy_fastsim_N', 'Mz_fastsim_Nmm', &
+                                 'friction_power_fastsim_N', 'stick_fraction_fastsim', &
+                                 'Fx_tang_N', 'Fy_tang_N', 'Mz_tang_Nmm', 'Fx_fine_N', &
+                                 'Fy_fine_N', 'Mz_fine_Nmm', 'friction_power_fine_N', &
+                                 'stick_fraction_fine', 'u1', 'u2', 'u3', 'even1', 'even2', &
+                                 'even3', 'even4', 'even5', 'odd1', 'odd2', 'odd3', 'odd4', 'odd5'])
         do file = 1, size(files)
             do row = 1, size(files(file)%records)
                 associate (record => files(file)%records(row))
