@@ -32,7 +32,7 @@ contains
 
     !> Estimate the errors of the forces that a method gives of strips.
     pure subroutine estimate_force_errors(strips, material, mu, creepage, method, points, &
-                                          certificate, errors, status)
+                                          certificate, errors, status, finer)
         type(contact_strips_t), intent(in) :: strips     !! a normal solution, checked
         type(material_t), intent(in) :: material         !! moduli in MPa
         real(wp), intent(in) :: mu                       !! coefficient of friction
@@ -42,12 +42,17 @@ contains
         type(certificate_t), intent(in) :: certificate   !! of the normal solution
         type(force_errors_t), intent(out) :: errors      !! of the sums over all patches
         type(status_t), intent(inout) :: status          !! that of `kalker_coefficients`
+        real(wp), intent(in), optional :: finer
+            !! what would be estimated of so many times as many strips, with `points` along each and
+            !! this certificate; default 1
 
         type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: law
-        real(wp) :: part(3), total(3), load, area, u(3)
+        real(wp) :: part(3), total(3), load, area, u(3), times
         integer :: first, last
 
+        times = 1.0_wp
+        if (present(finer)) times = finer
         total = 0.0_wp
         load = 0.0_wp
         area = 0.0_wp
@@ -60,7 +65,8 @@ contains
             if (is_error(status)) return
             if (law%weight <= 0.0_wp) cycle
             part = ellipse%load*errors_of_patch(patch_shape(strips, first, last, ellipse), u, &
-                                                method, last - first + 1, points, certificate)
+                                                method, times*(last - first + 1), points, &
+                                                certificate)
             total = total + [part(1), part(2), &
                              part(3)*sqrt(ellipse%a*ellipse%b) + abs(ellipse%y)*part(1)]
             load = load + ellipse%load
@@ -74,7 +80,8 @@ contains
     pure function errors_of_patch(shape, u, method, strips, points, certificate) result(errors)
         type(patch_shape_t), intent(in) :: shape
         real(wp), intent(in) :: u(3)
-        integer, intent(in) :: method, strips, points
+        integer, intent(in) :: method, points
+        real(wp), intent(in) :: strips ! as if there were so many
         type(certificate_t), intent(in) :: certificate
         real(wp) :: errors(3)
 
