@@ -81,6 +81,7 @@ OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],
     "command": [("python", ["test/cli"])],
+    "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
     "python": [("installed", FACES[:3])],
     "plots": [("python", ["test/plots"])],
 }

@@ -22,8 +22,9 @@ module faststrip_command_batch
     implicit none
     private
 
-    public :: run_batch
+    public :: run_batch, case_columns
 
+    !> What a table of contacts must have.
     character(len=*), parameter :: case_columns(9) = [character(len=15) :: &
         'case', 'gap_file', 'E_MPa', 'nu', 'mu', 'N_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
     integer, parameter :: load_column = 6 ! of `case_columns`

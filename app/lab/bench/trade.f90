@@ -9,18 +9,15 @@
 module faststrip_lab_bench_trade
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word
-    use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, cell_text, &
-                                   cell_integer, cell_number, open_csv, put_comment, put_header, &
-                                   put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
     use faststrip_lab_bench_trade_influence, only: trade_influence
     use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
-    use faststrip_command_console, only: fail, fail_on_error, put_origin, progress, exit_bad_input
-    use faststrip_contact_methods, only: normal_method, tangential_method, normal_method_name, &
-                                         tangential_method_name, normal_norm, tangential_tang, &
-                                         normal_table, tangential_table
-    use faststrip_command_methods, only: numerics_t, check_numerics, one_of
+    use faststrip_command_console, only: fail_on_error, put_origin, progress
+    use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
+                                         normal_norm, tangential_tang
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_wheelset_cases, &
                                                read_hertz_cases, read_scene_cases, n_figures, &
                                                figure_names
@@ -29,15 +26,6 @@ module faststrip_lab_bench_trade
 
     public :: bench_trade
 
-    !> One method at one resolution.
-    type :: entry_t
-        character(len=:), allocatable :: stage !! normal, tangential or both
-        character(len=:), allocatable :: name  !! what the CSV calls it
-        character(len=:), allocatable :: when  !! always, or full: not in the quick bench
-        type(numerics_t) :: numerics
-    end type entry_t
-
-    character(len=*), parameter :: stages(3) = [character(len=10) :: 'normal', 'tangential', 'both']
     integer, parameter :: most_repeats = 25
     integer, parameter :: many_strips = 50
     ! A method has been timed enough after this, us.
@@ -53,13 +41,13 @@ contains
         character(len=*), intent(in) :: scenes_file  !! the contacts of many kinds
         logical, intent(in) :: quick                 !! fewer methods and contacts
 
-        type(entry_t), allocatable :: entries(:)
+        type(method_entry_t), allocatable :: entries(:)
         type(trade_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
         type(csv_writer_t) :: writer
         type(status_t) :: status
         integer :: i
 
-        call read_entries(methods_file, entries)
+        call read_method_list(methods_file, entries)
         call read_wheelset_cases(folder, wheelset, status)
         call fail_on_error(status)
         call read_hertz_cases(folder // '/hertz_creep.csv', hertz, status)
@@ -93,7 +81,7 @@ contains
 
         !> Of how many contacts one is taken.
         pure integer function thinning(entry, in_quick)
-            type(entry_t), intent(in) :: entry
+            type(method_entry_t), intent(in) :: entry
             integer, intent(in) :: in_quick
 
             thinning = 1
@@ -109,7 +97,7 @@ contains
     !> One method on a list of contacts.
     subroutine run_entry(writer, entry, cases)
         type(csv_writer_t), intent(inout) :: writer
-        type(entry_t), intent(in) :: entry
+        type(method_entry_t), intent(in) :: entry
         type(trade_case_t), intent(in) :: cases(:)
 
         type(solver_t) :: solver
@@ -195,85 +183,4 @@ contains
                        - case%truth(4:6))/bound
         errors(6) = errors(6)/sqrt(case%truth(3)/pi)
     end function relative_errors
-
-    !> Read the list of methods; ends the program at the first thing that is wrong.
-    subroutine read_entries(file, entries)
-        character(len=*), intent(in) :: file
-        type(entry_t), allocatable, intent(out) :: entries(:)
-
-        type(csv_table_t) :: table
-        type(status_t) :: status
-        character(len=:), allocatable :: what, range, value
-        integer :: row
-
-        call read_csv(file, table, status)
-        call fail_on_error(status)
-        allocate (entries(table%n_rows))
-        do row = 1, table%n_rows
-            entries(row)%stage = text('stage')
-            entries(row)%name = text('method')
-            entries(row)%when = text('when')
-            if (all(stages /= entries(row)%stage)) &
-                call refuse('stage', one_of(stages), entries(row)%stage)
-            entries(row)%numerics%normal = normal_method(text('normal'))
-            if (entries(row)%numerics%normal < 0) &
-                call refuse('normal', one_of(normal_table%name), text('normal'))
-            entries(row)%numerics%tangential = tangential_method(text('tangential'))
-            if (entries(row)%numerics%tangential < 0) &
-                call refuse('tangential', one_of(tangential_table%name), text('tangential'))
-            call take_number('strips_per_patch', entries(row)%numerics%strips_per_patch)
-            call take_number('points_per_strip', entries(row)%numerics%points_per_strip)
-            call take_number('fastsim_nx', entries(row)%numerics%fastsim_nx)
-            call take_number('fastsim_ny', entries(row)%numerics%fastsim_ny)
-            call take_side(entries(row)%numerics)
-            call check_numerics(entries(row)%numerics, what, range, value)
-            if (len(what) > 0) call refuse(what, range, value)
-        end do
-
-    contains
-
-        function text(name)
-            character(len=*), intent(in) :: name
-            character(len=:), allocatable :: text
-
-            integer :: column
-
-            call require_column(table, name, column, status)
-            call fail_on_error(status)
-            text = cell_text(table, row, column)
-        end function text
-
-        !> An empty cell leaves the default.
-        subroutine take_number(name, number)
-            character(len=*), intent(in) :: name
-            integer, intent(inout) :: number
-
-            integer :: column
-
-            if (text(name) == '') return
-            call require_column(table, name, column, status)
-            call cell_integer(table, row, column, number, status)
-            call fail_on_error(status)
-        end subroutine take_number
-
-        !> Elements are squares.
-        subroutine take_side(numerics)
-            type(numerics_t), intent(inout) :: numerics
-
-            integer :: column
-
-            if (text('element_mm') == '') return
-            call require_column(table, 'element_mm', column, status)
-            call cell_number(table, row, column, numerics%element_dx, status)
-            call fail_on_error(status)
-            numerics%element_dy = numerics%element_dx
-        end subroutine take_side
-
-        subroutine refuse(name, must, wrong)
-            character(len=*), intent(in) :: name, must, wrong
-
-            call fail(exit_bad_input, trim(name) // ' must be ' // must // ', got ' // wrong &
-                      // ' (' // file // ':' // integer_text(table%line(row)) // ')')
-        end subroutine refuse
-    end subroutine read_entries
 end module faststrip_lab_bench_trade

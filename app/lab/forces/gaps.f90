@@ -12,7 +12,7 @@ module faststrip_lab_forces_gaps
     implicit none
     private
 
-    public :: draw_force_gap, force_family, force_families
+    public :: draw_force_gap, force_family, force_families, curvature_ratio
 
     !> What the families are called.
     character(len=9), parameter :: force_families(15) = [character(len=9) :: &
@@ -70,7 +70,7 @@ contains
 
     !> B/A of the Hertz ellipse of a/b.
     pure real(wp) function curvature_ratio(a_over_b) result(ratio)
-        real(wp), intent(in) :: a_over_b
+        real(wp), intent(in) :: a_over_b !! > 0
 
         real(wp) :: m1, k, e, d
 

@@ -15,7 +15,7 @@ module faststrip_lab_fuzz_gaps
     implicit none
     private
 
-    public :: fuzz_case_t, make_fuzz_case, family_names
+    public :: fuzz_case_t, make_fuzz_case, draw_family_gap, family_names
     public :: random_t, start_random, uniform, log_uniform, chance, pick, normal
 
     integer, parameter :: family_hertz = 1, family_several = 2, family_merging = 3, &
@@ -112,6 +112,23 @@ contains
         end if
         call fill_gap(random, shape, a0, y_unit, h_unit, offset_y, offset_h, noisy, fuzz_case%gap)
     end subroutine make_fuzz_case
+
+    !> Draw a gap of one family at given places.
+    subroutine draw_family_gap(random, family, a0, b0, hertz, t, gap)
+        type(random_t), intent(inout) :: random
+        integer, intent(in) :: family       !! index of `family_names`
+        real(wp), intent(in) :: a0, b0      !! longitudinal and lateral term, 1/mm
+        type(hertz_t), intent(in) :: hertz  !! the ellipse of these and the contact's load
+        real(wp), intent(in) :: t(:)        !! places in units of its lateral semi-axis
+        type(gap_t), intent(out) :: gap     !! mm, mm, 1/mm
+
+        type(shape_t) :: shape
+
+        call draw_shape(random, family, hertz%penetration/(b0*hertz%b**2), shape)
+        gap%y = t
+        allocate (gap%h, gap%inv2r, source=0.0_wp*t)
+        call fill_gap(random, shape, a0, hertz%b, b0*hertz%b**2, 0.0_wp, 0.0_wp, .false., gap)
+    end subroutine draw_family_gap
 
     !> Heights and curvatures at the points, which hold t so far.
     subroutine fill_gap(random, shape, a0, y_unit, h_unit, offset_y, offset_h, noisy, gap)

@@ -1,0 +1,139 @@
+!> Lists of methods and resolutions, CSV files of the reference folder: what benches compare.
+module faststrip_lab_bench_method_list
+    use faststrip_base_status, only: status_t
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, column_index, cell_text, &
+                                   cell_integer, cell_number
+    use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
+    use faststrip_command_methods, only: numerics_t, check_numerics, one_of
+    use faststrip_contact_methods, only: normal_method, tangential_method, normal_table, &
+                                         tangential_table
+    implicit none
+    private
+
+    public :: method_entry_t, read_method_list
+
+    !> One method at one resolution.
+    type :: method_entry_t
+        character(len=:), allocatable :: stage !! normal, tangential or both
+        character(len=:), allocatable :: name  !! what the CSV calls it
+        character(len=:), allocatable :: when  !! always, or full: not in the quick bench
+        integer :: across = 0                  !! elements across the patch, norm, tang; 0: elements
+                                               !! of the sides in `numerics`
+        type(numerics_t) :: numerics           !! what the program would be asked for
+    end type method_entry_t
+
+    character(len=*), parameter :: stages(3) = [character(len=10) :: 'normal', 'tangential', 'both']
+
+contains
+
+    !> Read a list of methods; ends the program at the first thing that is wrong.
+    subroutine read_method_list(file, entries)
+        character(len=*), intent(in) :: file !! CSV
+        type(method_entry_t), allocatable, intent(out) :: entries(:)
+
+        type(csv_table_t) :: table
+        type(status_t) :: status
+        character(len=:), allocatable :: what, range, value
+        integer :: row
+
+        call read_csv(file, table, status)
+        call fail_on_error(status)
+        allocate (entries(table%n_rows))
+        do row = 1, table%n_rows
+            entries(row)%stage = text('stage')
+            entries(row)%name = text('method')
+            entries(row)%when = text('when')
+            if (all(stages /= entries(row)%stage)) &
+                call refuse('stage', one_of(stages), entries(row)%stage)
+            entries(row)%numerics%normal = normal_method(text('normal'))
+            if (entries(row)%numerics%normal < 0) &
+                call refuse('normal', one_of(normal_table%name), text('normal'))
+            entries(row)%numerics%tangential = tangential_method(text('tangential'))
+            if (entries(row)%numerics%tangential < 0) &
+                call refuse('tangential', one_of(tangential_table%name), text('tangential'))
+            call take_number('strips_per_patch', entries(row)%numerics%strips_per_patch)
+            call take_number('points_per_strip', entries(row)%numerics%points_per_strip)
+            call take_number('fastsim_nx', entries(row)%numerics%fastsim_nx)
+            call take_number('fastsim_ny', entries(row)%numerics%fastsim_ny)
+            call take_side(entries(row)%numerics)
+            call take_wanted(entries(row))
+            call check_numerics(entries(row)%numerics, what, range, value)
+            if (len(what) > 0) call refuse(what, range, value)
+        end do
+
+    contains
+
+        function text(name)
+            character(len=*), intent(in) :: name
+            character(len=:), allocatable :: text
+
+            integer :: column
+
+            call require_column(table, name, column, status)
+            call fail_on_error(status)
+            text = cell_text(table, row, column)
+        end function text
+
+        !> An empty cell leaves the default.
+        subroutine take_number(name, number)
+            character(len=*), intent(in) :: name
+            integer, intent(inout) :: number
+
+            integer :: column
+
+            if (text(name) == '') return
+            call require_column(table, name, column, status)
+            call cell_integer(table, row, column, number, status)
+            call fail_on_error(status)
+        end subroutine take_number
+
+        !> A column that may be missing.
+        function further(name)
+            character(len=*), intent(in) :: name
+            character(len=:), allocatable :: further
+
+            further = cell_text(table, row, column_index(table, name))
+        end function further
+
+        !> What belongs to contacts of many sizes, and to auto.
+        subroutine take_wanted(entry)
+            type(method_entry_t), intent(inout) :: entry
+
+            integer :: column
+
+            if (further('across') /= '') then
+                column = column_index(table, 'across')
+                call cell_integer(table, row, column, entry%across, status)
+                call fail_on_error(status)
+                if (entry%across < 2) &
+                    call refuse('across', 'a whole number from 2 on', further('across'))
+            end if
+            if (further('target') /= '') entry%numerics%target = further('target')
+            if (further('tolerance') == '') return
+            column = column_index(table, 'tolerance')
+            call cell_number(table, row, column, entry%numerics%tolerance, status)
+            call fail_on_error(status)
+        end subroutine take_wanted
+
+        !> Elements are squares.
+        subroutine take_side(numerics)
+            type(numerics_t), intent(inout) :: numerics
+
+            integer :: column
+
+            if (further('element_mm') == '') return
+            column = column_index(table, 'element_mm')
+            call cell_number(table, row, column, numerics%element_dx, status)
+            call fail_on_error(status)
+            numerics%element_dy = numerics%element_dx
+        end subroutine take_side
+
+        subroutine refuse(name, must, wrong)
+            character(len=*), intent(in) :: name, must, wrong
+
+            call fail(exit_bad_input, trim(name) // ' must be ' // must // ', got ' // wrong &
+                      // ' (' // file // ':' // integer_text(table%line(row)) // ')')
+        end subroutine refuse
+    end subroutine read_method_list
+end module faststrip_lab_bench_method_list

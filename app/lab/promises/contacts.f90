@@ -1,0 +1,177 @@
+!> The contacts on which promises are judged: contact `number` of a kind is always the same one.
+!> Most are drawn; ellipses are those of `reference/contact/hertz_creep.csv`, by their rows.
+!>
+!> Loads, friction and materials are round numbers, so that they stand in the table of the truth as
+!> they are solved; creepages are drawn when the patch is known.
+module faststrip_lab_promises_contacts
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     number_text, count_text, st_out_of_range
+    use faststrip_base_text, only: parse_real
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
+                                       combined_poisson_ratio
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_lab_bench_trade_cases, only: trade_case_t, read_hertz_cases
+    use faststrip_lab_checkout, only: in_checkout
+    use faststrip_lab_fuzz_gaps, only: random_t, start_random, uniform, log_uniform, chance
+    use faststrip_lab_promises_gaps, only: draw_promise_gap, gap_kinds
+    use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
+    implicit none
+    private
+
+    public :: promise_contact_t, ellipses_t, read_ellipses, find_promise_contact, &
+              draw_promise_creepages
+    public :: promise_kinds, rounded, states_drawn
+
+    !> What the kinds of contacts are called.
+    character(len=12), parameter :: promise_kinds(3 + size(gap_kinds)) = &
+        [[character(len=12) :: 'ellipse', 'new_wheel', 'worn_wheel'], gap_kinds]
+    !> Creepages of one contact.
+    integer, parameter :: states_drawn = 2
+
+    ! Far from the seeds of the data that is fitted.
+    integer, parameter :: seed = 20260101
+    real(wp), parameter :: youngs = 2.1e5_wp, steel = 0.28_wp ! MPa, -
+
+    !> One contact.
+    type, extends(contact_case_t) :: promise_contact_t
+        integer :: kind = 0             !! index of `promise_kinds`
+        integer :: number = 0           !! of the kind, from 1
+        type(random_t) :: random        !! for the creepages
+        logical :: has_motion = .false. !! is `creepage` that of a wheelset?
+    end type promise_contact_t
+
+    !> Contacts that CONTACT has solved.
+    type :: ellipses_t
+        type(trade_case_t), allocatable :: cases(:)
+    end type ellipses_t
+
+contains
+
+    !> Read the contacts that are not drawn.
+    subroutine read_ellipses(ellipses, status)
+        type(ellipses_t), intent(out) :: ellipses
+        type(status_t), intent(out) :: status !! of the reader
+
+        call read_hertz_cases(in_checkout('reference/contact/hertz_creep.csv'), ellipses%cases, &
+                              status)
+    end subroutine read_ellipses
+
+    !> A contact, if it is drawn but for its creepages.
+    subroutine find_promise_contact(ellipses, kind, number, contact, status)
+        type(ellipses_t), intent(in) :: ellipses        !! read beforehand
+        integer, intent(in) :: kind                     !! index of `promise_kinds`
+        integer, intent(in) :: number                   !! from 1
+        type(promise_contact_t), intent(out) :: contact !! gap, load, material, friction
+        type(status_t), intent(out) :: status           !! `st_out_of_range`: no such number
+
+        call clear_status(status)
+        contact%kind = kind
+        contact%number = number
+        if (promise_kinds(kind) /= 'ellipse') then
+            call draw_contact(contact)
+        else if (number > size(ellipses%cases)) then
+            call set_status(status, st_out_of_range, 'there is no ellipse ' &
+                            // count_text(number))
+        else
+            contact%contact_case_t = ellipses%cases(number)%contact_case_t
+        end if
+    end subroutine find_promise_contact
+
+    subroutine draw_contact(contact)
+        type(promise_contact_t), intent(inout) :: contact ! kind and number
+
+        real(wp) :: poisson
+
+        call start_random(seed + contact%kind, contact%number, contact%random)
+        contact%load = rounded(log_uniform(contact%random, 1.0e4_wp, 1.5e5_wp))
+        contact%mu = rounded(uniform(contact%random, 0.1_wp, 0.6_wp))
+        poisson = steel
+        if (chance(contact%random, 0.3_wp)) &
+            poisson = rounded(uniform(contact%random, 0.2_wp, 0.35_wp))
+        contact%material = material_t(youngs, youngs, poisson, poisson)
+        associate (kind => promise_kinds(contact%kind))
+            contact%has_motion = index(kind, 'wheel') > 0
+            if (contact%has_motion) then
+                call draw_wheelset_gap(contact%random, kind == 'worn_wheel', contact%gap, &
+                                       contact%creepage)
+            else
+                call draw_promise_gap(contact%random, kind, normal_compliance(contact%material), &
+                                      contact%load, contact%gap)
+            end if
+        end associate
+    end subroutine draw_contact
+
+    !> Draw creepages: linear forces of the largest patch between a twentieth of mu N and a
+    !> hundred times that, one state about the onset of sliding, the other from there to full
+    !> sliding; in two of three states with spin. The first state of a wheelset is that of its
+    !> motion.
+    subroutine draw_promise_creepages(contact, strips, creepages, status)
+        type(promise_contact_t), intent(inout) :: contact !! drawn
+        type(contact_strips_t), intent(in) :: strips      !! its normal solution
+        type(creepage_t), intent(out) :: creepages(states_drawn) !! about y = 0
+        type(status_t), intent(out) :: status             !! from `kalker_coefficients`
+
+        type(patch_ellipse_t) :: ellipse
+        type(kalker_coefficients_t) :: c
+        real(wp) :: unit, size_of, direction, spin
+        integer :: i
+
+        call find_largest_patch(strips, ellipse)
+        call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(contact%material), c, &
+                                 status)
+        if (is_error(status)) return
+        unit = contact%mu*ellipse%load &
+               /(combined_shear_modulus(contact%material)*ellipse%a*ellipse%b)
+        do i = 1, states_drawn
+            associate (creepage => creepages(i))
+                if (i == 1) then
+                    size_of = log_uniform(contact%random, 0.05_wp, 3.0_wp)
+                else
+                    size_of = log_uniform(contact%random, 0.5_wp, 100.0_wp)
+                end if
+                direction = uniform(contact%random, -pi, pi)
+                spin = uniform(contact%random, -1.0_wp, 1.0_wp)
+                if (chance(contact%random, 1.0_wp/3.0_wp)) spin = 0.0_wp
+                creepage%cphi = rounded(size_of*spin*unit/(c%c23*sqrt(ellipse%a*ellipse%b)))
+                size_of = size_of*sqrt(1.0_wp - spin**2)
+                ! What the spin makes of longitudinal creepage at the patch is no part of the draw.
+                creepage%cksi = rounded(size_of*cos(direction)*unit/c%c11 &
+                                        + ellipse%y*creepage%cphi)
+                creepage%ceta = rounded(size_of*sin(direction)*unit/c%c22)
+            end associate
+        end do
+        if (.not. contact%has_motion) return
+        creepages(1) = creepage_t(rounded(contact%creepage%cksi), rounded(contact%creepage%ceta), &
+                                  rounded(contact%creepage%cphi))
+    end subroutine draw_promise_creepages
+
+    subroutine find_largest_patch(strips, largest)
+        type(contact_strips_t), intent(in) :: strips
+        type(patch_ellipse_t), intent(out) :: largest
+
+        type(patch_ellipse_t) :: ellipse
+        integer :: first, last
+
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = patch_end(strips, first)
+            ellipse = patch_ellipse(strips, first, last)
+            if (ellipse%load > largest%load) largest = ellipse
+        end do
+    end subroutine find_largest_patch
+
+    !> The number as a table of results has it: six digits.
+    real(wp) function rounded(value)
+        real(wp), intent(in) :: value !! a finite number
+
+        logical :: is_valid
+
+        call parse_real(trim(number_text(value)), rounded, is_valid)
+    end function rounded
+end module faststrip_lab_promises_contacts

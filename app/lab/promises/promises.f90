@@ -1,0 +1,295 @@
+!> `faststrip-lab promises`: what the program makes of the contacts of `faststrip-lab truth` by each
+!> method of a list, automatic ones among them: errors, their estimates, status and time.
+!>
+!> Contacts are solved through the program's own solver, as a row of `faststrip batch` is. Kalker's
+!> methods with elements across the patch take these from the truth, which a user would have to find
+!> first: their times are the least they can be.
+module faststrip_lab_promises
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word, number_text
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, open_csv, put_comment, &
+                                   put_header, put_cell, end_row, close_csv
+    use faststrip_command_clock, only: median
+    use faststrip_command_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_files, only: take_input
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
+                                         option_integer
+    use faststrip_command_batch, only: case_columns
+    use faststrip_command_prepared_case, only: put_gap
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
+    use faststrip_lab_checkout, only: in_checkout
+    use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
+                                               find_promise_contact, promise_kinds
+    use faststrip_lab_promises_record, only: truth_record_t, take_truth, n_figures, figure_names, &
+                                             figure_units
+    implicit none
+    private
+
+    public :: run_promises
+
+    ! How often a method goes through all contacts, unless that takes longer than this, us.
+    integer, parameter :: most_rounds = 5
+    real(wp), parameter :: enough_us = 5.0e6_wp
+    integer, parameter :: most_thinning = 10000
+    integer, parameter :: n_estimates = 6
+
+    !> What is true, and the gap it is true of.
+    type :: judged_t
+        type(truth_record_t) :: truth
+        type(promise_contact_t) :: contact
+    end type judged_t
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_promises()
+        type(command_t) :: command
+        type(csv_writer_t) :: writer
+        type(status_t) :: written
+        type(method_entry_t), allocatable :: entries(:)
+        type(judged_t), allocatable :: contacts(:)
+        character(len=:), allocatable :: truth, methods, folder
+        integer :: i, thinning
+
+        command%name = 'promises'
+        command%usage = ''
+        command%about = &
+            'For developers: errors, estimates, status and time of every method of a list, auto' &
+            // new_line('a') // 'with its tolerances too, on contacts whose figures are known.' &
+            // ' CSV, one row for each' // new_line('a') // 'contact and method.' // new_line('a')
+        command%options = [ &
+            option_t('--truth', 'FILE', 'the contacts (default reference/promises/truth.csv)', &
+                     reads=.true.), &
+            option_t('--methods', 'FILE', &
+                     'the methods (default reference/promises/methods.csv)', reads=.true.), &
+            option_t('--every', 'INTEGER', 'take one of so many contacts (default 1)'), &
+            option_t('--cases', 'FOLDER', &
+                     'instead write the contacts there, as cases.csv of faststrip batch and its' &
+                     // ' gap' // new_line('a') // 'files'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
+        call parse_command(command, 0)
+        truth = option_text(command, '--truth', in_checkout('reference/promises/truth.csv'))
+        methods = option_text(command, '--methods', in_checkout('reference/promises/methods.csv'))
+        thinning = option_integer(command, '--every', 1, least=1, most=most_thinning)
+        call take_input(truth)
+        call take_input(methods)
+        folder = option_text(command, '--cases', '')
+        call read_method_list(methods, entries)
+        call read_contacts(truth, thinning, contacts)
+        if (folder /= '') then
+            call put_cases(folder, contacts)
+            return
+        end if
+        call open_csv(writer, option_text(command, '-o', '-'), written)
+        call fail_on_error(written)
+        call put_origin(writer)
+        call put_comment(writer, 'err_*: relative, of Fx, Fy over mu N, of Mz over mu N c, c = ' &
+                         // 'sqrt(area/pi), of the stick fraction as it is; est_* what the ' &
+                         // 'program says of it; times: processor')
+        call put_header(writer, [[character(len=20) :: 'kind', 'number', 'state', 'method', &
+                                  'status', 'normal_us', 'tangential_us'], &
+                                 [character(len=20) :: 'err_' // figure_names], &
+                                 [character(len=20) :: 'est_' // figure_names(:n_estimates)], &
+                                 [character(len=20) :: 'choice']])
+        do i = 1, size(entries)
+            call progress('methods', i, size(entries))
+            call judge_method(writer, entries(i), contacts)
+        end do
+        call close_csv(writer, written)
+        call fail_on_error(written)
+    end subroutine run_promises
+
+    !> The contacts of a file of truths; ends the program if it cannot be read.
+    subroutine read_contacts(file, thinning, contacts)
+        character(len=*), intent(in) :: file
+        integer, intent(in) :: thinning
+        type(judged_t), allocatable, intent(out) :: contacts(:)
+
+        type(csv_table_t) :: table
+        type(ellipses_t) :: ellipses
+        type(status_t) :: status
+        integer :: i
+
+        call read_csv(file, table, status)
+        call fail_on_error(status)
+        call read_ellipses(ellipses, status)
+        call fail_on_error(status)
+        allocate (contacts((table%n_rows + thinning - 1)/thinning))
+        do i = 1, size(contacts)
+            associate (truth => contacts(i)%truth, contact => contacts(i)%contact)
+                call take_truth(table, 1 + (i - 1)*thinning, truth, status)
+                call fail_on_error(status)
+                call find_promise_contact(ellipses, truth%kind, truth%number, contact, status)
+                call fail_on_error(status, file)
+                contact%load = truth%load
+                contact%mu = truth%mu
+                contact%material = truth%material
+                contact%creepage = truth%creepage
+            end associate
+        end do
+    end subroutine read_contacts
+
+    !> Write the contacts for the program.
+    subroutine put_cases(folder, contacts)
+        character(len=*), intent(in) :: folder
+        type(judged_t), intent(in) :: contacts(:)
+
+        type(csv_writer_t) :: writer, gap
+        type(status_t) :: status
+        character(len=:), allocatable :: name
+        integer :: i, k
+
+        call open_csv(writer, folder // '/cases.csv', status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, case_columns)
+        do i = 1, size(contacts)
+            associate (truth => contacts(i)%truth)
+                name = trim(promise_kinds(truth%kind)) // '_' // integer_text(truth%number)
+                call put_cell(writer, name // '_' // integer_text(truth%state))
+                call put_cell(writer, name // '.csv')
+                associate (numbers => [truth%material%e_rail, truth%material%nu_rail, truth%mu, &
+                                       truth%load, truth%creepage%cksi, truth%creepage%ceta, &
+                                       truth%creepage%cphi])
+                    do k = 1, size(numbers)
+                        call put_cell(writer, numbers(k))
+                    end do
+                end associate
+                call end_row(writer)
+            end associate
+            call open_csv(gap, folder // '/' // name // '.csv', status)
+            call fail_on_error(status)
+            call put_gap(gap, contacts(i)%contact%gap, 0.0_wp)
+            call close_csv(gap, status)
+            call fail_on_error(status)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine put_cases
+
+    !> The rows of one method: several times through all contacts, unless that takes long.
+    subroutine judge_method(writer, entry, contacts)
+        type(csv_writer_t), intent(inout) :: writer
+        type(method_entry_t), intent(in) :: entry
+        type(judged_t), intent(in) :: contacts(:)
+
+        type(solver_t) :: solver
+        type(outcome_t), allocatable :: outcomes(:)
+        type(status_t), allocatable :: statuses(:)
+        real(wp), allocatable :: us(:, :, :) ! normal and tangential, round, contact
+        real(wp) :: spent
+        integer :: i, round, rounds
+
+        allocate (outcomes(size(contacts)), statuses(size(contacts)))
+        allocate (us(2, most_rounds, size(contacts)), source=0.0_wp)
+        spent = 0.0_wp
+        do round = 1, most_rounds
+            rounds = round
+            do i = 1, size(contacts)
+                call judge_contact(solver, entry, contacts(i), outcomes(i), statuses(i))
+                us(:, round, i) = [outcomes(i)%normal_cpu_us, outcomes(i)%tangential_cpu_us]
+                spent = spent + sum(us(:, round, i))
+            end do
+            if (spent*(round + 1)/round > enough_us) exit
+        end do
+        do i = 1, size(contacts)
+            call put_row(writer, entry%name, contacts(i)%truth, outcomes(i), statuses(i), &
+                         [median(us(1, :rounds, i)), median(us(2, :rounds, i))])
+        end do
+        call release_solver(solver)
+    end subroutine judge_method
+
+    subroutine judge_contact(solver, entry, contact, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        type(method_entry_t), intent(in) :: entry
+        type(judged_t), intent(in) :: contact
+        type(outcome_t), intent(out) :: outcome
+        type(status_t), intent(out) :: status
+
+        type(numerics_t) :: numerics
+
+        numerics = entry%numerics
+        if (entry%across > 0) then
+            numerics%element_dx = contact%truth%extents(1)/entry%across
+            numerics%element_dy = contact%truth%extents(2)/entry%across
+        end if
+        call make_solver(numerics, .false., solver, status)
+        if (.not. is_error(status)) call solve(solver, contact%contact, outcome, status)
+    end subroutine judge_contact
+
+    !> One contact by one method; without a result its figures are empty.
+    subroutine put_row(writer, method, truth, outcome, status, us)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: method
+        type(truth_record_t), intent(in) :: truth
+        type(outcome_t), intent(in) :: outcome
+        type(status_t), intent(in) :: status
+        real(wp), intent(in) :: us(2)
+
+        real(wp) :: errors(n_figures), estimates(n_estimates)
+        logical :: counts(n_figures), is_estimated(n_estimates)
+        integer :: i
+
+        call put_cell(writer, trim(promise_kinds(truth%kind)))
+        call put_cell(writer, truth%number)
+        call put_cell(writer, truth%state)
+        call put_cell(writer, method)
+        call put_cell(writer, trim(status_word(status%code)))
+        if (is_error(status)) then
+            errors = 0.0_wp
+        else
+            errors = errors_of(truth, outcome)
+        end if
+        counts(:3) = .true.
+        counts(4:7) = outcome%has_forces
+        counts(8) = outcome%knows_stick
+        associate (certificate => outcome%certificate)
+            estimates = [certificate%est_err_penetration, certificate%est_err_pmax, &
+                         certificate%est_err_area, 0.0_wp, 0.0_wp, 0.0_wp]
+        end associate
+        is_estimated(:3) = outcome%is_estimated
+        is_estimated(4:) = .false.
+        do i = 1, 2
+            call put_known(.true., us(i))
+        end do
+        do i = 1, n_figures
+            call put_known(counts(i), errors(i))
+        end do
+        do i = 1, n_estimates
+            call put_known(is_estimated(i), estimates(i))
+        end do
+        call put_cell(writer, outcome%choice)
+        call end_row(writer)
+
+    contains
+
+        subroutine put_known(is_known, value)
+            logical, intent(in) :: is_known
+            real(wp), intent(in) :: value
+
+            if (is_known .and. .not. is_error(status)) then
+                call put_cell(writer, trim(number_text(value)))
+            else
+                call put_cell(writer, '')
+            end if
+        end subroutine put_known
+    end subroutine put_row
+
+    !> Errors in the order of `figure_names`.
+    pure function errors_of(truth, outcome) result(errors)
+        type(truth_record_t), intent(in) :: truth
+        type(outcome_t), intent(in) :: outcome
+        real(wp) :: errors(n_figures)
+
+        real(wp) :: found(n_figures)
+
+        associate (normal => outcome%normal, forces => outcome%tangential)
+            found = [normal%penetration, normal%pmax, normal%area, forces%fx, forces%fy, &
+                     forces%mz, forces%friction_power, forces%stick_fraction]
+        end associate
+        errors = (found - truth%figures)/figure_units(truth)
+    end function errors_of
+end module faststrip_lab_promises
