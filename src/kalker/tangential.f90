@@ -5,6 +5,11 @@
 !> they do not (Kalker 1990): in steady rolling (T = 3) or in a single shift (T = 1). How slip is
 !> discretised says `variational_problem`, how the equations are solved `variational_newton`.
 !>
+!> In steady rolling bodies store nothing: the friction power is what the forces do on the creepages,
+!> and is taken from these. The sum of tractions on slips lacks more the less slides, for the slip
+!> is then at the trailing edge, in less than an element: in the mean of 215 contacts 15 % with 18
+!> elements across, 9 % with 36.
+!>
 !> Needs FFTW, and is for program, tests and reports only (`faststrip_kalker_convolution`).
 module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -160,6 +165,9 @@ contains
             workspace%is_solved = .true.
         end if
         call add_up(workspace%newton, workspace%problem, result, field)
+        if (options%motion == motion_rolling) result%friction_power = &
+            max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi), &
+                0.0_wp)
     end subroutine tang_solve
 
     !> Give back what the compiler does not: plans of workspaces in an array.

@@ -19,8 +19,10 @@ class Columns(ProgramTest):
             self.assertGreater(top, 0.0)
             for k, value in enumerate(power):
                 self.assert_close(-(px[k] * sx[k] + py[k] * sy[k]), value, 0, 1e-9 * top, method)
+            # TANG's is that of the forces, of which elements see a little less.
             self.assert_close(sum(a * p for a, p in zip(area, power)),
-                              float(row["friction_power_N"]), 1e-6, what=method)
+                              float(row["friction_power_N"]), 0.01 if method == "tang" else 1e-6,
+                              what=method)
 
     def test_sides_of_elements_along_x_and_y(self):
         self.write("gap.csv", gap_text(parabola))

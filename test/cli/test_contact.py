@@ -233,8 +233,13 @@ class GapFile(ProgramTest):
         self.assert_close(math.fsum(area), float(row["area_mm2"]), 0.03)
         self.assert_close(math.fsum(p * a for p, a in zip(pn, area)), float(row["N_N"]), 0.02)
         self.assertLessEqual(set(numbers(field, "state")), {1.0, 2.0})
-        self.assert_close(math.fsum(p * a for p, a in zip(numbers(field, "power_MPa"), area)),
-                          float(row["friction_power_N"]), 1e-2)
+        power = math.fsum(p * a for p, a in zip(numbers(field, "power_MPa"), area))
+        if row["tangential"] == "tang":
+            # Elements see a little less than what the forces do on the creepages.
+            self.assertTrue(0.97 * float(row["friction_power_N"]) < power
+                            <= (1.0 + 1e-6) * float(row["friction_power_N"]))
+        else:
+            self.assert_close(power, float(row["friction_power_N"]), 1e-2)
         self.assertGreaterEqual(min(numbers(field, "power_MPa")), 0.0)
         self.check_bounds(row, field)
 
@@ -310,8 +315,12 @@ class GapFile(ProgramTest):
         self.assert_close(max(numbers(field, "pn_MPa")), float(row["pmax_MPa"]), 1e-12)
         self.assert_close(0.125 * math.fsum(numbers(field, "pn_MPa")), 1e5, 1e-9)
         self.assert_close(0.125 * math.fsum(numbers(field, "px_MPa")), float(row["Fx_N"]), 1e-9)
-        self.assert_close(0.125 * math.fsum(numbers(field, "power_MPa")),
-                          float(row["friction_power_N"]), 1e-9)
+        # What forces do on creepages; elements see a little less of it.
+        power = float(row["friction_power_N"])
+        self.assert_close(-(float(row["Fx_N"]) * 0.0008 + float(row["Mz_Nmm"]) * 0.0001), power,
+                          1e-9)
+        self.assertLess(0.125 * math.fsum(numbers(field, "power_MPa")), power)
+        self.assertGreater(0.125 * math.fsum(numbers(field, "power_MPa")), 0.9 * power)
         stuck = [element for element in field if element["state"] == "1"]
         self.assert_close(len(stuck) / len(field), float(row["stick_fraction"]), 1e-12)
         for element in field:
