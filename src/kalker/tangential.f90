@@ -5,10 +5,10 @@
 !> they do not (Kalker 1990): in steady rolling (T = 3) or in a single shift (T = 1). How slip is
 !> discretised says `variational_problem`, how the equations are solved `variational_newton`.
 !>
-!> In steady rolling bodies store nothing: the friction power is what the forces do on the creepages,
-!> and is taken from these. The sum of tractions on slips lacks more the less slides, for the slip
-!> is then at the trailing edge, in less than an element: in the mean of 215 contacts 15 % with 18
-!> elements across, 9 % with 36.
+!> In steady rolling bodies store nothing: the friction power is what the forces do on the
+!> creepages, and is taken from these. The sum of tractions on slips lacks more the less slides, for
+!> the slip is then at the trailing edge, in less than an element: in the mean of 110 contacts 15 %
+!> with 18 elements across, 9 % with 36.
 !>
 !> Needs FFTW, and is for program, tests and reports only (`faststrip_kalker_convolution`).
 module faststrip_kalker_tangential
