@@ -43,8 +43,8 @@ HEADINGS = {
     "area": "Contact area",
     "power": "Friction power",
 }
-ESTIMATES = (("Fx", "$F_x$", "$\\mu N$"), ("Fy", "$F_y$", "$\\mu N$"),
-             ("Mz", "$M_z$", "$\\mu N c$"))
+ESTIMATES = (("Fx", "$F_x$", "$\\mu\\cdot N$"), ("Fy", "$F_y$", "$\\mu\\cdot N$"),
+             ("Mz", "$M_z$", "$\\mu\\cdot N c$"))
 LEAST, MOST = 1e-3, 300.0  # % between which errors are drawn
 FRONT_LEAST, FRONT_MOST = 0.02, 100.0  # the same on the front
 WIDTH = 0.36  # of a column of contacts, of the distance of tolerances
