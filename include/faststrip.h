@@ -81,7 +81,7 @@ enum faststrip_tangential {
     FASTSTRIP_TANGENTIAL_LINEAR = 7,              /* Kalker's linear theory; no elements */
     FASTSTRIP_TANGENTIAL_SHE = 8,                 /* Shen, Hedrick and Elkins; no elements */
     FASTSTRIP_TANGENTIAL_POLACH = 9,              /* Polach; no elements */
-    FASTSTRIP_TANGENTIAL_FASTSTRIP_FITTED = 11    /* FASTSTRIP corrected by a fit, on trial */
+    FASTSTRIP_TANGENTIAL_FASTSTRIP_PLAIN = 11     /* FASTSTRIP without its correction */
 };
 /* END methods */
 

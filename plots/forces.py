@@ -12,7 +12,7 @@ from faststrip_plots.tables import InputError, read_table
 
 METHODS = {
     "faststrip": style.Look("FASTSTRIP", "#0b3c78", "-", 2.2),
-    "faststrip-fitted": style.Look("FASTSTRIP, fitted", "#5b8bd0", (0, (3, 1.2)), 1.7),
+    "faststrip-plain": style.Look("FASTSTRIP, plain", "#5b8bd0", (0, (3, 1.2)), 1.7),
     "faststrip-paper": style.Look("FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.5),
     "faststrip-corrected": style.Look(
         "FASTSTRIP corrected", "#57c7a8", (0, (3, 1, 1, 1, 1, 1)), 1.8

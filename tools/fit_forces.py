@@ -1,279 +1,175 @@
 #!/usr/bin/env python3
-"""Fit what FASTSTRIP misses of the creep forces: reference/force_correction.json.
+"""Fit what FASTSTRIP misses of the creep forces, and how wrong they are expected to be.
 
-    fit_forces.py FEATURES.csv [--leave-out FAMILY+FAMILY]... [--steps N] [-o FILE]
+    fit_forces.py FEATURES.csv [OTHERS.csv ...] [--leave-out FAMILY+FAMILY]... [--steps N] [-o FILE]
 
-FEATURES.csv is what `faststrip-lab force-features` writes: forces of the march and of TANG, and
-what the correction depends on. The network is that of
-src/faststrip/tangential/force_correction.f90; jax and optax do the fitting
-(tools/requirements-fit.txt). Contacts whose number is a multiple of VALIDATION are never fitted;
-the errors on them, and on whole families that were left out, are kept in the file. Then
-tools/force_weights.py writes the module of the weights.
+The files are what `faststrip-lab force-features` writes: forces of the march and of TANG, and what
+the correction depends on. The first one has 15 strips of 15 points; the others, with more and
+fewer, are fitted too, and the figures are those of the first. First the ellipses' part is fitted to
+ellipses, then the shape's to what that leaves of all contacts, once for each group of families that
+is left out and once with all. The estimate of the errors is fitted to the errors on contacts that the
+correction did not know: those groups, and half of the ellipses. Contacts whose number is a multiple
+of VALIDATION are never fitted.
+
+Written are reference/force_correction.json with the figures and reference/force_correction.csv,
+samples for a test; then tools/force_weights.py writes the module of the weights.
 """
 
 import argparse
 import csv
 import json
-import math
-import os
 import pathlib
 import sys
-import time
 
-os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
-import jax
-import jax.numpy as jnp
+import force_network as net
 import numpy as np
-import optax
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TARGET = ROOT / "reference" / "force_correction.json"
-EVEN, ODD, SIDES = 5, 5, 3
-HIDDEN, OUTPUTS = 48, 10 + 4 * SIDES
-# Scales of the shape's numbers: about one over what they are at most.
-EVEN_SCALE = np.array([30.0, 8.0, 8.0, 8.0, 30.0])
-ODD_SCALE = np.array([15.0, 5.0, 10.0, 10.0, 10.0])
-HALF_SHAPE = 0.02
-STRONG = 10.0
-SLIDING = (30.0, 300.0)
 VALIDATION = 10
 SEED = 1
-BATCH = 1024
-RATE = 6.0e-3
 # Rows of the file of samples.
 SAMPLES = 40
-# Below this error, in parts of mu N, an error counts by its square.
-ROUND = 0.002
-# What the squares count beside the sizes of the errors.
-SQUARES = 20.0
+# Units of the layers of the network of the errors, and its part of the steps.
+ERROR_HIDDEN, ERROR_STEPS = 32, 0.5
+# Estimates are larger by this than what one error in 20 passes on what is known.
+ERROR_SAFETY = 1.3
+METHODS = ("march", "corrected", "fastsim")
 
 
-def read(path):
-    with open(path, encoding="utf-8") as stream:
-        rows = csv.reader(line for line in stream if line[0] != "#")
-        head = next(rows)
-        table = list(rows)
-    columns = list(zip(*table, strict=True))
-    return {name: np.array(column) if name == "family" else np.array(column, float)
-            for name, column in zip(head, columns, strict=True)}
-
-
-def contacts(path):
-    """Inputs and targets of the network, one row for each contact and creepage without a neck."""
-    d = read(path)
-    keep = d["neck"] == 0
-    d = {name: column[keep] for name, column in d.items()}
-    a, b, y = d["a_mm"], d["b_mm"], d["yc_mm"]
-    force = d["mu"] * d["load_N"]
-    arm = np.sqrt(a * b)
-
-    def forces(fx, fy, mz):
-        return np.stack([fx, fy, (mz + y * fx) / arm], 1) / force[:, None]
-
-    march = forces(d["Fx_N"], d["Fy_N"], d["Mz_Nmm"])
-    # The extrapolation makes Fx of TANG worse, Fy and Mz better.
-    truth = forces(d["Fx_fine_N"], d["Fy_tang_N"], d["Mz_tang_Nmm"])
-    u = np.stack([d["u1"], d["u2"], d["u3"]], 1)
-    squared = (u**2).sum(1)
-    v = u / np.sqrt(1 + squared)[:, None]
-    even = np.stack([d[f"even{k}"] for k in range(1, EVEN + 1)], 1)
-    odd = np.stack([d[f"odd{k}"] for k in range(1, ODD + 1)], 1)
-    spin = d["cphi_rad_per_mm"]
-    along, across = d["cksi"] - y * spin, d["ceta"]
-    slip = along**2 + across**2 + 0.25 * spin**2 * (a**2 + b**2)
-    slip = np.where(slip > 0, slip, 1)
-    o = odd.T
-    x = np.stack([v[:, 0]**2, v[:, 1]**2, v[:, 2]**2, v[:, 1] * v[:, 2], np.log1p(squared),
-                  np.log(a / b), d["nu"], along**2 / slip, across**2 / slip,
-                  across * spin * a / slip, spin**2 * a * b / slip,
-                  np.log1p(squared / STRONG**2), *even.T,
-                  *(o[:4] * v[:, 0] * v[:, 1]), *(o[:4] * v[:, 0] * v[:, 2]),
-                  *(o[:4]**2), o[0] * o[1], o[0] * o[2]], 1)
-    unlike = ((even * EVEN_SCALE)**2).sum(1) + ((odd * ODD_SCALE)**2).sum(1)
-    t = np.log(np.maximum(np.sqrt(squared), 1e-30) / SLIDING[0]) / math.log(SLIDING[1] / SLIDING[0])
-    t = np.clip(t, 0, 1)
-    march_part = 1 - t**3 * (10 - t * (15 - 6 * t))
-    return {"family": d["family"], "number": d["number"].astype(int), "x": x, "v": v,
-            "odd": odd[:, :SIDES], "ellipse": np.linalg.norm(v, axis=1) * march_part,
-            "form": unlike / (unlike + HALF_SHAPE) * march_part, "missing": truth - march,
-            "inputs": np.concatenate([u, np.stack([along, across, spin, a, b, d["nu"]], 1), even,
-                                      odd], 1),
-            "march": march, "truth": truth, "u": np.sqrt(squared), "unlike": unlike}
-
-
-def rows(data, chosen):
-    return {name: column[chosen] for name, column in data.items()}
-
-
-def network(p, x):
-    for weights, bias in p[:-1]:
-        x = x @ weights + bias
-        x = x * jax.lax.rsqrt(1 + x * x)
-    weights, bias = p[-1]
-    return x @ weights + bias
-
-
-def correction(p, x, v, o, ellipse, form):
-    c = network(p, x)
-    parts = []
-    for k, gate in ((0, ellipse), (5, form)):
-        parts.append(gate[:, None] * jnp.stack(
-            [c[:, k] * v[:, 0], c[:, k + 1] * v[:, 1] + c[:, k + 2] * v[:, 2],
-             c[:, k + 3] * v[:, 2] + c[:, k + 4] * v[:, 1]], 1))
-    k = 10
-    along = sum(o[:, j] * (c[:, k + 2 * j] * v[:, 1] + c[:, k + 2 * j + 1] * v[:, 2])
-                for j in range(SIDES))
-    k += 2 * SIDES
-    across = v[:, 0] * (o * c[:, k:k + SIDES]).sum(1)
-    k += SIDES
-    moment = v[:, 0] * (o * c[:, k:k + SIDES]).sum(1)
-    return parts[0] + parts[1] + form[:, None] * jnp.stack([along, across, moment], 1)
-
-
-def columns(data, scaling):
-    mean, spread, side = scaling
-    return [jnp.array(column, jnp.float32) for column in
-            ((data["x"] - mean) / spread, data["v"], data["odd"] / side, data["ellipse"],
-             data["form"], data["missing"])]
-
-
-def fit(data, steps, seed=SEED):
-    """Weights of the network, and the scaling of its inputs."""
-    scaling = data["x"].mean(0), data["x"].std(0), data["odd"].std(0)
-    all_columns = columns(data, scaling)
-    sizes = (data["x"].shape[1], HIDDEN, HIDDEN, OUTPUTS)
-    keys = jax.random.split(jax.random.PRNGKey(seed), len(sizes))
-    p = [(jax.random.normal(key, (n, m)) / math.sqrt(n), jnp.zeros(m))
-         for key, n, m in zip(keys, sizes[:-1], sizes[1:], strict=False)]
-    p[-1] = (0.1 * p[-1][0], p[-1][1])
-    solver = optax.adamw(optax.cosine_decay_schedule(RATE, steps), weight_decay=1e-5)
-    state = solver.init(p)
-    n = len(data["missing"])
-
-    def loss(p, x, v, o, ellipse, form, missing):
-        left = correction(p, x, v, o, ellipse, form) - missing
-        return jnp.mean(jnp.sqrt(left**2 + ROUND**2)) + SQUARES * jnp.mean(left**2)
-
-    @jax.jit
-    def run(p, state, key):
-        def step(carry, key):
-            p, state = carry
-            chosen = jax.random.randint(key, (BATCH,), 0, n)
-            gradient = jax.grad(loss)(p, *(column[chosen] for column in all_columns))
-            update, state = solver.update(gradient, state, p)
-            return (optax.apply_updates(p, update), state), None
-        return jax.lax.scan(step, (p, state), jax.random.split(key, 1000))[0]
-
-    key = keys[-1]
-    begin = time.monotonic()
-    for done in range(0, steps, 1000):
-        key, now = jax.random.split(key)
-        p, state = run(p, state, now)
-        if done % 10000 == 0:
-            print(f"fit-forces: {done + 1000} of {steps} steps, {time.monotonic() - begin:.0f} s",
-                  file=sys.stderr, flush=True)
-    return p, scaling
-
-
-def left_over(fitted, data):
-    """Errors of the corrected forces, in parts of mu N and mu N sqrt(ab)."""
-    p, scaling = fitted
-    *inputs, missing = columns(data, scaling)
-    return np.array(correction(p, *inputs) - missing, float)
-
-
-def figures(errors):
-    """Mean, 95th percentile and worst in percent, for Fx, Fy, Mz."""
+def sizes(errors):
+    """Mean, 95th percentile and worst in percent, for Fx, Fy, Mz and the stick fraction."""
     size = 100 * np.abs(errors)
     return [[round(float(value), 3) for value in
              (column.mean(), np.percentile(column, 95), column.max())] for column in size.T]
 
 
-def folded(fitted):
-    """The network's layers with the scaling of the inputs in the first."""
-    p, (mean, spread, side) = fitted
-    layers = [(np.array(weights, float), np.array(bias, float)) for weights, bias in p]
-    weights = layers[0][0] / spread[:, None]
-    layers[0] = weights, layers[0][1] - mean @ weights
-    return layers, side
+def before_and_after(data, left):
+    return {"rows": len(left), "march": sizes(data["missing"]), "corrected": sizes(left)}
 
 
-def rounded(values):
-    return [float(f"{value:.7g}") for value in np.asarray(values).ravel()]
+def fit_correction(data, steps, left_out):
+    """The correction; the errors of each row by one that does not know it; figures."""
+    fitted = data["number"] % VALIDATION != 0
+    round_ones = (data["family"] == "ellipse") & (data["neck"] == 0)
+    whole = data["neck"] == 0
+    ellipses = net.Correction.of_ellipses(net.rows(data, fitted & round_ones), steps, SEED)
+    report, unknown = {}, np.full_like(data["missing"], np.nan)
+
+    def judge(name, correction, mine, keep=True):
+        some = net.rows(data, mine)
+        left = some["missing"] - correction(some)
+        if keep:
+            unknown[mine] = left
+        report[name] = before_and_after(net.rows(some, some["first"]), left[some["first"]])
+        print(name, report[name], flush=True)
+
+    judge("validation, ellipses by the ellipses' part", ellipses, ~fitted & round_ones, False)
+    for half in (0, 1):
+        here = data["number"] // 100 % 2 == half
+        other = net.Correction.of_ellipses(net.rows(data, round_ones & here), int(steps / 2), SEED)
+        judge(f"ellipses, half {half + 1} by the other", other, round_ones & ~here)
+    for words in left_out:
+        away = np.isin(data["family"], words.split("+"))
+        other = ellipses.with_shape(net.rows(data, fitted & whole & ~away), int(steps / 2), SEED,
+                                    "without " + words)
+        for family in words.split("+"):
+            mine = whole & (data["family"] == family)
+            if mine.any():
+                judge(f"left out: {family}", other, mine)
+    result = ellipses.with_shape(net.rows(data, fitted & whole), steps, SEED, "all")
+    for name, mine in (("fitted", fitted & whole),
+                       ("validation, ellipses", ~fitted & round_ones),
+                       ("validation, others", ~fitted & whole & ~round_ones)):
+        judge(name, result, mine, False)
+    # Sub-patches are corrected one by one: the march's own errors stand in for what is left.
+    unknown[~whole] = data["missing"][~whole]
+    return result, unknown, report
+
+
+def fit_errors(correction, data, unknown, steps, left_out):
+    """Estimates of the errors; figures of those on families that they do not know."""
+    known = np.isfinite(unknown[:, 0]) & (data["u"] > 0)
+    x = net.error_inputs(correction, data)
+    y = np.log(np.abs(np.concatenate([data["missing"][:, :3], unknown[:, :3], data["fastsim"]], 1))
+               + net.SMALLEST)
+    report = {}
+
+    def estimate(rows, name):
+        return net.Network(x[rows], y.shape[1], SEED, ERROR_HIDDEN).fit(
+            x[rows], [y[rows]], net.pinball, int(steps * ERROR_STEPS), name)
+
+    for words in ["ellipse", *left_out]:
+        away = np.isin(data["family"], words.split("+"))
+        other = estimate(known & ~away, "errors without " + words)
+        mine = known & away
+        above = ERROR_SAFETY * np.exp(np.array(other(x[mine]), float)) / np.exp(y[mine])
+        report[words] = {method: [[round(100 * float((one >= 1).mean()), 1),
+                                   round(float(np.median(one)), 2)] for one in
+                                  above.T[3 * k:3 * k + 3]] for k, method in enumerate(METHODS)}
+        print("errors without", words, report[words], flush=True)
+    return estimate(known, "errors"), report
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("features", type=pathlib.Path)
+    parser.add_argument("features", type=pathlib.Path, nargs="+")
     parser.add_argument("--leave-out", action="append", default=[], metavar="FAMILY+FAMILY")
-    parser.add_argument("--steps", type=int, default=100000)
-    parser.add_argument("--residuals", type=pathlib.Path, metavar="FILE.npz",
-                        help="keep the errors on families that were left out")
+    parser.add_argument("--steps", type=int, default=60000)
     parser.add_argument("-o", type=pathlib.Path, default=TARGET, dest="target")
     options = parser.parse_args()
-    data = contacts(options.features)
-    fitted_rows = data["number"] % VALIDATION != 0
-    report = {}
-    out = np.full_like(data["missing"], np.nan)
-    for words in options.leave_out:
-        away = np.isin(data["family"], words.split("+"))
-        result = fit(rows(data, fitted_rows & ~away), options.steps)
-        out[away] = left_over(result, rows(data, away))
-        for family in words.split("+"):
-            mine = data["family"] == family
-            report[f"left out: {family}"] = {"rows": int(mine.sum()),
-                                             "march": figures(data["missing"][mine]),
-                                             "corrected": figures(out[mine])}
-            print(family, report[f"left out: {family}"], flush=True)
-    if options.residuals:
-        np.savez(options.residuals, left=out, **data)
-    result = fit(rows(data, fitted_rows), options.steps)
-    errors = left_over(result, data)
-    ellipse = data["family"] == "ellipse"
-    for name, mine in (("fitted", fitted_rows), ("validation, ellipses", ~fitted_rows & ellipse),
-                       ("validation, others", ~fitted_rows & ~ellipse)):
-        report[name] = {"rows": int(mine.sum()), "march": figures(data["missing"][mine]),
-                        "corrected": figures(errors[mine])}
-        print(name, report[name], flush=True)
-    layers, side = folded(result)
+    parts = [net.states(path) for path in options.features]
+    for part in parts:
+        part["first"] = np.full(len(part["number"]), part is parts[0])
+    data = net.joined(parts)
+    result, unknown, report = fit_correction(data, options.steps, options.leave_out)
+    errors, bounds = fit_errors(result, data, unknown, options.steps, options.leave_out)
     text = {
         "what": "what FASTSTRIP misses of the creep forces, fitted by tools/fit_forces.py",
-        "contacts": int(len(np.unique(data["number"]))), "rows": int(len(errors)),
-        "steps": options.steps, "seed": SEED, "batch": BATCH, "rate": RATE,
-        "percent of mu N, mu N sqrt(ab): mean, 95th percentile, worst of Fx, Fy, Mz": report,
-        "half_shape": HALF_SHAPE, "even_scale": rounded(EVEN_SCALE),
-        "odd_scale": rounded(ODD_SCALE), "side_scale": rounded(side),
-        "largest_log_ratio": round(float(np.abs(data["x"][:, 5]).max()), 3),
-        "largest_shape": round(float(np.percentile(np.sqrt(data["unlike"]), 99.9)), 3),
-        "least_poisson": round(float(data["x"][:, 6].min()), 3),
-        "largest_poisson": round(float(data["x"][:, 6].max()), 3),
-        "layers": [{"inputs": weights.shape[0], "outputs": weights.shape[1],
-                    "weights": rounded(weights), "bias": rounded(bias)}
-                   for weights, bias in layers],
+        "contacts": len(np.unique(data["number"] + 1j * data["seed"])),
+        "rows": len(data["number"]), "steps": options.steps, "seed": SEED, "batch": net.BATCH,
+        "rate": net.RATE,
+        "percent of mu N, mu N sqrt(ab), area: mean, 95th percentile, worst of Fx, Fy, Mz, stick":
+            report,
+        "estimates on families left out: bounded in percent, median of estimate over error":
+            bounds,
+        "half_shape": net.HALF_SHAPE, "even_scale": net.rounded(net.EVEN_SCALE),
+        "odd_scale": net.rounded(net.ODD_SCALE), "side_scale": net.rounded(result.side),
+        "largest_log_ratio": round(float(np.abs(data["ellipse"][:, 5]).max()), 3),
+        "largest_shape": round(float(np.percentile(np.sqrt(data["unlike"]), 99)), 3),
+        "most": net.rounded(net.MOST),
+        "least_poisson": round(float(data["ellipse"][:, 6].min()), 3),
+        "largest_poisson": round(float(data["ellipse"][:, 6].max()), 3),
+        "ellipse": result.ellipse.folded(), "shape": result.shape.folded(),
+        "errors": errors.folded(), "error_safety": ERROR_SAFETY,
+        "smallest_error": net.SMALLEST, "least_estimate": net.ESTIMATES[0],
+        "largest_estimate": net.ESTIMATES[1],
     }
     options.target.write_text(json.dumps(text, indent=1) + "\n", encoding="utf-8")
     write_samples(options.target.with_suffix(".csv"), result, data)
     return 0
 
 
-def write_samples(path, fitted, data):
-    """What the network gives for some contacts, for a test of the module that evaluates it."""
+def write_samples(path, result, data):
+    """What the networks give for some contacts, for a test of the module that evaluates them."""
     chosen = np.random.default_rng(SEED).choice(
-        np.flatnonzero((data["u"] < SLIDING[0]) & (data["unlike"] < 10)), SAMPLES, replace=False)
-    some = rows(data, chosen)
-    given = left_over(fitted, some) + some["missing"]
+        np.flatnonzero((data["u"] < net.SLIDING[0]) & (data["unlike"] < 10)
+                       & (data["neck"] == 0)), SAMPLES, replace=False)
+    some = net.rows(data, chosen)
     names = ["u1", "u2", "u3", "cksi", "ceta", "cphi_rad_per_mm", "a_mm", "b_mm", "nu",
-             *(f"even{k}" for k in range(1, EVEN + 1)), *(f"odd{k}" for k in range(1, ODD + 1)),
-             "Fx_over_muN", "Fy_over_muN", "Mz_over_muNc"]
+             *(f"even{k}" for k in range(1, net.EVEN + 1)),
+             *(f"odd{k}" for k in range(1, net.ODD + 1)), "width", "points",
+             "Fx_over_muN", "Fy_over_muN", "Mz_over_muNc", "stick"]
     with open(path, "w", newline="", encoding="utf-8") as stream:
-        stream.write("# forces that FASTSTRIP misses, by the fit in force_correction.json; "
-                     "written by tools/fit_forces.py; creepages and moment about the centroid\n")
+        stream.write("# forces and share of stick that FASTSTRIP misses, by the fit in "
+                     "force_correction.json; written by tools/fit_forces.py; creepages and moment "
+                     "about the centroid\n")
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(names)
-        for inputs, forces in zip(some["inputs"], given, strict=True):
+        for inputs, missing in zip(some["inputs"], result(some), strict=True):
             writer.writerow([*(f"{value:.12g}" for value in inputs),
-                             *(f"{value:.9g}" for value in forces)])
+                             *(f"{value:.9g}" for value in missing)])
 
 
 if __name__ == "__main__":

@@ -16,16 +16,24 @@ MODULE = ROOT / "src" / "faststrip" / "tangential" / "force_weights.f90"
 LAYERS = ("first", "second", "third")
 
 HEAD = """\
-!> The network of the force correction: its numbers. Written by tools/force_weights.py from
-!> reference/force_correction.json, which tools/fit_forces.py has fitted; change those, not this.
+!> The networks of the force correction and of its errors: their numbers. Written by
+!> tools/force_weights.py from reference/force_correction.json, which tools/fit_forces.py has
+!> fitted; change those, not this.
 module faststrip_tangential_force_weights
     use faststrip_base_kinds, only: wp
     implicit none
     private
 
-    public :: n_inputs, n_hidden, n_outputs, n_sides, first, first_bias, second, second_bias, &
-              third, third_bias, side_scale, even_scale, odd_scale, half_shape, &
-              largest_log_ratio, largest_shape, least_poisson, largest_poisson
+    public :: n_ellipse_inputs, n_shape_inputs, n_sides, n_factors, n_side_factors, hidden
+    public :: ellipse_first, ellipse_first_bias, ellipse_second, ellipse_second_bias, &
+              ellipse_third, ellipse_third_bias
+    public :: shape_first, shape_first_bias, shape_second, shape_second_bias, shape_third, &
+              shape_third_bias
+    public :: n_error_inputs, n_errors, error_hidden, error_first, error_first_bias, &
+              error_second, error_second_bias, error_third, error_third_bias, error_safety, &
+              smallest_error, least_estimate, largest_estimate
+    public :: most, side_scale, even_scale, odd_scale, half_shape, largest_log_ratio, &
+              largest_shape, least_poisson, largest_poisson
 """
 
 
@@ -72,33 +80,47 @@ def listed_names(names):
 
 
 def module(fitted):
-    layers = fitted["layers"]
+    ellipse, shape, errors = fitted["ellipse"], fitted["shape"], fitted["errors"]
     parts = [HEAD]
+    factors = ellipse[2]["outputs"]
     for name, value, text in (
-            ("n_inputs", layers[0]["inputs"], "What the network is told."),
-            ("n_hidden", layers[0]["outputs"], "Units of each of its two layers."),
-            ("n_outputs", layers[2]["outputs"], "Factors that it gives."),
+            ("n_ellipse_inputs", ellipse[0]["inputs"], "What both networks are told."),
+            ("n_shape_inputs", shape[0]["inputs"] - ellipse[0]["inputs"],
+             "What the second one is told besides."),
+            ("hidden", ellipse[0]["outputs"], "Units of each of their two layers."),
+            ("n_factors", factors, "Factors that an ellipse has."),
+            ("n_side_factors", shape[2]["outputs"] - factors, "Factors of the odd numbers."),
+            ("n_error_inputs", errors[0]["inputs"], "What the network of the errors is told."),
+            ("error_hidden", errors[0]["outputs"], "Units of each of its layers."),
+            ("n_errors", errors[2]["outputs"], "Errors that it estimates."),
             ("n_sides", len(fitted["side_scale"]), "Odd numbers of the shape in the forces.")):
         parts.append(f"    !> {text}\n    integer, parameter :: {name} = {value}\n")
     for name, text in (
             ("half_shape", "Measure of the shape at which half of the shape's part counts."),
             ("largest_log_ratio", "Largest |ln(a/b)| of the fit."),
-            ("largest_shape", "Largest root of the shape's measure in the fit, one in 1000 above."),
+            ("largest_shape", "Largest root of the shape's measure in the fit, one in 100 above."),
+            ("error_safety", "The estimates are larger by this than the network's."),
+            ("smallest_error", "Errors and corrections count from here on."),
+            ("least_estimate", "Estimates of the normal figures count from here on"),
+            ("largest_estimate", "and up to here."),
             ("least_poisson", "Least Poisson's ratio of the fit."),
             ("largest_poisson", "Largest Poisson's ratio of the fit.")):
         parts.append(f"    !> {text}\n    real(wp), parameter :: {name} = "
                      f"{literal(fitted[name])}\n")
-    for name, text in (("side_scale", "Scales of the odd numbers in the forces."),
+    for name, text in (("most", "Most that is corrected: forces, moment, stick."),
+                       ("side_scale", "Scales of the odd numbers in the forces."),
                        ("even_scale", "Scales of the even numbers in the measure of the shape."),
                        ("odd_scale", "Scales of the odd numbers in the measure of the shape.")):
         values = fitted[name]
         parts.append(array(name, len(values), values, text))
-    for name, layer in zip(LAYERS, layers, strict=True):
-        # The file has the weights input by input: the columns of the matrix.
-        parts.append(matrix(name, layer["outputs"], layer["inputs"], layer["weights"],
-                            f"Weights of the {name} layer, a column for each of its inputs."))
-        parts.append(array(f"{name}_bias", layer["outputs"], layer["bias"],
-                           f"Biases of the {name} layer."))
+    for part, layers in (("ellipse", ellipse), ("shape", shape), ("error", errors)):
+        for word, layer in zip(LAYERS, layers, strict=True):
+            name = f"{part}_{word}"
+            # The file has the weights input by input: the columns of the matrix.
+            parts.append(matrix(name, layer["outputs"], layer["inputs"], layer["weights"],
+                                f"Weights of the {part}'s {word} layer, a column for each input."))
+            parts.append(array(f"{name}_bias", layer["outputs"], layer["bias"],
+                               f"Biases of the {part}'s {word} layer."))
     return "\n".join(parts) + "end module faststrip_tangential_force_weights\n"
 
 

@@ -42,7 +42,7 @@ PLACE = re.compile(r"<!-- measured: (?P<name>.*?) -->(?P<text>.*?)<!-- end -->",
 FIGURES = ("penetration", "area", "pmax", "Fx", "Fy", "Mz")
 FORCES = ("Fx", "Fy", "Mz")
 LABELS = {
-    "faststrip": "FASTSTRIP", "faststrip-fitted": "FASTSTRIP, fitted",
+    "faststrip": "FASTSTRIP", "faststrip-plain": "FASTSTRIP, plain",
     "fastsim": "FASTSIM", "faststrip-paper": "TFASTSTRIP as printed",
     "faststrip-corrected": "TFASTSTRIP as corrected", "fastsim-elliptic": "FASTSIM, elliptic bound",
     "fastsim-weighted": "FASTSIM, one flexibility", "linear": "linear theory", "polach": "Polach",

@@ -58,7 +58,7 @@ TANGENTIAL = {
     "linear": 7,                # Kalker's linear theory; no elements
     "she": 8,                   # Shen, Hedrick and Elkins; no elements
     "polach": 9,                # Polach; no elements
-    "faststrip-fitted": 11,     # FASTSTRIP corrected by a fit, on trial
+    "faststrip-plain": 11,      # FASTSTRIP without its correction
 }
 # END methods
 

@@ -66,7 +66,7 @@ module faststrip
                                          tangential_faststrip_corrected, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted, &
                                          tangential_linear, tangential_she, tangential_polach, &
-                                         tangential_tang, tangential_faststrip_fitted
+                                         tangential_tang, tangential_faststrip_plain
     ! END methods
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: contact_result_t, workspace_t, &

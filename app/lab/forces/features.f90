@@ -89,7 +89,8 @@ contains
                                  'Fx_tang_N', 'Fy_tang_N', 'Mz_tang_Nmm', 'Fx_fine_N', &
                                  'Fy_fine_N', 'Mz_fine_Nmm', 'friction_power_fine_N', &
                                  'stick_fraction_fine', 'u1', 'u2', 'u3', 'even1', 'even2', &
-                                 'even3', 'even4', 'even5', 'odd1', 'odd2', 'odd3', 'odd4', 'odd5'])
+                                 'even3', 'even4', 'even5', 'odd1', 'odd2', 'odd3', 'odd4', &
+                                 'odd5', 'width', 'points'])
         do file = 1, size(files)
             do row = 1, size(files(file)%records)
                 associate (record => files(file)%records(row))
@@ -167,7 +168,8 @@ contains
         do i = 1, record%n_states
             associate (state => record%states(i))
                 call faststrip_tangential_solve(strips, record%material, record%mu, &
-                                                state%creepage, points, forces, status)
+                                                state%creepage, points, forces, status, &
+                                                with_fit=.false.)
                 if (.not. is_error(status)) &
                     call fastsim_strips_solve(strips, record%material, record%mu, &
                                               state%creepage, rows, rows, fastsim, status)
@@ -209,6 +211,8 @@ contains
                 do k = 1, n_odd
                     call put_cell(writer, shape%odd(k))
                 end do
+                call put_cell(writer, shape%width)
+                call put_cell(writer, points)
                 call end_row(writer)
             end associate
         end do

@@ -46,7 +46,7 @@ module faststrip_contact_methods
     public :: tangential_none, tangential_faststrip, tangential_fastsim, &
               tangential_faststrip_paper, tangential_faststrip_corrected, &
               tangential_fastsim_elliptic, tangential_fastsim_weighted, tangential_linear, &
-              tangential_she, tangential_polach, tangential_faststrip_fitted
+              tangential_she, tangential_polach, tangential_faststrip_plain
     integer, parameter :: tangential_none = 0
         !! no forces
     integer, parameter :: tangential_faststrip = 1
@@ -67,8 +67,8 @@ module faststrip_contact_methods
         !! Shen, Hedrick and Elkins; no elements
     integer, parameter :: tangential_polach = 9
         !! Polach; no elements
-    integer, parameter :: tangential_faststrip_fitted = 11
-        !! FASTSTRIP corrected by a fit, on trial
+    integer, parameter :: tangential_faststrip_plain = 11
+        !! FASTSTRIP without its correction
     integer, parameter, public :: tangential_tang = 10
         !! TANG, Kalker's variational method: the reference
     ! END methods
@@ -97,8 +97,8 @@ module faststrip_contact_methods
     type(method_t), parameter :: tangential_table(*) = [ &
         method_t(1, 'faststrip', needs='strips', &
                  help='marching in the strips: the best fast one'), &
-        method_t(11, 'faststrip-fitted', needs='strips', &
-                 help='FASTSTRIP corrected by a fit, on trial'), &
+        method_t(11, 'faststrip-plain', needs='strips', &
+                 help='FASTSTRIP without its correction'), &
         method_t(3, 'faststrip-paper', needs='strips', help='TFASTSTRIP as printed'), &
         method_t(4, 'faststrip-corrected', needs='strips', help='TFASTSTRIP as corrected'), &
         method_t(2, 'fastsim', needs='ellipses', &

@@ -39,7 +39,7 @@ module faststrip_contact_solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
                                          normal_strip, normal_equal_area, tangential_none, &
-                                         tangential_faststrip, tangential_faststrip_fitted, &
+                                         tangential_faststrip, tangential_faststrip_plain, &
                                          tangential_faststrip_paper, &
                                          tangential_faststrip_corrected, tangential_fastsim, &
                                          tangential_fastsim_elliptic, &
@@ -311,9 +311,9 @@ contains
         points = case%methods%points_per_strip
         select case (case%methods%tangential)
         case (tangential_faststrip)
-            method = errors_of_march
-        case (tangential_faststrip_fitted)
             method = errors_of_fitted
+        case (tangential_faststrip_plain)
+            method = errors_of_march
         case (tangential_fastsim)
             method = errors_of_fastsim
             points = case%methods%fastsim_nx
@@ -476,11 +476,11 @@ contains
             select case (methods%tangential)
             case (tangential_none)
                 call clear_status(status)
-            case (tangential_faststrip, tangential_faststrip_fitted)
+            case (tangential_faststrip, tangential_faststrip_plain)
                 call faststrip_tangential_solve( &
                     workspace%strips, case%material, case%mu, case%creepage, &
                     methods%points_per_strip, tangential, status, field, per_strip, &
-                    with_fit=methods%tangential == tangential_faststrip_fitted)
+                    with_fit=methods%tangential == tangential_faststrip)
             case (tangential_faststrip_paper)
                 call paper_solve(workspace%strips, case%material, case%mu, case%creepage, &
                                  methods%points_per_strip, tangential, status, field)

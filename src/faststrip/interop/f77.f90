@@ -12,7 +12,7 @@
 !> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments
 !> IOPT(2) tangential method: 0 none, 1 faststrip, 2 fastsim, 3 faststrip-paper,
 !>         4 faststrip-corrected, 5 fastsim-elliptic, 6 fastsim-weighted, 7 linear, 8 she, 9 polach,
-!>         11 faststrip-fitted
+!>         11 faststrip-plain
 !> IOPT(3) strips per patch, 0: left to the solver     IOPT(4) points per strip
 !> IOPT(5) points along a row of FASTSIM               IOPT(6) rows of FASTSIM
 !> IOPT(7) 1: PAR(6) is the load, 0: the penetration   IOPT(8) 1: warm start

@@ -49,9 +49,10 @@
 !>   middle, which leaves the forces alone. Far beyond saturation m goes to 1/2 and alpha to zero,
 !>   and from 30 to 300 times mu N of linear force the integral of mu p against the rigid slip
 !>   takes over (`full_sliding`), exact in x at any number of points.
-!> - **S10** **Correction**, if it is asked for: what the march misses of the forces of a patch or
-!>   sub-patch is a smooth function of the creepages, of a/b, of Poisson's ratio and of the patch's
-!>   shape. It was fitted to TANG on random contacts and is added (`force_correction`).
+!> - **S10** **Correction**, unless the march alone is asked for: what the march misses of the
+!>   forces and the stick of a patch or sub-patch is a smooth function of the creepages, of a/b, of
+!>   Poisson's ratio, of the patch's shape and of how finely it is cut. It was fitted to TANG
+!>   on random contacts and is added (`force_correction`).
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -62,7 +63,7 @@
 !> contacts of `reference/scenes`, of eight other kinds of gap, came later, and no constant was
 !> fitted to them; the errors there stand in docs/validation.md.
 module faststrip_tangential_faststrip
-    use faststrip_base_kinds, only: wp
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range, &
                                      st_workspace_too_small
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
@@ -73,7 +74,8 @@ module faststrip_tangential_faststrip
     use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
                                             next_sub_patch, all_parted, all_joined
     use faststrip_tangential_motion, only: check_motion
-    use faststrip_tangential_force_correction, only: rolling_state_t, force_correction
+    use faststrip_tangential_force_correction, only: force_correction
+    use faststrip_tangential_force_network, only: rolling_state_t
     use faststrip_tangential_patch_law, only: patch_law_t, find_law, add_law, mean_law, same_law, &
                                               smallest_force
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
@@ -112,14 +114,14 @@ contains
             !! filled when present; needs capacity for n*points_per_strip elements
         type(strip_forces_t), intent(inout), optional :: per_strip
             !! filled when present; needs capacity for n strips
-        logical, intent(in), optional :: with_fit !! corrected (S10)? default false
+        logical, intent(in), optional :: with_fit !! corrected (S10)? default true
 
         type(rolling_t) :: rolling
         type(march_sums_t) :: sums
         integer :: first, last
         logical :: is_corrected
 
-        is_corrected = .false.
+        is_corrected = .true.
         if (present(with_fit)) is_corrected = with_fit
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
@@ -191,11 +193,11 @@ contains
 
         type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: law
-        type(tangential_result_t) :: before
-        real(wp) :: power, linear(3), missing(3)
+        type(march_sums_t) :: before
+        real(wp) :: power, linear(3), missing(4)
         integer :: first_element
 
-        before = sums%result
+        before = sums
         missing = 0.0_wp
         first_element = 1
         if (present(field)) first_element = field%n + 1
@@ -211,13 +213,11 @@ contains
                                  material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
-        associate (result => sums%result, creepage => rolling%creepage)
-            if (is_corrected) &
-                call correct(strips, first, last, rolling%mu, before, missing, result, per_strip)
-            power = work(before, result, creepage)
-            if (present(field)) call match_power(power, first_element, field)
-            result%friction_power = result%friction_power + power
-        end associate
+        if (is_corrected) &
+            call correct(strips, first, last, rolling%mu, before, missing, sums, per_strip)
+        power = work(before%result, sums%result, rolling%creepage)
+        if (present(field)) call match_power(power, first_element, field)
+        sums%result%friction_power = sums%result%friction_power + power
         if (present(per_strip)) then
             associate (share => per_strip%friction_power(first:last))
                 if (sum(share) > 0.0_wp) share = share*(power/sum(share))
@@ -243,28 +243,31 @@ contains
         type(material_t), intent(in) :: material
         type(rolling_t), intent(in) :: rolling
         real(wp), intent(in) :: weight
-        real(wp), intent(inout) :: missing(3) !! N, N, N mm about the reference point
+        real(wp), intent(inout) :: missing(4) !! N, N, N mm about the reference point, mm^2 of stick
 
-        real(wp) :: part(3)
+        real(wp) :: part(4)
 
         associate (c => rolling%creepage)
-            part = weight*rolling%mu*ellipse%load*force_correction(rolling_state_t( &
+            part = weight*force_correction(rolling_state_t( &
                 linear, [c%cksi - ellipse%y*c%cphi, c%ceta, c%cphi], ellipse%a, ellipse%b, &
-                combined_poisson_ratio(material), law%sliding), shape)
+                combined_poisson_ratio(material), law%sliding, rolling%points), shape)
         end associate
+        part(:3) = rolling%mu*ellipse%load*part(:3)
         missing = missing + [part(1), part(2), &
-                             part(3)*sqrt(ellipse%a*ellipse%b) - ellipse%y*part(1)]
+                             part(3)*sqrt(ellipse%a*ellipse%b) - ellipse%y*part(1), &
+                             pi*ellipse%a*ellipse%b*part(4)]
     end subroutine add_missing
 
-    !> Add what is missing to the forces of a patch, of which no more than mu N is left (S10), and
-    !> to its strips in proportion to their loads.
-    pure subroutine correct(strips, first, last, mu, before, missing, result, per_strip)
+    !> Add what is missing to the forces of a patch, of which no more than mu N is left, and to its
+    !> stick, which is no less than nothing and no more than all (S10); to the forces of its strips
+    !> in proportion to their loads.
+    pure subroutine correct(strips, first, last, mu, before, missing, sums, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         real(wp), intent(in) :: mu
-        type(tangential_result_t), intent(in) :: before !! the sums without the patch
-        real(wp), intent(in) :: missing(3)              !! N, N, N mm
-        type(tangential_result_t), intent(inout) :: result
+        type(march_sums_t), intent(in) :: before !! the sums without the patch
+        real(wp), intent(in) :: missing(4)       !! N, N, N mm, mm^2
+        type(march_sums_t), intent(inout) :: sums
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         real(wp) :: loads(first:last), force(2), change(2), bound
@@ -274,13 +277,17 @@ contains
         end associate
         bound = mu*sum(loads)
         if (bound <= smallest_force) return
-        force = [result%fx - before%fx, result%fy - before%fy]
-        change = force + missing(:2)
-        if (norm2(change) > bound) change = change*(bound/norm2(change))
-        change = change - force
-        result%fx = result%fx + change(1)
-        result%fy = result%fy + change(2)
-        result%mz = result%mz + missing(3)
+        associate (result => sums%result)
+            force = [result%fx - before%result%fx, result%fy - before%result%fy]
+            change = force + missing(:2)
+            if (norm2(change) > bound) change = change*(bound/norm2(change))
+            change = change - force
+            result%fx = result%fx + change(1)
+            result%fy = result%fy + change(2)
+            result%mz = result%mz + missing(3)
+        end associate
+        sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
+                         before%stuck + sums%covered - before%covered)
         if (.not. present(per_strip)) return
         loads = loads*mu/bound
         per_strip%fx(first:last) = per_strip%fx(first:last) + change(1)*loads
@@ -296,7 +303,7 @@ contains
         type(rolling_t), intent(in) :: rolling
         logical, intent(in) :: is_corrected
         type(march_sums_t), intent(inout) :: sums
-        real(wp), intent(inout) :: missing(3) !! gets what the march misses; N, N, N mm
+        real(wp), intent(inout) :: missing(4) !! gets what the march misses; N, N, N mm, mm^2
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip

@@ -24,6 +24,9 @@ module faststrip_tangential_patch_shape
             !! A eta^4 - 1/8, P eta^2 - 1/5, P xi^2 - 4/5, A xi^4 - 5/8, A eta^6 - 5/64
         real(wp) :: odd(n_odd) = 0.0_wp
             !! A eta^3, P eta, A eta xi^2, P eta xi^2 - (P eta)(P xi^2), A eta^5
+        real(wp) :: width = 0.0_wp
+            !! of its strips over b, the root of the mean square over the area: not of the patch but
+            !! of how finely it is cut
     end type patch_shape_t
 
 contains
@@ -52,6 +55,7 @@ contains
             part = width*strips%half_length(i)/ellipse%a
             if (present(share)) part = share(i)*part
             area = area + part
+            shape%width = shape%width + part*width*width
             ! Given: moments over a width, the fourth with its own.
             shape%even(1) = shape%even(1) + part*(eta**4 + 6.0_wp*eta**2*spread &
                                                   + 1.8_wp*spread**2)
@@ -74,6 +78,7 @@ contains
         end do
         p_eta = p_eta/load
         p_xi = p_xi/load
+        shape%width = sqrt(shape%width/area)
         ! Given: an ellipse's own moments.
         shape%even(1) = shape%even(1)/area - 0.125_wp
         ! Given: an ellipse's own moments.
