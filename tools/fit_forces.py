@@ -7,9 +7,9 @@ The files are what `faststrip-lab force-features` writes: forces of the march an
 the correction depends on. The first one has 15 strips of 15 points; the others, with more and
 fewer, are fitted too, and the figures are those of the first. First the ellipses' part is fitted to
 ellipses, then the shape's to what that leaves of all contacts, once for each group of families that
-is left out and once with all. The estimate of the errors is fitted to the errors on contacts that the
-correction did not know: those groups, and half of the ellipses. Contacts whose number is a multiple
-of VALIDATION are never fitted.
+is left out and once with all. The estimate of the errors is fitted to the errors on contacts that
+the correction did not know: those groups, and half of the ellipses. Contacts whose number is a
+multiple of VALIDATION are never fitted.
 
 Written are reference/force_correction.json with the figures and reference/force_correction.csv,
 samples for a test; then tools/force_weights.py writes the module of the weights.
@@ -143,8 +143,7 @@ def main():
         "largest_poisson": round(float(data["ellipse"][:, 6].max()), 3),
         "ellipse": result.ellipse.folded(), "shape": result.shape.folded(),
         "errors": errors.folded(), "error_safety": ERROR_SAFETY,
-        "smallest_error": net.SMALLEST, "least_estimate": net.ESTIMATES[0],
-        "largest_estimate": net.ESTIMATES[1],
+        "smallest_error": net.SMALLEST, "largest_estimate": net.ESTIMATES[1],
     }
     options.target.write_text(json.dumps(text, indent=1) + "\n", encoding="utf-8")
     write_samples(options.target.with_suffix(".csv"), result, data)

@@ -32,6 +32,8 @@ NEAR = 0.02
 SLIDING = (30.0, 300.0)
 # Most that is corrected, of forces, moment and stick.
 MOST = np.array([0.2, 0.2, 0.5, 0.4])
+# From where a patch slides whole if it does not spin: half the linear force, slip by spin.
+HALF_TRANSLATION, LITTLE_SPIN = 2.0, 0.05
 BATCH = 1024
 RATE = 6.0e-3
 # Below this error, in parts of mu N, an error counts by its square.
@@ -82,9 +84,11 @@ def states(path):
                              d["points"])
     shape = shape_inputs(v, even, odd)
     unlike = ((even * EVEN_SCALE)**2).sum(1) + ((odd * ODD_SCALE)**2).sum(1)
-    t = np.log(np.maximum(np.sqrt(squared), 1e-30) / SLIDING[0]) / math.log(SLIDING[1] / SLIDING[0])
-    t = np.clip(t, 0, 1)
-    march_part = 1 - t**3 * (10 - t * (15 - 6 * t))
+    t = np.log(np.maximum(np.sqrt(squared), 1e-30) / SLIDING[0])
+    t = t / math.log(SLIDING[1] / SLIDING[0])
+    centre = np.where(along**2 + across**2 > 0, along**2 + across**2, 1e-200)
+    little = fade(np.sqrt(0.25 * spin**2 * (a**2 + b**2) / centre) / LITTLE_SPIN)
+    march_part = fade(1 + t) * (1 - (1 - fade(np.sqrt(squared) / HALF_TRANSLATION)) * little)
     return {
         "family": d["family"], "seed": d["seed"], "number": d["number"].astype(int),
         "neck": d["neck"], "ellipse": ellipse, "shape": shape, "v": v, "odd": odd[:, :SIDES],
@@ -96,6 +100,12 @@ def states(path):
             ("penetration", "pmax", "area"))], 1)),
         "inputs": np.concatenate([u, np.stack([along, across, spin, a, b, d["nu"]], 1), even, odd,
                                   np.stack([d["width"], d["points"]], 1)], 1)}
+
+
+def fade(x):
+    """1 up to 1, then smoothly down to 0 at 2."""
+    t = np.clip(x - 1, 0, 1)
+    return 1 - t**3 * (10 - t * (15 - 6 * t))
 
 
 def ellipse_inputs(u, v, squared, along, across, spin, a, b, nu, width, points):

@@ -31,7 +31,7 @@ module faststrip_tangential_force_weights
               shape_third_bias
     public :: n_error_inputs, n_errors, error_hidden, error_first, error_first_bias, &
               error_second, error_second_bias, error_third, error_third_bias, error_safety, &
-              smallest_error, least_estimate, largest_estimate
+              smallest_error, largest_estimate
     public :: most, side_scale, even_scale, odd_scale, half_shape, largest_log_ratio, &
               largest_shape, least_poisson, largest_poisson
 """
@@ -101,8 +101,7 @@ def module(fitted):
             ("largest_shape", "Largest root of the shape's measure in the fit, one in 100 above."),
             ("error_safety", "The estimates are larger by this than the network's."),
             ("smallest_error", "Errors and corrections count from here on."),
-            ("least_estimate", "Estimates of the normal figures count from here on"),
-            ("largest_estimate", "and up to here."),
+            ("largest_estimate", "Estimates of the normal figures count up to here."),
             ("least_poisson", "Least Poisson's ratio of the fit."),
             ("largest_poisson", "Largest Poisson's ratio of the fit.")):
         parts.append(f"    !> {text}\n    real(wp), parameter :: {name} = "

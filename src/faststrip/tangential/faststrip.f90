@@ -95,8 +95,8 @@ contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
     !>
-    !> The elements of `field` have the tractions of the march, which add up to its forces without
-    !> S10, and a slip that gives the friction power with it.
+    !> The elements of `field` have the tractions of the march and, in proportion to their pressures,
+    !> what S10 adds to the forces; their slip gives the friction power.
     !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
                                                result, status, field, per_strip, with_fit)
@@ -213,8 +213,8 @@ contains
                                  material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
-        if (is_corrected) &
-            call correct(strips, first, last, rolling%mu, before, missing, sums, per_strip)
+        if (is_corrected) call correct(strips, first, last, rolling%mu, before, missing, &
+                                       first_element, sums, field, per_strip)
         power = work(before%result, sums%result, rolling%creepage)
         if (present(field)) call match_power(power, first_element, field)
         sums%result%friction_power = sums%result%friction_power + power
@@ -260,14 +260,17 @@ contains
 
     !> Add what is missing to the forces of a patch, of which no more than mu N is left, and to its
     !> stick, which is no less than nothing and no more than all (S10); to the forces of its strips
-    !> in proportion to their loads.
-    pure subroutine correct(strips, first, last, mu, before, missing, sums, per_strip)
+    !> and elements in proportion to their loads.
+    pure subroutine correct(strips, first, last, mu, before, missing, first_element, sums, field, &
+                            per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         real(wp), intent(in) :: mu
         type(march_sums_t), intent(in) :: before !! the sums without the patch
         real(wp), intent(in) :: missing(4)       !! N, N, N mm, mm^2
+        integer, intent(in) :: first_element     !! of the patch
         type(march_sums_t), intent(inout) :: sums
+        type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         real(wp) :: loads(first:last), force(2), change(2), bound
@@ -288,11 +291,34 @@ contains
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
+        if (present(field)) call correct_field(change, first_element, field)
         if (.not. present(per_strip)) return
         loads = loads*mu/bound
         per_strip%fx(first:last) = per_strip%fx(first:last) + change(1)*loads
         per_strip%fy(first:last) = per_strip%fy(first:last) + change(2)*loads
     end subroutine correct
+
+    !> Add forces to the elements of a patch in proportion to their loads; where they slide, the slip
+    !> turns with the traction.
+    pure subroutine correct_field(change, first, field)
+        real(wp), intent(in) :: change(2)                !! N
+        integer, intent(in) :: first                     !! first element of the patch
+        type(tangential_field_t), intent(inout) :: field !! with the patch's elements last
+
+        real(wp) :: per_pressure(2), slip
+        integer :: i
+
+        per_pressure = change/sum(field%pn(first:field%n)*field%area(first:field%n))
+        do i = first, field%n
+            slip = hypot(field%sx(i), field%sy(i))
+            field%px(i) = field%px(i) + per_pressure(1)*field%pn(i)
+            field%py(i) = field%py(i) + per_pressure(2)*field%pn(i)
+            if (slip <= 0.0_wp) cycle
+            slip = slip/max(hypot(field%px(i), field%py(i)), tiny(slip))
+            field%sx(i) = -slip*field%px(i)
+            field%sy(i) = -slip*field%py(i)
+        end do
+    end subroutine correct_field
 
     !> March the strips of a patch with a neck, each by the mean of the laws of its sub-patches.
     pure subroutine march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &

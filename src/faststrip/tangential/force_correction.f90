@@ -18,7 +18,8 @@ module faststrip_tangential_force_correction
     use faststrip_base_kinds, only: wp
     use faststrip_tangential_patch_shape, only: patch_shape_t
     use faststrip_tangential_force_network, only: rolling_state_t, network_inputs, &
-                                                  evaluate_network, shape_measure, share_seen, least
+                                                  evaluate_network, shape_measure, share_seen, &
+                                                  share_rolling, least
     use faststrip_tangential_force_weights, only: &
         n_ellipse_inputs, n_shape_inputs, n_sides, n_factors, n_side_factors, hidden, &
         ellipse_first, ellipse_first_bias, ellipse_second, ellipse_second_bias, ellipse_third, &
@@ -44,7 +45,7 @@ contains
         integer :: j, k
 
         unlike = shape_measure(shape)
-        seen = (1.0_wp - state%sliding)*share_seen(state, unlike)
+        seen = share_rolling(state)*share_seen(state, unlike)
         missing = 0.0_wp
         if (seen <= 0.0_wp .or. sum(state%linear**2) <= least) return
         call network_inputs(state, shape, x, v)

@@ -21,7 +21,7 @@ module faststrip_tangential_force_errors
     use faststrip_tangential_force_weights, only: &
         n_ellipse_inputs, n_shape_inputs, n_error_inputs, n_errors, error_hidden, error_first, &
         error_first_bias, error_second, error_second_bias, error_third, error_third_bias, &
-        error_safety, smallest_error, least_estimate, largest_estimate
+        error_safety, smallest_error, largest_estimate
     use faststrip_tangential_patch_law, only: patch_law_t, find_law
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     implicit none
@@ -48,6 +48,9 @@ module faststrip_tangential_force_errors
     ! Tuned [1]: How much of a shape or proportion counts as seen at least: estimates grow to five
     ! times what they are. Origin: chosen.
     real(wp), parameter :: least_seen = 0.2_wp
+    ! Tuned [1]: Least estimates of penetration, largest pressure and area of the ellipses that
+    ! were fitted, over the squared width of their strips. Origin: measured on them.
+    real(wp), parameter :: least_estimates(3) = [0.02_wp, 0.07_wp, 0.16_wp]
 
 contains
 
@@ -128,9 +131,8 @@ contains
         associate (n => n_ellipse_inputs + n_shape_inputs)
             call network_inputs(state, shape, x(:n), v)
             x(n + 1:) = [log([shape%width, real(state%points, wp), &
-                              within(certificate%est_err_penetration), &
-                              within(certificate%est_err_pmax), &
-                              within(certificate%est_err_area), &
+                              within([certificate%est_err_penetration, certificate%est_err_pmax, &
+                                      certificate%est_err_area], least_estimates*shape%width**2), &
                               abs(missing(:3)) + smallest_error, 1.0_wp + unlike]), &
                          merge(1.0_wp, 0.0_wp, is_necked)]
         end associate
@@ -141,10 +143,10 @@ contains
                  /max(share_seen(state, unlike), least_seen)
     end function errors_of_patch
 
-    !> An estimate as those that were fitted.
-    elemental real(wp) function within(estimate)
-        real(wp), intent(in) :: estimate
+    !> An estimate of the normal figures as those that were fitted.
+    elemental real(wp) function within(estimate, least)
+        real(wp), intent(in) :: estimate, least
 
-        within = min(max(estimate, least_estimate), largest_estimate)
+        within = min(max(estimate, least), largest_estimate)
     end function within
 end module faststrip_tangential_force_errors

@@ -9,7 +9,8 @@ module faststrip_tangential_force_network
     implicit none
     private
 
-    public :: rolling_state_t, network_inputs, evaluate_network, shape_measure, share_seen, least
+    public :: rolling_state_t, network_inputs, evaluate_network, shape_measure, share_seen, &
+              share_rolling, least
 
     !> What the forces of a patch depend on beside its shape.
     type :: rolling_state_t
@@ -34,6 +35,12 @@ module faststrip_tangential_force_network
     ! Tuned [1]: What counts, squared, beside the distances of the pole of spin from the axes.
     ! Origin: chosen: the factors may change over a seventh of the ellipse.
     real(wp), parameter :: near = 0.02_wp
+    ! Tuned [1]: Half the linear force over mu N from where a patch without spin slides whole.
+    ! Origin: chosen: Carter's contact slides whole from 2 on.
+    real(wp), parameter :: half_translation = 2.0_wp
+    ! Tuned [1]: Slip by spin over that of the centre up to where a patch counts as not spinning;
+    ! nothing is left of this at twice as much. Origin: chosen.
+    real(wp), parameter :: little_spin = 0.05_wp
 
 contains
 
@@ -60,6 +67,21 @@ contains
 
         shape_measure = sum((even_scale*shape%even)**2) + sum((odd_scale*shape%odd)**2)
     end function shape_measure
+
+    !> How much of a patch is left to the march: not what slides whole.
+    pure real(wp) function share_rolling(state) result(share)
+        type(rolling_state_t), intent(in) :: state !! that moves
+
+        real(wp) :: spin, slip
+
+        associate (c => state%creepage)
+            slip = c(1)**2 + c(2)**2 + least
+            spin = 0.25_wp*c(3)**2*(state%a**2 + state%b**2)
+        end associate
+        share = (1.0_wp - state%sliding) &
+                *(1.0_wp - (1.0_wp - fade(norm2(state%linear)/half_translation)) &
+                  *fade(sqrt(spin/slip)/little_spin))
+    end function share_rolling
 
     !> How much of an ellipse and a shape lies within what the fits have seen: 1, beyond it less.
     pure real(wp) function share_seen(state, unlike) result(seen)

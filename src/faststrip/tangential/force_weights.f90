@@ -13,7 +13,7 @@ module faststrip_tangential_force_weights
               shape_third_bias
     public :: n_error_inputs, n_errors, error_hidden, error_first, error_first_bias, &
               error_second, error_second_bias, error_third, error_third_bias, error_safety, &
-              smallest_error, least_estimate, largest_estimate
+              smallest_error, largest_estimate
     public :: most, side_scale, even_scale, odd_scale, half_shape, largest_log_ratio, &
               largest_shape, least_poisson, largest_poisson
 
@@ -59,10 +59,7 @@ module faststrip_tangential_force_weights
     !> Errors and corrections count from here on.
     real(wp), parameter :: smallest_error = 1e-05_wp
 
-    !> Estimates of the normal figures count from here on
-    real(wp), parameter :: least_estimate = 1e-06_wp
-
-    !> and up to here.
+    !> Estimates of the normal figures count up to here.
     real(wp), parameter :: largest_estimate = 1.0_wp
 
     !> Least Poisson's ratio of the fit.
