@@ -95,7 +95,7 @@ contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
     !>
-    !> The elements of `field` have the tractions of the march and, in proportion to their pressures,
+    !> The elements of `field` have the tractions of the march and, in proportion to their pressure,
     !> what S10 adds to the forces; their slip gives the friction power.
     !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
@@ -298,8 +298,8 @@ contains
         per_strip%fy(first:last) = per_strip%fy(first:last) + change(2)*loads
     end subroutine correct
 
-    !> Add forces to the elements of a patch in proportion to their loads; where they slide, the slip
-    !> turns with the traction.
+    !> Add forces to the elements of a patch in proportion to their loads; where they slide, the
+    !> slip turns with the traction.
     pure subroutine correct_field(change, first, field)
         real(wp), intent(in) :: change(2)                !! N
         integer, intent(in) :: first                     !! first element of the patch
