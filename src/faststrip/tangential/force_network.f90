@@ -4,7 +4,7 @@ module faststrip_tangential_force_network
     use faststrip_base_kinds, only: wp
     use faststrip_tangential_patch_shape, only: patch_shape_t, n_even
     use faststrip_tangential_force_weights, only: &
-        n_ellipse_inputs, n_shape_inputs, hidden, even_scale, odd_scale, largest_log_ratio, &
+        n_ellipse_inputs, n_shape_inputs, even_scale, odd_scale, largest_log_ratio, &
         largest_shape, least_poisson, largest_poisson
     implicit none
     private
@@ -142,29 +142,40 @@ contains
     !> Two layers of x/sqrt(1 + x^2), then a linear one.
     pure subroutine evaluate_network(inputs, units, outputs, first, first_bias, second, &
                                      second_bias, third, third_bias, x, c)
-        integer, intent(in) :: inputs, units, outputs !! numbers; of units at most `hidden`
+        integer, intent(in) :: inputs, units, outputs !! numbers
         real(wp), intent(in) :: first(units, inputs), first_bias(units)    !! of the first layer
         real(wp), intent(in) :: second(units, units), second_bias(units)   !! of the second
         real(wp), intent(in) :: third(outputs, units), third_bias(outputs) !! of the last
         real(wp), intent(in) :: x(inputs)                                  !! what it is told
         real(wp), intent(out) :: c(outputs)                                !! what it says
 
-        real(wp), dimension(hidden) :: one, two
-        integer :: j
+        real(wp), dimension(units) :: one, two
 
-        one(:units) = first_bias
-        do j = 1, inputs
-            one(:units) = one(:units) + first(:, j)*x(j)
-        end do
-        one(:units) = one(:units)/sqrt(1.0_wp + one(:units)**2)
-        two(:units) = second_bias
-        do j = 1, units
-            two(:units) = two(:units) + second(:, j)*one(j)
-        end do
-        two(:units) = two(:units)/sqrt(1.0_wp + two(:units)**2)
-        c = third_bias
-        do j = 1, units
-            c = c + third(:, j)*two(j)
-        end do
+        call add_layer(units, inputs, first, first_bias, x, one)
+        one = one/sqrt(1.0_wp + one**2)
+        call add_layer(units, units, second, second_bias, one, two)
+        two = two/sqrt(1.0_wp + two**2)
+        call add_layer(outputs, units, third, third_bias, two, c)
     end subroutine evaluate_network
+
+    !> One linear layer; four inputs at a time, which saves loads and stores of the sums.
+    pure subroutine add_layer(outputs, inputs, weights, bias, x, y)
+        integer, intent(in) :: outputs, inputs
+        real(wp), intent(in) :: weights(outputs, inputs), bias(outputs), x(inputs)
+        real(wp), intent(out) :: y(outputs)
+
+        integer :: j, k
+
+        y = bias
+        do j = 1, inputs - 3, 4
+            !$omp simd
+            do k = 1, outputs
+                y(k) = y(k) + ((weights(k, j)*x(j) + weights(k, j + 1)*x(j + 1)) &
+                               + (weights(k, j + 2)*x(j + 2) + weights(k, j + 3)*x(j + 3)))
+            end do
+        end do
+        do j = 4*(inputs/4) + 1, inputs
+            y = y + weights(:, j)*x(j)
+        end do
+    end subroutine add_layer
 end module faststrip_tangential_force_network
