@@ -93,6 +93,19 @@ class Bench(LabTest):
                 self.assertLess(mean[name, quantity, "faststrip"],
                                 part * mean[name, quantity, "faststrip-plain"], (name, quantity))
 
+    def test_the_correction_takes_what_is_missing_of_ellipses(self):
+        done = self.run_program("bench", "correction", "--quick", "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        rows = self.read("out.csv")
+        self.assertEqual(len(rows), 5 * 4 * 6)
+        for direction, force in (("longitudinal", "Fx"), ("lateral", "Fy"), ("lateral", "Mz"),
+                                 ("spin", "Fy"), ("all", "Fx"), ("all", "Fy"), ("all", "Mz")):
+            own = [row for row in rows if row["direction"] == direction]
+            before, after = (statistics.fmean(abs(float(row[name]) - float(row[f"{force}_tang"]))
+                                              for row in own) for name in (f"{force}_plain", force))
+            self.assertLess(after, 0.6 * before, (direction, force))
+            self.assertGreater(before, 1e-3, (direction, force))
+
     def test_the_peers_are_beaten(self):
         # CONTACT's own fast methods on the same gaps, mean and largest of all three.
         done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",

@@ -16,6 +16,7 @@ module faststrip_lab_bench
     use faststrip_lab_bench_extremes, only: bench_extremes, extreme_parts
     use faststrip_lab_bench_rolling, only: bench_rolling
     use faststrip_lab_bench_forces, only: bench_forces
+    use faststrip_lab_bench_correction, only: bench_correction
     use faststrip_lab_bench_examples, only: bench_examples
     use faststrip_lab_bench_trade, only: bench_trade
     use faststrip_lab_bench_certificate, only: run_certificate_study
@@ -66,6 +67,9 @@ contains
             scenes = option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv'))
             call take_input(scenes)
             call bench_forces(file, folder, scenes)
+        case ('correction')
+            call allow([character(len=name_length) :: '--quick'])
+            call bench_correction(file, given(command, '--quick'))
         case ('certificate')
             call allow([character(len=name_length) ::])
             call run_certificate_study(file)
@@ -147,7 +151,8 @@ contains
                      // new_line('a') // 'elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)', reads=.true.), &
-            option_t('--quick', '', 'trade, extremes, kalker: few methods, few contacts'), &
+            option_t('--quick', '', 'trade, extremes, kalker, correction: few methods, few' // &
+                     new_line('a') // 'contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
@@ -163,7 +168,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(39) = [character(len=84) :: &
+        character(len=*), parameter :: lines(40) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -182,6 +187,7 @@ contains
             'to FASTSIM with the same number of elements. Processor time, medians.', &
             'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
             'the paper''s with either sign of the creepages, and against TANG on 240 others.', &
+            'correction: what the march misses of ellipses'' forces by TANG, and what is added.', &
             'accuracy: errors of the strips against CONTACT with 15 strips and auto.', &
             'rolling: errors and times of Kalker''s method in rolling against CONTACT, by', &
             'its scheme and by the second-order one, on 0.4 and 0.2 mm: the paper''s contacts', &

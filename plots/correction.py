@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Draw what the march misses of the forces of ellipses, and what the correction leaves of it."""
+
+import sys
+
+import numpy as np
+
+from faststrip_plots import command, style
+from faststrip_plots.results import revision
+from faststrip_plots.tables import InputError, read_table
+
+# The panels: creepage, force and its name.
+PANELS = (("longitudinal", "Fx", "$F_x$, longitudinal creepage"),
+          ("lateral", "Fy", "$F_y$, lateral creepage"),
+          ("lateral", "Mz", "$M_z$, lateral creepage"),
+          ("spin", "Fy", "$F_y$, spin"),
+          ("all", "Fx", "$F_x$, all three"),
+          ("all", "Mz", "$M_z$, all three"))
+COLUMNS = ("direction", "a_over_b", "u", *(f"{force}{kind}" for kind in ("_plain", "", "_tang")
+                                           for force in ("Fx", "Fy", "Mz")))
+
+
+def grid_of(table, direction, force):
+    """Axes, and in percent what is missing before and after, on all of them."""
+    rows = [k for k, word in enumerate(table.words("direction")) if word == direction]
+    x, y = (table.numbers(name)[rows] for name in ("a_over_b", "u"))
+    across, up = np.unique(x), np.unique(y)
+    if len(rows) != len(across) * len(up):
+        raise InputError(f"every a_over_b of {direction} must have every u, got {len(rows)} rows")
+    order = np.lexsort((y, x))
+    before, after = (100 * (table.numbers(f"{force}_tang") - table.numbers(name))[rows][order]
+                     .reshape(len(across), len(up)).T for name in (f"{force}_plain", force))
+    return across, up, before, after
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--correction", default="out/correction.csv", metavar="CSV",
+                        help="what `faststrip-lab bench correction` wrote")
+    parser.add_argument("-o", "--output", default="out/correction.png", metavar="PNG",
+                        help="picture to write")
+    options = parser.parse_args(arguments)
+    table = read_table(options.correction, COLUMNS)
+    figure = style.new_figure(14.0, 5.6)
+    axes = figure.subplots(2, len(PANELS), sharex=True, sharey=True)
+    for k, (direction, force, name) in enumerate(PANELS):
+        across, up, before, after = grid_of(table, direction, force)
+        limit = max(float(np.abs(before).max()), 0.1)
+        for row, (values, what) in enumerate(((before, "missing"), (after, "left"))):
+            panel = axes[row, k]
+            colours = panel.pcolormesh(across, up, values, cmap="RdBu_r", vmin=-limit, vmax=limit,
+                                       shading="gouraud")
+            panel.set_xscale("log")
+            panel.set_yscale("log")
+            worst = style.number(float(f"{np.abs(values).max():.2g}"))
+            style.title(panel, f"{name}\n{what}, at most {worst} %" if row == 0
+                        else f"{what}, at most {worst} %")
+        figure.colorbar(colours, ax=axes[:, k], location="bottom", shrink=0.9, pad=0.02,
+                        label=r"% of $\mu N$" + (r"$\sqrt{ab}$" if force == "Mz" else ""))
+        axes[1, k].set_xlabel("$a/b$")
+    for panel in axes[:, 0]:
+        panel.set_ylabel(r"linear force over $\mu N$")
+    style.save(figure, options.output, [revision(table)])
+    print(options.output)
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))
