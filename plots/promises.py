@@ -30,7 +30,7 @@ FAMILIES = {
     "Hertz": ("Hertz ellipse", "#f08519", "s"),
     "strips + FASTSIM": ("strips + FASTSIM", "#a8326e", "^"),
     "strips + FASTSTRIP": ("strips + FASTSTRIP", "#0b3c78", "o"),
-    "strips + fitted": ("strips + FASTSTRIP, fitted", "#5b8bd0", "D"),
+    "strips + plain": ("the same, not corrected", "#7fa6dc", "D"),
     "strips + TANG": ("strips + TANG", "#86b98a", "<"),
     "NORM": ("NORM + TANG", "#2f7d32", "v"),
 }
