@@ -20,7 +20,8 @@
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
  * is written than its header knows. A case larger than the library knows is refused (100). Also for
- * an older program errors are estimated, and too large ones named (FASTSTRIP_UNDER_RESOLVED). */
+ * an older program errors are estimated, of pressures and of forces, and too large ones named
+ * (FASTSTRIP_UNDER_RESOLVED). */
 #ifndef FASTSTRIP_H
 #define FASTSTRIP_H
 
@@ -44,7 +45,7 @@ enum faststrip_status {
     FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
     FASTSTRIP_CONFORMAL = 6,     /* inclination changes much within it: half-space doubtful */
     FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
-    FASTSTRIP_UNDER_RESOLVED = 8, /* the estimated error of pmax is above resolution_limit */
+    FASTSTRIP_UNDER_RESOLVED = 8, /* an estimated error is above its limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
@@ -107,8 +108,10 @@ typedef struct faststrip_case {
     double cksi;          /* longitudinal creepage about y = 0 */
     double ceta;          /* lateral creepage */
     double cphi;          /* spin, rad/mm */
-    int estimate;         /* 1: the errors of strips are estimated, which costs about one step */
-    double resolution_limit; /* FASTSTRIP_UNDER_RESOLVED: est_err_pmax is above this; > 0 */
+    int estimate;         /* 1: errors are estimated; of strips that costs about one step */
+    double resolution_limit; /* FASTSTRIP_UNDER_RESOLVED: est_err_penetration, est_err_pmax or
+                              * est_err_area is above this; > 0 */
+    double force_limit;   /* the same for est_err_fx, est_err_fy, est_err_mz; > 0 */
 } faststrip_case;
 
 /* Figures of one contact. */
@@ -130,13 +133,19 @@ typedef struct faststrip_result {
     int n_strips;
     int n_elements;
     int iterations;        /* of the normal solution */
-    int is_estimated;      /* 1: the five below are known; 0: zero, not asked for or of ellipses */
+    int is_estimated;      /* 1: the five below are known; 0: zero, not asked for or of ellipses
+                            * in the strips' place */
     int strips_across;     /* strips across the patch that has most; 0: no strips */
     double est_err_penetration; /* estimated error over penetration - h_lowest, not negative */
     double est_err_pmax;   /* estimated relative error of pmax, not negative */
     double est_err_area;   /* estimated relative error of the area, not negative */
     double residual_inside; /* largest gap left in the patches over penetration - h_lowest */
     double overlap_outside; /* largest overlap beside them over penetration - h_lowest */
+    int forces_are_estimated; /* 1: the three below are known; 0: zero, not asked for, of a method
+                               * without, or because is_estimated is 0 */
+    double est_err_fx;     /* estimated error of fx over mu load, not negative */
+    double est_err_fy;     /* estimated error of fy over mu load, not negative */
+    double est_err_mz;     /* estimated error of mz over mu load sqrt(area/pi), not negative */
 } faststrip_result;
 
 typedef struct faststrip_workspace faststrip_workspace;

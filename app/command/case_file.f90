@@ -1,6 +1,5 @@
 !> One case: what is rolling on what, how it is loaded, how it is to be solved.
 module faststrip_command_case_file
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: lower_case
@@ -40,7 +39,7 @@ module faststrip_command_case_file
         'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
         'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
         'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
-        'target', 'max_elements', 'resolution_limit']
+        'target', 'max_elements', 'resolution_limit', 'force_limit']
     character(len=name_length), parameter :: sweep_names(*) = [character(len=name_length) :: &
         'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
 
@@ -229,11 +228,11 @@ contains
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, tolerance, resolution_limit
+            error_target, tolerance, resolution_limit, force_limit
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, norm_start, tolerance, target, max_elements, &
-            resolution_limit
+            resolution_limit, force_limit
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -253,6 +252,7 @@ contains
         max_elements = case%numerics%max_elements
         target = case%numerics%target
         resolution_limit = case%resolution_limit
+        force_limit = case%force_limit
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%numerics%smoothing_um
@@ -284,10 +284,10 @@ contains
         call check_numerics(numbers, what, range, value)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
         case%numerics = numbers
-        if (.not. (ieee_is_finite(resolution_limit) .and. resolution_limit > 0.0_wp)) &
-            call refuse(content, group, 'resolution_limit', 'must be a number above 0', &
-                        trim(number_text(resolution_limit)))
+        call need_positive(content, group, 'resolution_limit', resolution_limit)
+        call need_positive(content, group, 'force_limit', force_limit)
         case%resolution_limit = resolution_limit
+        case%force_limit = force_limit
         call need_positive(content, group, 'gap_step_mm', gap_step_mm)
         call need_positive(content, group, 'gap_height_mm', gap_height_mm)
         case%gap_step = gap_step_mm

@@ -17,7 +17,7 @@ module faststrip_command_method_options
     character(len=*), parameter :: newline = new_line('a')
 
     !> For the table of a subcommand; the names are told by `method_notes`.
-    type(option_t), parameter :: method_options(15) = [ &
+    type(option_t), parameter :: method_options(16) = [ &
         option_t('--normal', 'NAME', 'normal method, one of the above (default strip)'), &
         option_t('--tangential', 'NAME', &
                  'tangential method, one of the above (default faststrip)'), &
@@ -30,8 +30,9 @@ module faststrip_command_method_options
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--max-elements', 'N', 'norm, tang: no larger grids than that (default' &
                  // ' 1000000)'), &
-        option_t('--resolution-limit', 'E', 'status under_resolved above this est_err_...' &
-                 // ' (default 0.1)'), &
+        option_t('--resolution-limit', 'E', 'status under_resolved above this' &
+                 // ' est_err_penetration, _pmax, _area (default 0.1)'), &
+        option_t('--force-limit', 'E', 'the same above this est_err_Fx, _Fy, _Mz (default 0.1)'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
@@ -66,7 +67,7 @@ contains
     subroutine take_method_options(command, numerics, case)
         type(command_t), intent(in) :: command     !! parsed, with `method_options` in its table
         type(numerics_t), intent(inout) :: numerics !! defaults or those of a case file
-        class(contact_case_t), intent(inout) :: case !! the same: the limit of its errors
+        class(contact_case_t), intent(inout) :: case !! the same: the limits of its errors
 
         numerics%normal = normal_method(option_word( &
             command, '--normal', trim(normal_method_name(numerics%normal)), normal_table%name))
@@ -99,6 +100,7 @@ contains
                                              least=0)
         case%resolution_limit = option_number(command, '--resolution-limit', &
                                                  case%resolution_limit, above=0)
+        case%force_limit = option_number(command, '--force-limit', case%force_limit, above=0)
         numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

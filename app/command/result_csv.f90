@@ -13,11 +13,12 @@ module faststrip_command_result_csv
     public :: result_columns, put_result, put_strips, put_field, put_notes
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(23) = [character(len=19) :: &
+    character(len=*), parameter :: result_columns(26) = [character(len=19) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
-        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'gap_change_um', &
+        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
+        'est_err_Mz', 'gap_change_um', &
         'choice', 'strips_across']
 
 contains
@@ -59,6 +60,11 @@ contains
             call put_known(outcome%is_estimated, certificate%est_err_penetration)
             call put_known(outcome%is_estimated, certificate%est_err_pmax)
             call put_known(outcome%is_estimated, certificate%est_err_area)
+        end associate
+        associate (errors => outcome%force_errors)
+            call put_known(outcome%forces_are_estimated, errors%fx)
+            call put_known(outcome%forces_are_estimated, errors%fy)
+            call put_known(outcome%forces_are_estimated, errors%mz)
         end associate
         call put_known(outcome%gap_change_um > 0.0_wp, outcome%gap_change_um)
         call put_cell(writer, outcome%choice)

@@ -11,20 +11,24 @@ module faststrip_command_solver
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_resolution
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t, reserve_strip_forces
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: normal_strip, normal_norm, normal_auto, tangential_none, &
-                                         tangential_faststrip, tangential_tang, gives_stick
+    use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_norm, normal_auto, &
+                                         tangential_none, tangential_faststrip, &
+                                         tangential_tang, gives_stick
     use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
-                                       solve_contact_tangential, estimate_contact_errors
+                                       solve_contact_tangential, estimate_contact_errors, &
+                                       estimate_contact_forces
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t, core_methods
     use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_command_norm_stage, only: norm_stage_t, reserve_norm_stage, release_norm_stage, &
                                             solve_by_norm, take_rows
     use faststrip_command_auto_stage, only: choose
-    use faststrip_command_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang
+    use faststrip_command_tang_stage, only: tang_stage_t, release_tang_stage, solve_by_tang, &
+                                            estimate_by_tang
     implicit none
     private
 
@@ -56,6 +60,8 @@ module faststrip_command_solver
         logical :: is_certified = .false.       !! do the certificate's residuals count?
         logical :: is_estimated = .false.       !! and its errors?
         type(certificate_t) :: certificate      !! how wrong the normal solution is
+        logical :: forces_are_estimated = .false. !! do the forces' errors count?
+        type(force_errors_t) :: force_errors    !! how wrong the forces are
         real(wp) :: gap_change_um = 0.0_wp      !! rms change of the gap by smoothing, um
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us
         real(wp) :: tangential_us = 0.0_wp      !! of the tangential problem, us
@@ -111,13 +117,31 @@ contains
         if (is_error(status)) return
         call solve_forces(solver, outcome, status)
         if (status%code == st_ok) status = choice_status
-        if (is_error(status) .or. solver%case%methods%normal /= normal_strip &
-            .or. solver%chosen%normal == normal_norm) return
-        ! Outside the time that is measured.
-        call estimate_contact_errors(solver%workspace, solver%case, outcome%normal, &
-                                     outcome%certificate, outcome%is_certified, status)
-        outcome%is_estimated = outcome%is_certified
+        if (.not. is_error(status)) call estimate(solver, outcome, status)
     end subroutine solve
+
+    !> How wrong the figures are: outside the time that is measured.
+    subroutine estimate(solver, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(inout) :: status
+
+        if (solver%chosen%normal == normal_strip .or. solver%chosen%normal == normal_hertz) then
+            call estimate_contact_errors(solver%workspace, solver%case, outcome%normal, &
+                                         outcome%certificate, outcome%is_certified, status)
+            outcome%is_estimated = outcome%is_certified
+        end if
+        if (.not. outcome%is_estimated) return
+        if (solver%chosen%tangential == tangential_tang) then
+            call estimate_by_tang(solver%tang, solver%chosen, solver%case, solver%workspace, &
+                                  solver%norm, outcome%certificate, outcome%tangential, &
+                                  outcome%force_errors, outcome%forces_are_estimated, status)
+        else
+            call estimate_contact_forces(solver%workspace, solver%case, outcome%certificate, &
+                                         outcome%force_errors, outcome%forces_are_estimated, &
+                                         status)
+        end if
+    end subroutine estimate
 
     !> The normal problem, and the strips that the forces are for.
     subroutine solve_pressures(solver, outcome, status)
@@ -264,7 +288,8 @@ contains
             end if
         end if
         solver%case%methods = core_methods(solver%chosen)
-        solver%case%estimate = solver%case%methods%normal /= normal_strip ! `solve` does
+        ! `solve` does.
+        solver%case%estimate = .not. any(solver%case%methods%normal == [normal_strip, normal_hertz])
     end subroutine take_methods
 
     !> Room for the elements of as many strips as there are rows.

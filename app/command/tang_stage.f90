@@ -1,29 +1,36 @@
 !> Kalker's variational method as the tangential method of one contact: outside the embeddable core.
 module faststrip_command_tang_stage
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, is_error, message_length, st_under_resolved
     use faststrip_base_text, only: integer_text
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_of_norm, edges_sampled
+    use faststrip_kalker_tangential_estimate, only: estimate_tang, shares_of_grid, &
+                                                    shares_of_strips
     use faststrip_kalker_tangential_pressures, only: sample_strips, sample_ellipse
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_limitations, only: add_limitation, name_force_resolution
+    use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_command_system, only: set_detail
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_norm, normal_hertz
-    use faststrip_contact_solve, only: workspace_t
+    use faststrip_contact_solve, only: workspace_t, add_shape_errors
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_norm_stage, only: norm_stage_t
     implicit none
     private
 
-    public :: tang_stage_t, release_tang_stage, solve_by_tang
-
+    public :: tang_stage_t, release_tang_stage, solve_by_tang, estimate_by_tang
 
     !> The method with its workspace.
     type :: tang_stage_t
         type(tang_workspace_t), private :: workspace
         type(contact_grid_t), private :: grid ! pressures, unless they are NORM's
+        ! The same for elements twice as long and wide.
+        type(tang_workspace_t), private :: coarse_workspace
+        type(contact_grid_t), private :: coarse_grid
     end type tang_stage_t
 
 contains
@@ -33,6 +40,7 @@ contains
         type(tang_stage_t), intent(inout) :: stage !! serves again
 
         call release_tang(stage%workspace)
+        call release_tang(stage%coarse_workspace)
     end subroutine release_tang_stage
 
     !> Solve the tangential problem on NORM's grid, or on one under the ellipse or the strips.
@@ -49,25 +57,89 @@ contains
         type(status_t), intent(out) :: status        !! of `tang_solve`, of the grid
 
         if (numerics%normal == normal_norm) then
-            call solve_on_grid(stage, norm%workspace%grid, edges_of_norm, case, with_field, &
-                               tangential, field, status)
+            call solve_on_grid(stage%workspace, norm%workspace%grid, edges_of_norm, case, &
+                               with_field, tangential, field, status)
             return
-        else if (numerics%normal == normal_hertz) then
-            associate (hertz => workspace%hertz)
-                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, numerics%element_dx, &
-                                    numerics%element_dy, numerics%max_elements, stage%grid, status)
-            end associate
-        else
-            call sample_strips(workspace%strips, numerics%element_dx, numerics%element_dy, &
-                               numerics%max_elements, stage%grid, status)
         end if
+        call sample_pressures(numerics, workspace, 1.0_wp, stage%grid, status)
         if (is_error(status)) return
-        call solve_on_grid(stage, stage%grid, edges_sampled, case, with_field, tangential, &
-                           field, status)
+        call solve_on_grid(stage%workspace, stage%grid, edges_sampled, case, with_field, &
+                           tangential, field, status)
     end subroutine solve_by_tang
 
-    subroutine solve_on_grid(stage, grid, edges, case, with_field, tangential, field, status)
-        type(tang_stage_t), intent(inout) :: stage
+    !> How wrong the forces are that `solve_by_tang` gave, from elements twice as long and wide: a
+    !> sixth of its time. More than the limit is named in the status.
+    subroutine estimate_by_tang(stage, numerics, case, workspace, norm, certificate, tangential, &
+                                errors, is_estimated, status)
+        type(tang_stage_t), intent(inout) :: stage   !! with a solution
+        type(numerics_t), intent(in) :: numerics     !! what it is of
+        type(contact_case_t), intent(in) :: case     !! what it is of
+        type(workspace_t), intent(in) :: workspace   !! what it is of
+        type(norm_stage_t), intent(in) :: norm       !! what it is of, if that is NORM's
+        type(certificate_t), intent(in) :: certificate !! of the normal solution
+        type(tangential_result_t), intent(in) :: tangential !! the forces
+        type(force_errors_t), intent(out) :: errors  !! of them
+        logical, intent(out) :: is_estimated         !! are they known?
+        type(status_t), intent(inout) :: status      !! limitations so far; `st_under_resolved`
+
+        type(tangential_result_t) :: coarse
+        type(tangential_field_t) :: no_field
+        type(status_t) :: estimate
+        character(len=message_length) :: words
+
+        is_estimated = .false.
+        if (numerics%normal == normal_norm) then
+            call solve_on_grid(stage%coarse_workspace, norm%workspace%coarse, edges_of_norm, &
+                               case, .false., coarse, no_field, estimate)
+        else
+            call sample_pressures(numerics, workspace, 2.0_wp, stage%coarse_grid, estimate)
+            if (.not. is_error(estimate)) &
+                call solve_on_grid(stage%coarse_workspace, stage%coarse_grid, edges_sampled, &
+                                   case, .false., coarse, no_field, estimate)
+        end if
+        if (is_error(estimate)) then
+            words = 'no error of the forces can be estimated:'
+            words(len_trim(words) + 2:) = estimate%message
+            call add_limitation(status, st_under_resolved, words)
+            return
+        end if
+        if (numerics%normal == normal_norm) then
+            errors = estimate_tang(norm%workspace%grid, case%mu, tangential, coarse, &
+                                   shares_of_grid(certificate))
+        else if (numerics%normal == normal_hertz) then
+            errors = estimate_tang(stage%grid, case%mu, tangential, coarse, spread(0.0_wp, 1, 3))
+            call add_shape_errors(workspace, case, errors, estimate)
+            if (is_error(estimate)) return
+        else
+            errors = estimate_tang(stage%grid, case%mu, tangential, coarse, &
+                                   shares_of_strips(certificate))
+        end if
+        is_estimated = .true.
+        call name_force_resolution(errors%fx, errors%fy, errors%mz, case%force_limit, status)
+    end subroutine estimate_by_tang
+
+    !> The pressures of the ellipse or of the strips on a grid.
+    subroutine sample_pressures(numerics, workspace, times, grid, status)
+        type(numerics_t), intent(in) :: numerics
+        type(workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: times ! the user's sides
+        type(contact_grid_t), intent(inout) :: grid
+        type(status_t), intent(out) :: status
+
+        if (numerics%normal == normal_hertz) then
+            associate (hertz => workspace%hertz)
+                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, &
+                                    times*numerics%element_dx, times*numerics%element_dy, &
+                                    numerics%max_elements, grid, status)
+            end associate
+        else
+            call sample_strips(workspace%strips, times*numerics%element_dx, &
+                               times*numerics%element_dy, numerics%max_elements, grid, status)
+        end if
+    end subroutine sample_pressures
+
+    subroutine solve_on_grid(workspace, grid, edges, case, with_field, tangential, field, status)
+        type(tang_workspace_t), intent(inout) :: workspace
         type(contact_grid_t), intent(in) :: grid
         integer, intent(in) :: edges
         type(contact_case_t), intent(in) :: case
@@ -84,10 +156,10 @@ contains
         call set_detail('tang: ' // integer_text(elements) // ' elements in contact')
         if (with_field) then
             if (elements > size(field%x)) call reserve_field(field, elements, status)
-            call tang_solve(stage%workspace, grid, case%material, case%mu, &
+            call tang_solve(workspace, grid, case%material, case%mu, &
                             case%creepage, options, tangential, status, field)
         else
-            call tang_solve(stage%workspace, grid, case%material, case%mu, &
+            call tang_solve(workspace, grid, case%material, case%mu, &
                             case%creepage, options, tangential, status)
         end if
     end subroutine solve_on_grid

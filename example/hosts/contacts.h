@@ -78,7 +78,8 @@ static uint64_t bits_of(int status, const faststrip_result *result)
                               result->mz, result->friction_power, result->stick_fraction,
                               result->est_err_penetration, result->est_err_pmax,
                               result->est_err_area, result->residual_inside,
-                              result->overlap_outside};
+                              result->overlap_outside, result->est_err_fx,
+                              result->est_err_fy, result->est_err_mz};
     uint64_t bits = (uint64_t)status, word;
     size_t i;
 

@@ -126,6 +126,10 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("est_err_area", step, 0, r.est_err_area);
     put("residual_inside", step, 0, r.residual_inside);
     put("overlap_outside", step, 0, r.overlap_outside);
+    put("forces_are_estimated", step, 0, r.forces_are_estimated);
+    put("est_err_fx", step, 0, r.est_err_fx);
+    put("est_err_fy", step, 0, r.est_err_fy);
+    put("est_err_mz", step, 0, r.est_err_mz);
     show_arrays(workspace, step);
     put("result_n_strips", step, 0, r.n_strips);
 }
@@ -191,6 +195,7 @@ static void defaults(void)
     put("default_cphi", 0, 0, c.cphi);
     put("default_estimate", 0, 0, c.estimate);
     put("default_resolution_limit", 0, 0, c.resolution_limit);
+    put("default_force_limit", 0, 0, c.force_limit);
 }
 
 int main(void)
@@ -223,7 +228,7 @@ int main(void)
         c.with_elements = whole();
         has_inclination = whole();
         c.estimate = whole();
-        c.resolution_limit = number();
+        c.resolution_limit = c.force_limit = number();
         n = whole();
         for (i = 0; i < 20; i++) demand[i / 10][i % 10] = number();
         for (i = 0; i < n; i++) {

@@ -101,7 +101,8 @@ C       By default errors are estimated, and named above 0.1.
 C     The first step by FSCONT, the others by FSSOLV.
       SUBROUTINE SOLVE(IW, IOPT, D, IC, IS, N, Y, H, A)
       INTEGER IW(8), IOPT(9), IC, IS, N, INFO
-      DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14), ERR(7)
+      DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14), ERR(7),
+     &  FERR(4)
       CHARACTER*256 TEXT
       PAR(1) = D(1)
       PAR(2) = D(2)
@@ -143,6 +144,12 @@ C     The first step by FSCONT, the others by FSSOLV.
       CALL PUT('overlap_outside', IC, IS, 0, ERR(5))
       CALL PUT('is_estimated', IC, IS, 0, ERR(6))
       CALL PUT('strips_across', IC, IS, 0, ERR(7))
+      CALL FSFERR(IW, FERR, INFO)
+      IF (INFO .NE. 0) STOP 10
+      CALL PUT('est_err_fx', IC, IS, 0, FERR(1))
+      CALL PUT('est_err_fy', IC, IS, 0, FERR(2))
+      CALL PUT('est_err_mz', IC, IS, 0, FERR(3))
+      CALL PUT('forces_are_estimated', IC, IS, 0, FERR(4))
       CALL ARRAYS(IW, IC, IS)
       CALL PUT('result_n_strips', IC, IS, 0, RES(14))
       END

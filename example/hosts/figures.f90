@@ -25,6 +25,7 @@ program figures
             case%methods%points_per_strip, case%methods%fastsim_nx, case%methods%fastsim_ny, &
             by_load, elements, has_inclination, estimate, case%resolution_limit, n
         read (*, *) demand
+        case%force_limit = case%resolution_limit
         case%methods%normal = normal_method(normal)
         case%methods%tangential = tangential_method(tangential)
         case%by_load = by_load == 1
@@ -103,6 +104,11 @@ contains
         call put('est_err_area', step, 0, result%certificate%est_err_area)
         call put('residual_inside', step, 0, result%certificate%residual_inside)
         call put('overlap_outside', step, 0, result%certificate%overlap_outside)
+        call put('forces_are_estimated', step, 0, &
+                 merge(1.0_wp, 0.0_wp, result%forces_are_estimated))
+        call put('est_err_fx', step, 0, result%force_errors%fx)
+        call put('est_err_fy', step, 0, result%force_errors%fy)
+        call put('est_err_mz', step, 0, result%force_errors%mz)
         call show_arrays(workspace, field, step)
     end subroutine solve
 
@@ -207,6 +213,7 @@ contains
         call put('default_cphi', 0, 0, case%creepage%cphi)
         call put('default_estimate', 0, 0, merge(1.0_wp, 0.0_wp, case%estimate))
         call put('default_resolution_limit', 0, 0, case%resolution_limit)
+        call put('default_force_limit', 0, 0, case%force_limit)
     end subroutine defaults
 
     subroutine words()

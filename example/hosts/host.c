@@ -47,8 +47,8 @@ int open(const char *name, int flags, ...)
 int open64(const char *name, int flags, ...) __attribute__((alias("open")));
 #endif
 
-/* Bytes of case and result before errors were estimated. */
-enum { FIRST_CASE = 128, FIRST_RESULT = 120 };
+/* Bytes of case and result before errors were estimated, and before those of the forces were. */
+enum { FIRST_CASE = 128, FIRST_RESULT = 120, SECOND_CASE = 144, SECOND_RESULT = 168 };
 
 static const double hostile[] = {NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, 1e-320, 1e-300, 1e300,
                                  1.7e308, 5e-324};
@@ -60,7 +60,7 @@ static example examples[EXAMPLES];
 /* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
 static long every_call(faststrip_workspace *workspace)
 {
-    double *field[11], forces[3], figures[4], c[4], array[4][400];
+    double *field[12], forces[3], figures[4], c[4], array[4][400];
     int integers[400];
     char text[FASTSTRIP_TEXT];
     faststrip_result result;
@@ -69,16 +69,17 @@ static long every_call(faststrip_workspace *workspace)
 
     for (number = 0; number < EXAMPLES; number++) {
         example e = examples[number];
-        double *all[11] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
+        double *all[12] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
                            &e.contact.nu_rail, &e.contact.mu, &e.contact.load,
                            &e.contact.penetration, &e.contact.cksi, &e.contact.ceta,
-                           &e.contact.cphi, &e.contact.resolution_limit};
+                           &e.contact.cphi, &e.contact.resolution_limit,
+                           &e.contact.force_limit};
         memcpy(field, all, sizeof all);
         e.contact.with_elements = number % 2;
         failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
         failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
         faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
-        for (i = 0; i < 11; i++) {
+        for (i = 0; i < 12; i++) {
             double kept = *field[i];
             k = (number + i) % HOSTILE;
             *field[i] = hostile[k];
@@ -374,6 +375,17 @@ static void errors(void)
     }
     e.contact.resolution_limit = INFINITY;
     EXPECT(0, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(1, result.forces_are_estimated);
+    e.contact.force_limit = 0.5 * result.est_err_fx;
+    EXPECT(FASTSTRIP_UNDER_RESOLVED, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+    EXPECT(1, strstr(text, "error of Fx is above") != NULL && strstr(text, "mu N") != NULL);
+    e.contact.force_limit = NAN;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(1, result.est_err_fx == 0.0 && !result.forces_are_estimated);
+    EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+    EXPECT(1, strstr(text, "limit of the errors of forces must be above 0, got NaN") != NULL);
+    e.contact.force_limit = INFINITY;
     e.contact.resolution_limit = 0.1;
     e.contact.tangential = 99;
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, &result));
@@ -531,7 +543,8 @@ static void older(void)
     for (i = 0; i < POINTS; i++) e.h[i] += 1.5e-3 * sin(1.3 * (double)i);
     faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
     for (size = 16; size <= whole; size += 8) {
-        const size_t known = size < whole ? FIRST_RESULT : sizeof(faststrip_result);
+        const size_t known = size < SECOND_CASE ? FIRST_RESULT
+                             : size < whole ? SECOND_RESULT : sizeof(faststrip_result);
         unsigned char *exact = malloc(size), *capacity = malloc(whole), *figures = malloc(known);
         faststrip_case *contact = (faststrip_case *)exact, filled;
         faststrip_workspace *own;
@@ -556,7 +569,8 @@ static void older(void)
             wrong += status != FASTSTRIP_UNDER_RESOLVED || !wanted.is_estimated;
             named++;
         }
-        if (size == whole) wrong += status != 0 || wanted.is_estimated;
+        if (size >= SECOND_CASE)
+            wrong += status != 0 || wanted.is_estimated || wanted.forces_are_estimated;
         sizes++;
         free(exact);
         free(capacity);

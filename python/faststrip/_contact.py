@@ -128,7 +128,7 @@ class Result:
     """strips across the patch that has most; 0: no strips"""
     est_err_penetration: Optional[float]
     """estimated error over the depth, penetration less the gap's lowest height; like the four below
-    None where it is not known: of ellipses, or with ``estimate=False``"""
+    None where it is not known: of ellipses in the strips' place, or with ``estimate=False``"""
     est_err_pmax: Optional[float]
     """estimated relative error of pmax"""
     est_err_area: Optional[float]
@@ -137,13 +137,24 @@ class Result:
     """largest gap that is left inside the patches, over the depth"""
     overlap_outside: Optional[float]
     """largest overlap outside of them, over the depth"""
+    est_err_fx: Optional[float]
+    """estimated error of fx over mu times the load; like the two below None where it is not known:
+    of some methods, and where est_err_pmax is None"""
+    est_err_fy: Optional[float]
+    """estimated error of fy over mu times the load"""
+    est_err_mz: Optional[float]
+    """estimated error of mz over mu times the load times sqrt(area/pi)"""
 
 
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
-_figures_of = operator.attrgetter(*(field.name for field in fields(Result)[2:-ESTIMATES]))
-_estimates_of = operator.attrgetter(*(field.name for field in fields(Result)[-ESTIMATES:]))
+OF_FORCES = 3
+_names = [field.name for field in fields(Result)]
+_figures_of = operator.attrgetter(*_names[2:-ESTIMATES - OF_FORCES])
+_estimates_of = operator.attrgetter(*_names[-ESTIMATES - OF_FORCES:-OF_FORCES])
+_force_errors_of = operator.attrgetter(*_names[-OF_FORCES:])
 _NO_ESTIMATES = (None,) * ESTIMATES
+_NO_FORCE_ERRORS = (None,) * OF_FORCES
 
 
 class Strips(NamedTuple):
@@ -224,17 +235,18 @@ class Contact:
 
     normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
     each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
-    estimate: are the errors of strips estimated, which costs about one step? A result whose
-    estimated relative error of pmax is above resolution_limit is called ``under_resolved``. Use one
-    Contact per thread; calls release Python's lock while they compute. Ctrl-C ends a call; after
-    that the contact needs a gap again.
+    estimate: are errors estimated, which of strips costs about one step? A result with an estimated
+    relative error of penetration, pmax or area above resolution_limit, or an estimated error of its
+    forces above force_limit, is called ``under_resolved``. Use one Contact per thread; calls
+    release Python's lock while they compute. Ctrl-C ends a call; after that the contact needs a gap
+    again.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",
                  strips_per_patch: Union[int, str] = 15, points_per_strip: int = 15,
                  fastsim_grid: Tuple[int, int] = (50, 50), with_elements: bool = False,
                  max_points: int = 1000, estimate: bool = True,
-                 resolution_limit: float = 0.1) -> None:
+                 resolution_limit: float = 0.1, force_limit: float = 0.1) -> None:
         self._workspace: Optional[_Workspace] = None
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
@@ -250,6 +262,7 @@ class Contact:
         case.with_elements = flag("with_elements", with_elements)
         case.estimate = flag("estimate", estimate)
         case.resolution_limit = above_zero("resolution_limit", resolution_limit)
+        case.force_limit = above_zero("force_limit", force_limit)
         self._reserve(whole("max_points", max_points, *GAP_POINTS))
 
     def _reserve(self, max_points: int) -> None:
@@ -374,7 +387,9 @@ class Contact:
         status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
                             long=self._long)
         return Result(status, word_of(status), *_figures_of(figures),
-                      *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES))
+                      *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
+                      *(_force_errors_of(figures) if figures.forces_are_estimated
+                        else _NO_FORCE_ERRORS))
 
     def strips(self) -> Strips:
         """The strips of the last contact."""

@@ -55,6 +55,7 @@ class Case(ctypes.Structure):
             "ceta", "cphi")),
         ("estimate", c_int),
         ("resolution_limit", c_double),
+        ("force_limit", c_double),
     ]
 
 
@@ -71,6 +72,8 @@ class Figures(ctypes.Structure):
         *((name, c_double) for name in (
             "est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
             "overlap_outside")),
+        ("forces_are_estimated", c_int),
+        *((name, c_double) for name in ("est_err_fx", "est_err_fy", "est_err_mz")),
     ]
 
 

@@ -46,6 +46,7 @@ module faststrip
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           field_power, strip_forces_t, &
                                           reserve_strip_forces, state_adhesion, state_slip
+    use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_coefficients_solve, fastsim_variant_t

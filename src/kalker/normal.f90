@@ -65,6 +65,8 @@ module faststrip_kalker_normal
     !> caller, one per thread. Arrays grow with the grid, before the iteration.
     type :: norm_workspace_t
         type(contact_grid_t) :: grid       !! heights and pressures of the last solution
+        type(contact_grid_t) :: coarse     !! the same of the level before, sides twice as long; no
+                                           !! elements if there was none
         type(certificate_t) :: certificate !! how well it fulfils the contact condition; errors
                                            !! are estimated where there were two levels, else 0
         logical :: is_estimated = .false.  !! are they?
@@ -344,6 +346,7 @@ contains
             end if
             if (level == levels) exit
             call keep(workspace)
+            workspace%coarse = workspace%grid
             call extent_of_grid(workspace%last, extent)
             spacing%dx = 0.5_wp*spacing%dx
             spacing%dy = 0.5_wp*spacing%dy
@@ -488,6 +491,7 @@ contains
         workspace%convolutions = 0
         workspace%certificate = certificate_t()
         workspace%is_estimated = .false.
+        workspace%coarse%nx = 0
     end subroutine begin
 
     !> Remember the pressures.

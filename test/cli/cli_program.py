@@ -19,8 +19,8 @@ BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 RESULT_COLUMNS = (
     "status,penetration_mm,area_mm2,pmax_MPa,ymin_mm,ymax_mm,xmax_mm,n_patches,Fx_N,Fy_N,"
     "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us,residual_inside,"
-    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,gap_change_um,choice,"
-    "strips_across"
+    "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,est_err_Fx,est_err_Fy,"
+    "est_err_Mz,gap_change_um,choice,strips_across"
 ).split(",")
 
 # What does not change from run to run and is no status.
@@ -117,7 +117,7 @@ class ProgramTest(unittest.TestCase):
     def solved(self, *words):
         """Run what has to succeed, with at most the word that one contact is under resolved.
 
-        It is said on stderr, with the estimate, if and only if the row has the status.
+        It is said on stderr, with the estimates, if and only if the row has the status.
         """
         done = self.run_program(*words)
         self.assertEqual(done.returncode, 0, (words, done.stderr))
@@ -127,11 +127,14 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(done.stderr, "", words)
         else:
             self.assertEqual(rows[0]["status"], "under_resolved", words)
-            said = re.fullmatch(r"faststrip: the estimated error of pmax is above (\S+): (\S+)\n",
-                                done.stderr)
-            self.assertIsNotNone(said, (words, done.stderr))
-            self.assertGreater(float(said[2]), float(said[1]), words)
-            self.assert_close(float(said[2]), float(rows[0]["est_err_pmax"]), 1e-5, what=words)
+            self.assertRegex(done.stderr, r"\Afaststrip: [^\n]+\n\Z", words)
+            for clause in done.stderr.removeprefix("faststrip: ").strip().split("; "):
+                said = re.fullmatch(r"the estimated error of (?:the )?(\w+) is above (\S+?)"
+                                    r"(?: of mu N(?: c)?)?: (\S+)", clause)
+                self.assertIsNotNone(said, (words, done.stderr))
+                self.assertGreater(float(said[3]), float(said[2]), words)
+                self.assert_close(float(said[3]), float(rows[0][f"est_err_{said[1]}"]), 1e-5,
+                                  what=words)
         return rows[0]
 
     def refused(self, code, *words, says=()):

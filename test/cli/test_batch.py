@@ -241,7 +241,10 @@ class Sweep(ProgramTest):
         rows = rows_of(done.stdout)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.splitlines()[-1], "faststrip: 3 of 6 contacts failed")
-        self.assertEqual([row["status"] for row in rows], ["ok"] * 3 + ["no_contact"] * 3)
+        self.assertEqual([row["status"] for row in rows[:2]], ["ok"] * 2)
+        # Hertz's ellipse is a poor one there.
+        self.assertIn(rows[2]["status"], ("ok", "under_resolved"))
+        self.assertEqual([row["status"] for row in rows[3:]], ["no_contact"] * 3)
         for row in rows[3:]:
             for name in list(row)[4:9] + RESULT_COLUMNS[1:]:
                 self.assertEqual(row[name], "", name)

@@ -140,9 +140,10 @@ class GapFile(ProgramTest):
                 if gap == "bumpy.csv" and methods[0] == "hertz":
                     continue
                 with self.subTest(gap=gap, methods=methods):
-                    row = self.contact("--normal", methods[0], "--tangential", methods[1],
-                                       "--strips", "s.csv", "--fields", "f.csv", "--gap", "g.csv",
-                                       gap_file=gap, motion=motion)
+                    self.write("case.nml", gap_case(gap_file=gap, motion=motion))
+                    row = self.solved("contact", "case.nml", "--normal", methods[0], "--tangential",
+                                      methods[1], "--strips", "s.csv", "--fields", "f.csv",
+                                      "--gap", "g.csv")
                     self.check_strips(row, self.read("s.csv"))
                     self.check_fields(row, self.read("f.csv"))
 
@@ -265,11 +266,13 @@ class GapFile(ProgramTest):
         self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.05 * y)))
         for normal, relative in (("strip", 1e-6), ("hertz", 1e-12), ("equal_area", 1e-6),
                                  ("equal_moments", 1e-6), ("norm", 1e-7)):
-            row = self.contact("--normal", normal, gap_file="lopsided.csv")
+            # Hertz tells that it is a poor one here.
+            words = "--normal", normal, "--resolution-limit", "1"
+            row = self.contact(*words, gap_file="lopsided.csv")
             text = gap_case(gap_file="lopsided.csv").replace(
                 "load_N = 1e5", f"penetration_mm = {float(row['penetration_mm'])!r}")
             self.write("deep.nml", text)
-            deep = self.good("contact", "deep.nml", "--normal", normal)[0]
+            deep = self.good("contact", "deep.nml", *words)[0]
             self.assertEqual(list(deep), list(row))
             self.assert_close(float(deep["N_N"]), 1e5, 1e-5 + relative, what=normal)
             self.same(deep, row, 1e-4)
@@ -442,12 +445,80 @@ class GapFile(ProgramTest):
         self.assertEqual(self.solved(*words, limit)["status"], "under_resolved")
 
     def test_resolution_limit_that_is_none(self):
-        self.write("case.nml", gap_case())
-        for wrong in ("0", "-0.1", "nan", "much"):
-            self.refused(2, "contact", "case.nml", "--resolution-limit", wrong,
-                         says=("--resolution-limit", wrong))
-        self.write("case.nml", gap_case(extra="&numerics\n resolution_limit = -0.1\n/\n"))
-        self.refused(1, "contact", "case.nml", says=("resolution_limit", "-0.1"))
+        for name in ("resolution", "force"):
+            self.write("case.nml", gap_case())
+            for wrong in ("0", "-0.1", "nan", "much"):
+                self.refused(2, "contact", "case.nml", f"--{name}-limit", wrong,
+                             says=(f"--{name}-limit", wrong))
+            self.write("case.nml", gap_case(extra=f"&numerics\n {name}_limit = -0.1\n/\n"))
+            self.refused(1, "contact", "case.nml", says=(f"{name}_limit", "-0.1"))
+
+    def forces_of(self, row):
+        return [float(row[f"est_err_{name}"]) for name in ("Fx", "Fy", "Mz")]
+
+    def test_errors_of_forces_are_told_where_they_are_known(self):
+        motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
+        for normal in ("strip", "hertz", "norm", "equal_area"):
+            for tangential in ("faststrip", "faststrip-fitted", "fastsim", "tang", "polach",
+                               "faststrip-paper", "none"):
+                row = self.contact("--normal", normal, "--tangential", tangential, motion=motion)
+                what = normal, tangential
+                known = normal != "equal_area"
+                self.assertEqual(row["est_err_pmax"] != "", known, what)
+                known = known and tangential in ("faststrip", "faststrip-fitted", "fastsim", "tang")
+                self.assertEqual({row[f"est_err_{name}"] != "" for name in ("Fx", "Fy", "Mz")},
+                                 {known}, what)
+                if known:
+                    self.assertTrue(0.0 < min(self.forces_of(row)), what)
+                    self.assertLess(max(self.forces_of(row)), 0.1, what)
+        # Neither the pressures' errors nor those of the forces are known of one grid.
+        row = self.contact("--normal", "norm", "--norm-start", "strips", "--tangential", "tang",
+                           motion=motion)
+        self.assertEqual({row[f"est_err_{name}"] for name in ("pmax", "Fx", "Fy", "Mz")}, {""})
+
+    def test_tang_is_as_wrong_as_it_says(self):
+        motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
+        force = 0.3 * 1e5
+        for normal in ("strip", "hertz", "norm"):
+            rows = [self.contact("--normal", normal, "--tangential", "tang", "--element-dx", side,
+                                 "--element-dy", side, "--resolution-limit", "1", motion=motion)
+                    for side in ("1.0", "0.5", "0.2")]
+            fine = rows[-1]
+            moment = force * math.sqrt(float(fine["area_mm2"]) / math.pi)
+            for row in rows[:-1]:
+                for i, (name, unit) in enumerate((("Fx_N", force), ("Fy_N", force),
+                                                  ("Mz_Nmm", moment))):
+                    error = abs(float(row[name]) - float(fine[name])) / unit
+                    self.assertLess(error, self.forces_of(row)[i], (normal, name))
+            for i in range(3):
+                self.assertLess(self.forces_of(rows[1])[i], self.forces_of(rows[0])[i], normal)
+
+    def test_force_limit(self):
+        """Above the limit a row is `under_resolved`, by any method and whoever names the limit."""
+        motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
+        for methods in (("strip", "faststrip"), ("hertz", "fastsim"), ("strip", "tang")):
+            words = ("--normal", methods[0], "--tangential", methods[1])
+            row = self.contact(*words, motion=motion)
+            largest = max(self.forces_of(row))
+            below, above = f"{0.99 * largest:.8f}", f"{1.01 * largest:.8f}"
+            told = self.solved("contact", "case.nml", *words, "--force-limit", below)
+            self.assertEqual(told["status"], "under_resolved", methods)
+            self.same(told, row)
+            self.assertEqual(self.contact(*words, "--force-limit", above, motion=motion)["status"],
+                             "ok")
+            group = f"&numerics\n force_limit = {below}\n/\n"
+            self.write("case.nml", gap_case(motion=motion, extra=group))
+            self.assertEqual(self.solved("contact", "case.nml", *words)["status"],
+                             "under_resolved", methods)
+
+    def test_elements_too_large_to_tell_how_wrong_tang_is(self):
+        self.write("case.nml", gap_case(motion="cksi = 0.001"))
+        done = self.run_program("contact", "case.nml", "--tangential", "tang", "--element-dx", "8",
+                                "--element-dy", "30")
+        row = rows_of(done.stdout)[0]
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((row["status"], row["est_err_Fx"] == ""),
+                         ("under_resolved", "no error of the forces" in done.stderr))
 
     def test_auto_goes_on_until_resolved(self):
         few = self.contact("--strips-per-patch", "auto")

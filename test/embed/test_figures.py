@@ -12,6 +12,7 @@ TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corr
               "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
 ESTIMATES = ("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
              "overlap_outside")
+FORCE_ESTIMATES = ("est_err_fx", "est_err_fy", "est_err_mz")
 FORCES_ONLY = {"linear", "she", "polach"}
 # Bodies, friction, load, penetration, creepages: no two alike, the second demand unlike the first.
 FIRST = (2.1e5, 1.43e5, 0.27, 0.335, 0.31, 7.3e4, 0.061, 1.3e-3, -7e-4, 1.7e-4)
@@ -147,13 +148,15 @@ class Figures(HostTest):
         """In most contacts no two figures are equal, so that none can stand for another."""
         names = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
                  "friction_power", "stick_fraction", "n_patches", "n_strips", "iterations",
-                 "n_elements", *ESTIMATES)
+                 "n_elements", *ESTIMATES, "est_err_fx", "est_err_mz")
         apart = 0
         for contact in range(1, len(self.contacts) + 1):
             values = [self.wanted[name, contact, 1, 0] for name in names]
             self.assertTrue(all(map(math.isfinite, values)))
             apart += len(set(values)) == len(names)
         self.assertGreater(apart, 5)
+        self.assertGreater(sum(len({self.wanted[name, contact, 1, 0] for name in FORCE_ESTIMATES})
+                               == 3 for contact in range(1, len(self.contacts) + 1)), 5)
         statuses = {value for key, value in self.wanted.items() if key[0] == "status"}
         self.assertLessEqual({0.0, 2.0, 6.0, 8.0, 100.0, 105.0}, statuses)
         self.assertGreater(sum(value not in (0.0, self.wanted["n_strips", *key[1:]])
@@ -191,7 +194,8 @@ class Figures(HostTest):
         self.same(figures(self.shell("./by_f77 <contacts.txt")),
                   lambda name, contact: name in (
                       "shear_modulus", "iterations", "default_penetration", "default_estimate",
-                      "default_resolution_limit") or contact in turning or contact in refused)
+                      "default_resolution_limit", "default_force_limit")
+                  or contact in turning or contact in refused)
 
     def test_python(self):
         found = {}
@@ -206,7 +210,7 @@ class Figures(HostTest):
         options = {"normal": normal, "tangential": tangential, "strips_per_patch": strips or "auto",
                    "points_per_strip": points, "fastsim_grid": (nx, ny),
                    "with_elements": elements == 1, "max_points": len(rows),
-                   "estimate": estimate == 1, "resolution_limit": limit}
+                   "estimate": estimate == 1, "resolution_limit": limit, "force_limit": limit}
         if limit <= 0.0:
             # Refused at once, by a name of its own.
             with self.assertRaisesRegex(faststrip.FaststripError,
@@ -241,7 +245,7 @@ class Figures(HostTest):
                 for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
                              "fy", "mz", "friction_power", "stick_fraction", "n_patches",
                              "iterations", "n_elements", "strips_across", "is_estimated",
-                             *ESTIMATES):
+                             "forces_are_estimated", *ESTIMATES, *FORCE_ESTIMATES):
                     found[name, number, step, 0] = 0.0
             else:
                 self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
@@ -250,9 +254,11 @@ class Figures(HostTest):
                 for name, value in vars(result).items():
                     if name not in ("word", "n_strips"):
                         found[name, number, step, 0] = 0.0 if value is None else value
-                known = {getattr(result, name) is not None for name in ESTIMATES}
-                self.assertEqual(len(known), 1)
-                found["is_estimated", number, step, 0] = float(known.pop())
+                for flag, names in (("is_estimated", ESTIMATES),
+                                    ("forces_are_estimated", FORCE_ESTIMATES)):
+                    known = {getattr(result, name) is not None for name in names}
+                    self.assertEqual(len(known), 1)
+                    found[flag, number, step, 0] = float(known.pop())
                 found["result_n_strips", number, step, 0] = result.n_strips
             show_arrays(of, step)
 
@@ -308,6 +314,7 @@ class Figures(HostTest):
             estimate=self.wanted["default_estimate", 0, 0, 0] == 1.0)
         self.assertEqual(told._case.resolution_limit,
                          self.wanted["default_resolution_limit", 0, 0, 0])
+        self.assertEqual(told._case.force_limit, self.wanted["default_force_limit", 0, 0, 0])
         results = []
         for contact, friction in ((bare, {}), (told, {"mu": self.wanted["default_mu", 0, 0, 0]})):
             contact.set_gap(y, h, inv2r)

@@ -13,7 +13,7 @@ ERRORS = """\
       PROGRAM ERRORS
       INTEGER IOPT(9), IW(8), IW2(8), N, I, INFO, K(400), BITS(2)
       DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3),
-     &  ERR(7), ERR2(7), Z, IEEE
+     &  ERR(7), ERR2(7), FERR(4), FERR2(4), Z, IEEE
       CHARACTER*12 TEXT
       CHARACTER*80 LONG
       EQUIVALENCE (IEEE, BITS)
@@ -47,6 +47,7 @@ ERRORS = """\
       CALL FSMSG(INFO, TEXT)
       WRITE (*, *) 'word', INDEX(TEXT, 'bad_load    ')
       PAR(6) = 1.0D3
+      PAR(7) = 1.0D-3
       CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
       WRITE (*, *) 'solved', INFO
       CALL FSSTRP(IW, 400, N, X, X, X, X, K, INFO)
@@ -66,6 +67,15 @@ ERRORS = """\
       WRITE (*, *) 'small', INT(ERR(2)*10)
       CALL FSCOPY(IW, IW2, INFO)
       CALL FSERRS(IW2, ERR2, INFO)
+      CALL FSFERR(IW, FERR, INFO)
+      WRITE (*, *) 'forces', INFO + NINT(FERR(4))
+      WRITE (*, *) 'part', INT(FERR(1)*10) + INT(FERR(3)*10)
+      CALL FSFERR(IW2, FERR2, INFO)
+      N = 0
+      DO 5 I = 1, 4
+        IF (FERR(I) .NE. FERR2(I)) N = N + 1
+    5 CONTINUE
+      WRITE (*, *) 'equal', N
       N = 0
       DO 10 I = 1, 7
         IF (ERR(I) .NE. ERR2(I)) N = N + 1
@@ -101,6 +111,12 @@ ERRORS = """\
         IF (ERR(I) .NE. 0.0D0) N = N + 1
    20 CONTINUE
       WRITE (*, *) 'unknown', N
+      CALL FSFERR(IW, FERR, INFO)
+      N = 0
+      DO 30 I = 1, 4
+        IF (FERR(I) .NE. 0.0D0) N = N + 1
+   30 CONTINUE
+      WRITE (*, *) 'silent', N + INFO
       CALL FSGAP(IW2, 5, Y, H, A, INFO)
       CALL FSERRS(IW2, ERR2, INFO)
       WRITE (*, *) 'anew', NINT(ERR2(6) + ERR2(7)) + INFO
@@ -108,6 +124,8 @@ ERRORS = """\
       WRITE (*, *) 'freed', INFO
       CALL FSERRS(IW2, ERR2, INFO)
       WRITE (*, *) 'gone', INFO
+      CALL FSFERR(IW2, FERR, INFO)
+      WRITE (*, *) 'lost', INFO
       CALL FSLIMT(IW2, 1, 0.1D0, INFO)
       WRITE (*, *) 'went', INFO
       CALL FSFREE(IW2, INFO)
@@ -127,6 +145,7 @@ ERRORS = """\
 ANSWERS = {
     "query": 8000, "short": 110, "points": 100, "unmade": 100, "blank": 1, "made": 0,
     "gapless": 110, "negative": 100, "long": 110, "loadless": 105, "words": 1, "word": 1,
+    "forces": 1, "part": 0, "equal": 0, "silent": 0, "lost": 100,
     "errors": 0, "known": 1000, "small": 0, "differ": 0, "zero": 100, "limit": 22, "below": 100,
     "nan": 100, "named": 39, "kept": 1, "strict": 0, "rough": 8, "alike": 8, "off": 0, "unknown": 0,
     "anew": 0, "gone": 100, "went": 100,

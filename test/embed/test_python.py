@@ -287,11 +287,12 @@ class Contacts(HostTest):
                          estimate=value)
         for value in (0.0, -0.0, -0.1, float("nan"), -np.inf, -10**400, np.float32("nan"), None,
                       "0.1", b"1", True, 1j, [0.1], np.array([0.1]), np.ma.masked, object()):
-            with self.subTest(resolution_limit=value):
-                self.refused("bad_argument", contact, resolution_limit=value,
-                             says="resolution_limit must be a number above 0, got ")
+            for name in ("resolution_limit", "force_limit"):
+                with self.subTest(name=name, value=value):
+                    self.refused("bad_argument", contact, **{name: value},
+                                 says=f"{name} must be a number above 0, got ")
         for value in (1, 10**400, np.inf, np.float32(0.5), np.array(0.5), decimal.Decimal("0.5")):
-            made = self.contact(resolution_limit=value)
+            made = self.contact(resolution_limit=value, force_limit=value)
             self.assertEqual(made.solve(load=1e5), self.contact().solve(load=1e5))
         for name in ("normal", "tangential"):
             for value in (None, 1, [], "Strip", ""):
@@ -317,11 +318,30 @@ class Contacts(HostTest):
         self.assertTrue(0.0 < result.est_err_pmax <= 0.1, result)
         self.assertEqual(result.strips_across, 15)
         self.assertEqual(self.contact(resolution_limit=1e-6).solve(load=1e5).word, "under_resolved")
+        hertz = self.contact(normal="hertz").solve(load=1e5)
+        self.assertEqual((hertz.word, hertz.strips_across), ("ok", 0))
+        self.assertTrue(0.0 <= hertz.est_err_pmax <= 1e-4, hertz)
         for options, across in (({"estimate": False, "resolution_limit": 1e-6}, 15),
-                                ({"normal": "hertz"}, 0), ({"normal": "equal_area"}, 15)):
+                                ({"normal": "equal_area"}, 15)):
             other = self.contact(**options).solve(load=1e5)
             self.assertEqual((other.word, other.strips_across), ("ok", across))
             self.assertEqual([getattr(other, name) for name in names], [None] * 5)
+
+    def test_errors_of_forces_are_estimated_of_marches(self):
+        names = ("est_err_fx", "est_err_fy", "est_err_mz")
+        creepage = (1e-3, 5e-4, 1e-4)
+        for options in ({}, {"tangential": "faststrip-fitted"}, {"tangential": "fastsim"},
+                        {"normal": "hertz"}):
+            result = self.contact(**options).solve(load=1e5, creepage=creepage)
+            for name in names:
+                self.assertTrue(0.0 < getattr(result, name) <= 0.1, (name, result))
+            strict = self.contact(force_limit=0.5 * result.est_err_fx, **options)
+            self.assertEqual(strict.solve(load=1e5, creepage=creepage).word, "under_resolved")
+        for options in ({"estimate": False, "force_limit": 1e-6}, {"tangential": "polach"},
+                        {"normal": "equal_area"}, {"tangential": "none"}):
+            result = self.contact(**options).solve(load=1e5, creepage=creepage)
+            self.assertEqual(result.word, "ok", options)
+            self.assertEqual([getattr(result, name) for name in names], [None] * 3, options)
 
     def test_limits_are_those_of_the_library(self):
         sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")

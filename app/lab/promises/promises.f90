@@ -246,12 +246,12 @@ contains
         counts(:3) = .true.
         counts(4:7) = outcome%has_forces
         counts(8) = outcome%knows_stick
-        associate (certificate => outcome%certificate)
+        associate (certificate => outcome%certificate, forces => outcome%force_errors)
             estimates = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                         certificate%est_err_area, 0.0_wp, 0.0_wp, 0.0_wp]
+                         certificate%est_err_area, forces%fx, forces%fy, forces%mz]
         end associate
         is_estimated(:3) = outcome%is_estimated
-        is_estimated(4:) = .false.
+        is_estimated(4:) = outcome%forces_are_estimated
         do i = 1, 2
             call put_known(.true., us(i))
         end do

@@ -23,8 +23,10 @@ module faststrip_contact_case
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
-        logical :: estimate = .true.       !! are the errors of strips estimated? Costs about a step
+        logical :: estimate = .true.       !! are errors estimated? Of strips it costs about a step
         real(wp) :: resolution_limit = default_resolution
             !! `st_under_resolved` names an estimated relative error above this, > 0
+        real(wp) :: force_limit = default_resolution
+            !! the same of the forces, over mu N, and of the moment, over mu N c
     end type contact_case_t
 end module faststrip_contact_case

@@ -7,8 +7,9 @@ module faststrip_contact_indicators
     use faststrip_base_status, only: status_t, is_error, clear_status
     use faststrip_base_material, only: normal_compliance, combined_shear_modulus, &
                                        combined_poisson_ratio
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_curvature
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand
+    use faststrip_normal_misfit, only: misfit_t, find_misfit, most_misfit
     use faststrip_normal_strip_patches, only: patches_t
     use faststrip_normal_strip_start, only: start_patches
     use faststrip_normal_types, only: demand_t, above_lowest
@@ -30,14 +31,10 @@ module faststrip_contact_indicators
         real(wp) :: b = 0.0_wp          !! and half-width, mm
     end type indicators_t
 
-    ! Tuned [1]. Origin: chosen: beyond any that is told apart.
-    real(wp), parameter :: no_ellipse = 1.0e3_wp  !! misfit without an ellipse, and the most told
+    real(wp), parameter :: no_ellipse = most_misfit !! misfit without an ellipse, and the most told
     ! Tuned [1]. Origin: chosen: beyond any that is told apart.
     real(wp), parameter :: no_friction = 1.0e3_wp !! saturation without friction, and the most told
 
-    ! Where the gap is looked at, in half-widths of the ellipse.
-    ! Tuned [half-widths]. Origin: chosen: more at the edge, where ellipses differ.
-    real(wp), parameter :: places(5) = [0.3_wp, 0.6_wp, 0.85_wp, 1.0_wp, 1.15_wp]
     ! Beyond this misfit the size of the patch is taken from the width of the gap.
     ! Tuned [1]. Origin: chosen.
     real(wp), parameter :: large_misfit = 0.2_wp
@@ -53,6 +50,7 @@ contains
             !! `st_no_contact`, `st_out_of_range`, `st_not_finite`: there is no contact to tell of
 
         type(hertz_t) :: hertz
+        type(misfit_t) :: misfit
         type(patches_t) :: patches
         type(status_t) :: ellipse
         type(demand_t) :: demand
@@ -61,7 +59,10 @@ contains
         call hertz_solve_gap_demand(curve, normal_compliance(case%material), case%demand_t, hertz, &
                                     ellipse)
         indicators%misfit = no_ellipse
-        if (.not. is_error(ellipse)) indicators%misfit = misfit_of(curve, hertz)
+        if (.not. is_error(ellipse)) then
+            misfit = find_misfit(curve, normal_compliance(case%material), hertz)
+            indicators%misfit = misfit%largest
+        end if
         if (indicators%misfit > large_misfit) then
             demand = above_lowest(case%demand_t, curve%h_lowest)
             if (.not. demand%by_load .and. demand%penetration <= 0.0_wp) then
@@ -79,28 +80,6 @@ contains
         end if
         call set_saturation(hertz, case, indicators, status)
     end subroutine find_indicators
-
-    !> Largest distance from the parabola, over the penetration.
-    pure real(wp) function misfit_of(curve, hertz) result(misfit)
-        type(gap_curve_t), intent(in) :: curve
-        type(hertz_t), intent(in) :: hertz
-
-        real(wp) :: h, inv2r, h0, inv2r0, b, y
-        integer :: i, side
-
-        call gap_at(curve, hertz%y, h0, inv2r0)
-        b = gap_curvature(curve, hertz%y)
-        misfit = 0.0_wp
-        do i = 1, size(places)
-            do side = -1, 1, 2
-                y = side*places(i)*hertz%b
-                call gap_at(curve, hertz%y + y, h, inv2r)
-                misfit = max(misfit, abs(h - h0 - b*y*y) + abs(inv2r - inv2r0)*hertz%a**2 &
-                             *max(1.0_wp - places(i)**2, 0.0_wp))
-            end do
-        end do
-        misfit = min(misfit/hertz%penetration, no_ellipse)
-    end function misfit_of
 
     !> Kalker's linear forces of the estimated ellipse over mu N.
     pure subroutine set_saturation(size, case, indicators, status)

@@ -18,8 +18,11 @@ module faststrip_contact_solve
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand, hertz_strips
-    use faststrip_normal_limitations, only: check_resolution, name_resolution, add_limitation, &
+    use faststrip_normal_hertz_certificate, only: certify_hertz
+    use faststrip_normal_limitations, only: check_resolution, name_resolution, &
+                                            name_force_resolution, add_limitation, &
                                             check_penetration, name_steps
+    use faststrip_normal_misfit, only: misfit_t, find_misfit
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve_demand, &
                                       estimate_strips, strips_auto, strips_auto_most
@@ -30,6 +33,7 @@ module faststrip_contact_solve
     use faststrip_tangential_force_errors, only: force_errors_t, estimate_force_errors, &
                                                  errors_of_march, errors_of_fitted, &
                                                  errors_of_fastsim
+    use faststrip_tangential_hertz_errors, only: add_hertz_errors
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_variant_t
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve
@@ -52,7 +56,7 @@ module faststrip_contact_solve
     public :: contact_case_t, contact_result_t, workspace_t
     public :: reserve_workspace, reserve_contact_field, set_contact_gap
     public :: solve_contact, solve_contact_normal, solve_contact_tangential
-    public :: estimate_contact_errors, estimate_contact_forces
+    public :: estimate_contact_errors, estimate_contact_forces, add_shape_errors
     public :: most_gap_points
 
     ! Strips of a Hertz ellipse where the number is left to the solver.
@@ -75,8 +79,9 @@ module faststrip_contact_solve
     type :: contact_result_t
         type(normal_result_t) :: normal = normal_result_t()
             !! load, penetration, area, largest pressure, ...
-        type(certificate_t) :: certificate = certificate_t() !! how wrong they are, by strips
-        logical :: is_estimated = .false.                    !! is that known? Not of ellipses
+        type(certificate_t) :: certificate = certificate_t() !! how wrong they are
+        logical :: is_estimated = .false.
+            !! is that known? Not of ellipses in the strips' place
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
         type(force_errors_t) :: force_errors = force_errors_t() !! how wrong the forces are
@@ -262,10 +267,10 @@ contains
         call restore_environment(environment)
     end subroutine solve_contact_tangential
 
-    !> How wrong the strips of the workspace's normal solution are, for who solved with
-    !> `case%estimate` off; more than the limit is named in the status.
+    !> How wrong the workspace's normal solution is, for who solved with `case%estimate` off; more
+    !> than the limit is named in the status.
     subroutine estimate_contact_errors(workspace, case, normal, certificate, is_estimated, status)
-        type(workspace_t), intent(in) :: workspace      !! with a solution by strips
+        type(workspace_t), intent(in) :: workspace      !! with a solution by strips or by Hertz
         type(contact_case_t), intent(in) :: case        !! what was solved
         type(normal_result_t), intent(in) :: normal     !! its figures
         type(certificate_t), intent(out) :: certificate !! how wrong they are
@@ -275,13 +280,18 @@ contains
         type(environment_t) :: environment
 
         call hold_environment(environment)
-        call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
+        if (workspace%solved_by == normal_hertz) then
+            call estimate_hertz(workspace, case, certificate, is_estimated, status)
+        else
+            call estimate_errors(workspace, case, normal, certificate, is_estimated, status)
+        end if
         call restore_environment(environment)
     end subroutine estimate_contact_errors
 
-    !> How wrong the forces of the workspace's strips are, for who asks for the parts of a solution.
+    !> How wrong forces on the workspace's normal solution are, for who asks for the parts of a
+    !> solution.
     subroutine estimate_contact_forces(workspace, case, certificate, errors, is_estimated, status)
-        type(workspace_t), intent(in) :: workspace      !! with a solution by strips
+        type(workspace_t), intent(in) :: workspace      !! with a solution by strips or by Hertz
         type(contact_case_t), intent(in) :: case        !! what was solved, by which method
         type(certificate_t), intent(in) :: certificate  !! of the normal solution
         type(force_errors_t), intent(out) :: errors     !! of the forces
@@ -320,12 +330,30 @@ contains
         case default
             return
         end select
-        call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
-                                   method, points, certificate, errors, estimate)
+        if (workspace%solved_by == normal_hertz) then
+            ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
+            call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
+                                       method, points, certificate_t(), errors, estimate)
+            if (.not. is_error(estimate)) call add_shape_errors(workspace, case, errors, estimate)
+        else
+            call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
+                                       method, points, certificate, errors, estimate)
+        end if
         is_estimated = .not. is_error(estimate)
-        if (is_estimated) call name_resolution(errors%fx, errors%fy, errors%mz, &
-                                               case%resolution_limit, status)
+        if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz, &
+                                                     case%force_limit, status)
     end subroutine estimate_forces
+
+    !> Add to the errors of forces on the workspace's Hertz ellipse what its shape is wrong by.
+    pure subroutine add_shape_errors(workspace, case, errors, status)
+        type(workspace_t), intent(in) :: workspace    !! with a solution by Hertz
+        type(contact_case_t), intent(in) :: case      !! what was solved
+        type(force_errors_t), intent(inout) :: errors !! of a method on the ellipse
+        type(status_t), intent(inout) :: status       !! that of `kalker_coefficients`
+
+        call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), case%material, case%mu, &
+                              case%creepage, errors, status)
+    end subroutine add_shape_errors
 
     subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status, curve)
         type(workspace_t), intent(inout) :: workspace
@@ -340,7 +368,9 @@ contains
         is_estimated = .false.
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
-        call check_resolution(case%resolution_limit, status)
+        call check_resolution(case%resolution_limit, 'the resolution limit', status)
+        if (is_error(status)) return
+        call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
         if (is_error(status)) return
         call check_material(case%material, status)
         if (is_error(status)) return
@@ -352,6 +382,8 @@ contains
         if (is_error(status)) return
         if (case%methods%normal == normal_hertz) then
             call solve_hertz(workspace, case, normal, status)
+            if (case%estimate .and. .not. is_error(status)) &
+                call estimate_hertz(workspace, case, certificate, is_estimated, status)
         else
             call solve_by_strips(workspace, case, normal, certificate, is_estimated, status)
         end if
@@ -415,6 +447,29 @@ contains
             call add_limitation(status, st_under_resolved, words)
         end if
     end subroutine estimate_errors
+
+    !> How wrong the Hertz contact in the workspace is.
+    subroutine estimate_hertz(workspace, case, certificate, is_estimated, status)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(certificate_t), intent(out) :: certificate
+        logical, intent(out) :: is_estimated
+        type(status_t), intent(inout) :: status
+
+        certificate = certify_hertz(misfit_of(workspace, case))
+        is_estimated = .true.
+        call name_resolution(certificate%est_err_penetration, certificate%est_err_pmax, &
+                             certificate%est_err_area, case%resolution_limit, status)
+    end subroutine estimate_hertz
+
+    !> What the gap in the workspace differs from the parabola of its Hertz contact by.
+    pure type(misfit_t) function misfit_of(workspace, case) result(misfit)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+
+        misfit = find_misfit(workspace%solver%curve, normal_compliance(case%material), &
+                             workspace%hertz)
+    end function misfit_of
 
     subroutine solve_hertz(workspace, case, normal, status)
         type(workspace_t), intent(inout) :: workspace

@@ -10,6 +10,7 @@ module faststrip_interop_c
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, read_result, &
+                                      read_force_errors, &
                                       strip_count, read_strips, read_elements
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
@@ -190,9 +191,11 @@ contains
         call fill_case(fields%choices, fields%numbers, handle%case)
         handle%case%estimate = fields%estimate /= 0
         handle%case%resolution_limit = fields%resolution_limit
+        handle%case%force_limit = fields%force_limit
         call handle_solve(handle, wants_elements(fields%choices))
         code = handle%status%code
         call read_result(handle, figures%figures, figures%counts, figures%errors)
+        call read_force_errors(handle, figures%forces_are_estimated, figures%force_errors)
         call write_result(figures, fields%size, result)
     end function faststrip_solve
 

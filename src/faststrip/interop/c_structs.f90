@@ -12,7 +12,7 @@ module faststrip_interop_c_structs
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
     use faststrip_contact_solve, only: contact_case_t
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      flat_default
+                                      n_forces, flat_default
     implicit none
     private
 
@@ -26,6 +26,7 @@ module faststrip_interop_c_structs
         real(c_double) :: numbers(n_numbers) !! `e_wheel` to `cphi`
         integer(c_int) :: estimate
         real(c_double) :: resolution_limit
+        real(c_double) :: force_limit
     end type c_case_t
 
     !> `faststrip_result` of the header, likewise.
@@ -34,12 +35,15 @@ module faststrip_interop_c_structs
         real(c_double) :: figures(n_figures) !! `load` to `stick_fraction`
         integer(c_int) :: counts(n_counts)   !! `n_patches` to `strips_across`
         real(c_double) :: errors(n_errors)   !! `est_err_penetration` to `overlap_outside`
+        integer(c_int) :: forces_are_estimated
+        real(c_double) :: force_errors(n_forces) !! `est_err_fx` to `est_err_mz`
     end type c_result_t
 
     !> Bytes of case and result in every release that changed them, rising.
-    integer(c_size_t), parameter :: releases(2, 2) = reshape([ &
+    integer(c_size_t), parameter :: releases(2, 3) = reshape([ &
         128_c_size_t, 120_c_size_t, &            ! first
-        144_c_size_t, 168_c_size_t], [2, 2])     ! with estimated errors
+        144_c_size_t, 168_c_size_t, &            ! with estimated errors
+        152_c_size_t, 200_c_size_t], [2, 3])     ! with those of the forces
 
     ! Members end at multiples of this; less than two pieces are no case.
     integer(c_size_t), parameter :: piece = 8, least_case = 2*piece
@@ -133,5 +137,6 @@ contains
         call flat_default(fields%choices, fields%numbers)
         fields%estimate = merge(1, 0, defaults%estimate)
         fields%resolution_limit = defaults%resolution_limit
+        fields%force_limit = defaults%force_limit
     end function default_case
 end module faststrip_interop_c_structs

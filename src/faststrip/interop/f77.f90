@@ -30,12 +30,15 @@
 !>        all relative; that of the penetration to D - h_lowest, the depth below the lowest point
 !> ERR(4) largest gap that is left inside the patches, over that depth
 !> ERR(5) largest overlap outside of them, over that depth
-!> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of ellipses or by FSLIMT
+!> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of equal ellipses or by FSLIMT
 !> ERR(7) strips across the patch that has most, 0: no strips
+!> FERR(1), FERR(2) estimated error of Fx and of Fy over mu N, FERR(3) of Mz over mu N c, where c is
+!>        the radius of a circle of the contact's area
+!> FERR(4) 1: FERR(1) to FERR(3) are known; 0: they are zero, of a method without, or by FSLIMT
 !> ```
 !>
-!> FSSOLV estimates errors unless FSLIMT switched that off, and says 8, under_resolved, where that
-!> of the largest pressure is above a limit. FSERRS has them.
+!> FSSOLV estimates errors unless FSLIMT switched that off, and says 8, under_resolved, where one of
+!> ERR(1) to ERR(3) or of FERR(1) to FERR(3) is above a limit. FSERRS and FSFERR have them.
 module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
     use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
@@ -44,14 +47,16 @@ module faststrip_interop_f77
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      flat_default, flat_methods, wants_elements, fill_case, &
-                                      read_result, strip_count, read_strips, read_elements
+                                      n_forces, flat_default, flat_methods, wants_elements, &
+                                      fill_case, &
+                                      read_result, read_force_errors, strip_count, read_strips, &
+                                      read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     implicit none
     private
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
-    public :: fslimt, fserrs, fscopy, fsfree, fsmsg, fslast
+    public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast
 
     ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
     ! whether it is known and the strips across.
@@ -295,24 +300,24 @@ contains
     !> CALL FSLIMT(IWORK, IEST, RLIM, INFO)
     !>
     !> Set for all further calls of FSSOLV whether errors are estimated, and from which estimated
-    !> error of the largest pressure on they say so (8, under_resolved). FSINIT sets 1 and 0.1.
-    !> After
-    !> an error both are as they were.
+    !> error on they say so (8, under_resolved): relative, of the forces over mu N, of the moment
+    !> over mu N c. FSINIT sets 1 and 0.1. After an error both are as they were.
     subroutine fslimt(iwork, estimate, limit, info) bind(c, name='fslimt_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT
         integer(c_int), intent(in) :: estimate       !! are errors estimated? 0 means no
-        real(c_double), intent(in) :: limit          !! relative, above 0
+        real(c_double), intent(in) :: limit          !! above 0
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
 
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        call check_resolution(limit, handle%status)
+        call check_resolution(limit, 'the resolution limit', handle%status)
         info = handle%status%code
         if (is_error(handle%status)) return
         handle%case%estimate = estimate /= 0
         handle%case%resolution_limit = limit
+        handle%case%force_limit = limit
     end subroutine fslimt
 
     !> CALL FSERRS(IWORK, ERR, INFO)
@@ -333,6 +338,25 @@ contains
         call read_result(handle, figures, counts, errors)
         err = [errors, real(counts(5:), c_double)]
     end subroutine fserrs
+
+    !> CALL FSFERR(IWORK, FERR, INFO)
+    !>
+    !> The estimated errors of the last contact's forces; zeros if they are not known.
+    subroutine fsferr(iwork, ferr, info) bind(c, name='fsferr_')
+        integer(c_int), intent(in) :: iwork(n_iwork)     !! with a solution
+        real(c_double), intent(out) :: ferr(n_forces + 1) !! estimates, and whether they are known
+        integer(c_int), intent(out) :: info              !! status
+
+        type(handle_t), pointer :: handle
+        real(c_double) :: errors(n_forces)
+        integer(c_int) :: are_known
+
+        ferr = 0.0_c_double
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        call read_force_errors(handle, are_known, errors)
+        ferr = [errors, real(are_known, c_double)]
+    end subroutine fsferr
 
     !> CALL FSCOPY(IFROM, ITO, INFO)
     !>

@@ -19,6 +19,7 @@
 !>          6 strips across
 !> errors   1, 2, 3 estimated error of penetration, largest pressure and area, relative
 !>          4 residual inside       5 overlap outside, relative
+!> forces   1, 2 estimated error of Fx and Fy over mu N    3 of Mz over mu N c
 !> ```
 module faststrip_interop_flat
     use, intrinsic :: iso_c_binding, only: c_int, c_double
@@ -30,13 +31,14 @@ module faststrip_interop_flat
     implicit none
     private
 
-    public :: n_choices, n_numbers, n_figures, n_counts, n_errors
+    public :: n_choices, n_numbers, n_figures, n_counts, n_errors, n_forces
     public :: flat_default, flat_methods, flat_material, wants_elements, fill_case
-    public :: read_result, strip_count, read_strips, read_elements
+    public :: read_result, read_force_errors, strip_count, read_strips, read_elements
 
     !> Lengths of the rows.
     !> Given: by the faces.
-    integer, parameter :: n_choices = 9, n_numbers = 10, n_figures = 12, n_counts = 6, n_errors = 5
+    integer, parameter :: n_choices = 9, n_numbers = 10, n_figures = 12, n_counts = 6, &
+                          n_errors = 5, n_forces = 3
 
 contains
 
@@ -118,6 +120,18 @@ contains
                       certificate%overlap_outside]
         end associate
     end subroutine read_result
+
+    !> The estimated errors of the last contact's forces; zeros if they are not known.
+    pure subroutine read_force_errors(handle, are_known, errors)
+        type(handle_t), intent(in) :: handle             !! after a solution
+        integer(c_int), intent(out) :: are_known         !! 1 if they are
+        real(c_double), intent(out) :: errors(n_forces)  !! estimates
+
+        are_known = merge(1, 0, handle%result%forces_are_estimated)
+        associate (forces => handle%result%force_errors)
+            errors = [forces%fx, forces%fy, forces%mz]
+        end associate
+    end subroutine read_force_errors
 
     !> Strips of the last contact.
     pure integer function strip_count(handle)

@@ -42,7 +42,7 @@ module faststrip_normal_limitations
     private
 
     public :: check_curvature, check_penetration, name_limitations, name_steps, name_step
-    public :: name_resolution, add_limitation
+    public :: name_resolution, name_force_resolution, add_limitation
     public :: default_resolution, check_resolution
 
     !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 %
@@ -220,27 +220,45 @@ contains
         real(wp), intent(in) :: limit           !! largest that is called resolved
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
 
+        call name_first_above([pmax, penetration, area], &
+                              [character(len=16) :: ' pmax', ' the penetration', ' the area'], &
+                              [character(len=1) :: '', '', ''], limit, status)
+    end subroutine name_resolution
+
+    !> The same of forces.
+    pure subroutine name_force_resolution(fx, fy, mz, limit, status)
+        real(wp), intent(in) :: fx              !! estimated error of Fx over mu N
+        real(wp), intent(in) :: fy              !! of Fy over mu N
+        real(wp), intent(in) :: mz              !! of Mz over mu N c
+        real(wp), intent(in) :: limit           !! largest that is called resolved
+        type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
+
+        call name_first_above([fx, fy, mz], [character(len=3) :: ' Fx', ' Fy', ' Mz'], &
+                              [character(len=10) :: ' of mu N', ' of mu N', ' of mu N c'], limit, &
+                              status)
+    end subroutine name_force_resolution
+
+    !> Name the first estimate that is above a limit.
+    pure subroutine name_first_above(estimates, names, units, limit, status)
+        real(wp), intent(in) :: estimates(:)
+        character(len=*), intent(in) :: names(:), units(:) ! begin with a blank
+        real(wp), intent(in) :: limit
+        type(status_t), intent(inout) :: status
+
         character(len=message_length) :: words
-        character(len=15) :: what
-        real(wp) :: estimate
+        integer :: i
 
         if (is_error(status)) return
-        if (is_above(pmax)) then
-            what = 'pmax'
-            estimate = pmax
-        else if (is_above(penetration)) then
-            what = 'the penetration'
-            estimate = penetration
-        else if (is_above(area)) then
-            what = 'the area'
-            estimate = area
-        else
+        do i = 1, size(estimates)
+            if (.not. is_above(estimates(i))) cycle
+            words = 'the estimated error of'
+            call add_words(words, names(i))
+            call add_words(words, ' is above '//number_text(limit))
+            call add_words(words, units(i))
+            call add_words(words, ': '//number_text(estimates(i)))
+            call add_limitation(status, st_under_resolved, words)
             return
-        end if
-        words = 'the estimated error of '//what
-        call add_words(words, ' is above '//number_text(limit))
-        call add_words(words, ': '//number_text(estimate))
-        call add_limitation(status, st_under_resolved, words)
+        end do
 
     contains
 
@@ -251,21 +269,23 @@ contains
             is_above = .not. ieee_is_finite(number)
             if (.not. is_above) is_above = number > limit
         end function is_above
-    end subroutine name_resolution
+    end subroutine name_first_above
 
-    !> Refuse a limit for `name_resolution` that no estimate can be compared with.
-    pure subroutine check_resolution(limit, status)
-        real(wp), intent(in) :: limit         !! largest relative error that is called resolved
+    !> Refuse a limit that no estimate can be compared with.
+    pure subroutine check_resolution(limit, name, status)
+        real(wp), intent(in) :: limit         !! largest error that is called resolved
+        character(len=*), intent(in) :: name  !! what it is called
         type(status_t), intent(out) :: status !! `st_bad_argument`: not above 0, or NaN
 
+        character(len=message_length) :: words
+
         call clear_status(status)
-        if (ieee_is_nan(limit)) then
-            call set_status(status, st_bad_argument, &
-                            'the resolution limit must be above 0, got NaN')
-        else if (limit <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'the resolution limit must be above 0, got ' &
-                            //number_text(limit))
+        if (.not. ieee_is_nan(limit)) then
+            if (limit > 0.0_wp) return
         end if
+        words = name
+        call add_words(words, ' must be above 0, got '//number_text(limit))
+        call set_status(status, st_bad_argument, words)
     end subroutine check_resolution
 
     !> Add a limitation to a status: the first one gives the code, the words are strung together.
