@@ -459,13 +459,13 @@ class GapFile(ProgramTest):
     def test_errors_of_forces_are_told_where_they_are_known(self):
         motion = "cksi = 0.0008, ceta = 0.0004, cphi_rad_per_mm = 0.0001"
         for normal in ("strip", "hertz", "norm", "equal_area"):
-            for tangential in ("faststrip", "faststrip-fitted", "fastsim", "tang", "polach",
+            for tangential in ("faststrip", "faststrip-plain", "fastsim", "tang", "polach",
                                "faststrip-paper", "none"):
                 row = self.contact("--normal", normal, "--tangential", tangential, motion=motion)
                 what = normal, tangential
                 known = normal != "equal_area"
                 self.assertEqual(row["est_err_pmax"] != "", known, what)
-                known = known and tangential in ("faststrip", "faststrip-fitted", "fastsim", "tang")
+                known = known and tangential in ("faststrip", "faststrip-plain", "fastsim", "tang")
                 self.assertEqual({row[f"est_err_{name}"] != "" for name in ("Fx", "Fy", "Mz")},
                                  {known}, what)
                 if known:

@@ -48,7 +48,7 @@ module faststrip_normal_misfit
                                         0.06_wp]
     ! Where an overlap is looked for beside it.
     ! Tuned [half-widths]. Origin: chosen; valleys are looked for besides.
-    real(wp), parameter :: outside(4) = [beyond, 1.4_wp, 2.0_wp, 3.0_wp]
+    real(wp), parameter :: outside(5) = [beyond, 1.35_wp, 1.7_wp, 2.2_wp, 3.0_wp]
     ! From here on displacements are added up from afar.
     ! Tuned [half-widths]. Origin: of a/b = 0.01 to 100 the sum near is 1 % of the penetration off
     ! before, the other less behind.
@@ -138,8 +138,9 @@ contains
                 call take_overlap(outside(i), -clearance(outside(i), h), misfit)
             end do
         end do
-        do i = 1, curve%n_pieces + 1
+        do i = 2, curve%n_pieces
             if (curve%h_node(i) - h0 >= hertz%penetration) cycle
+            if (curve%h_node(i) > min(curve%h_node(i - 1), curve%h_node(i + 1))) cycle
             y = abs(curve%y_node(i) - hertz%y)/hertz%b
             if (y <= beyond) cycle
             overlap = -clearance(y, curve%h_node(i))
