@@ -115,7 +115,8 @@ contains
                                    shares_of_strips(certificate))
         end if
         is_estimated = .true.
-        call name_force_resolution(errors%fx, errors%fy, errors%mz, case%force_limit, status)
+        call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
+                                   case%force_limit, status)
     end subroutine estimate_by_tang
 
     !> The pressures of the ellipse or of the strips on a grid.

@@ -66,7 +66,8 @@ contains
         size_of = min(maxval(abs(about_middle(fine, y, radius)))/(mu*load), 1.0_wp)
         parts = safety*(differences + largest_share*maxval(differences) &
                         + least_left*size_of/elements) + size_of*shares
-        errors = force_errors_t(parts(1), parts(2), parts(3) + abs(y)/radius*parts(1))
+        errors = force_errors_t(parts(1), parts(2), parts(3) + abs(y)/radius*parts(1), &
+                                abs(y)/radius*parts(1))
     end function estimate_tang
 
     !> What errors of NORM's pressures make of the forces on its grid.

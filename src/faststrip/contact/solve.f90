@@ -340,7 +340,7 @@ contains
                                        method, points, certificate, errors, estimate)
         end if
         is_estimated = .not. is_error(estimate)
-        if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz, &
+        if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
                                                      case%force_limit, status)
     end subroutine estimate_forces
 

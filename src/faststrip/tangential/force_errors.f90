@@ -35,6 +35,8 @@ module faststrip_tangential_force_errors
         real(wp) :: fx = 0.0_wp !! of Fx over mu N
         real(wp) :: fy = 0.0_wp !! of Fy over mu N
         real(wp) :: mz = 0.0_wp !! of Mz about the reference point over mu N c, c = sqrt(area/pi)
+        real(wp) :: arm = 0.0_wp
+            !! what of `mz` comes from Fx and how far the reference point lies beside the patches
     end type force_errors_t
 
     ! Given: numbers of kinds.
@@ -74,7 +76,7 @@ contains
         type(patch_law_t) :: law
         type(patch_shape_t) :: shape
         type(rolling_state_t) :: state
-        real(wp) :: part(3), total(3), load, area, u(3), times
+        real(wp) :: part(3), total(4), load, area, u(3), times
         integer :: first, last
 
         times = 1.0_wp
@@ -98,12 +100,14 @@ contains
             part = ellipse%load*errors_of_patch(state, shape, method, certificate, &
                                                 has_neck(strips%half_length(first:last)))
             total = total + [part(1), part(2), &
-                             part(3)*sqrt(ellipse%a*ellipse%b) + abs(ellipse%y)*part(1)]
+                             part(3)*sqrt(ellipse%a*ellipse%b) + abs(ellipse%y)*part(1), &
+                             abs(ellipse%y)*part(1)]
             load = load + ellipse%load
             area = area + pi*ellipse%a*ellipse%b
         end do
         if (load <= 0.0_wp) return
-        errors = force_errors_t(total(1)/load, total(2)/load, total(3)/(load*sqrt(area/pi)))
+        errors = force_errors_t(total(1)/load, total(2)/load, total(3)/(load*sqrt(area/pi)), &
+                                total(4)/(load*sqrt(area/pi)))
     end subroutine estimate_force_errors
 
     !> Errors of one patch, the moment about its centroid over mu N sqrt(ab).

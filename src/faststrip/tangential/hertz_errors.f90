@@ -13,8 +13,8 @@
 !>     Mz   0.65 (g + q) (sqrt(b/a) + 0.3) s(|u|)     about the ellipse's middle
 !>
 !> A patch that lies beside its ellipse (o), or a second one beside it (q), turns spin into
-!> longitudinal creepage, the more the wider it is. The factors bound 95 % of the differences of FASTSTRIP's forces on the ellipse and
-!> on 31 strips, of the gaps of `faststrip_normal_hertz_certificate` with six creepages each.
+!> longitudinal creepage, the more the wider it is. The factors bound 95 % of the differences of
+!> FASTSTRIP's forces on the ellipse and on 31 strips, of the gaps of `faststrip_normal_hertz_certificate` with six creepages each.
 module faststrip_tangential_hertz_errors
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
@@ -66,7 +66,8 @@ contains
         errors%fx = errors%fx + fx
         errors%fy = errors%fy + fy_factor*(any_shape + fy_aside*misfit%aside) &
                     *max(1.0_wp, wide)*share
-        errors%mz = errors%mz + mz_factor*(any_shape + misfit%aside)*(wide + mz_narrow)*share &
-                    + abs(hertz%y)/sqrt(hertz%a*hertz%b)*fx
+        fx = abs(hertz%y)/sqrt(hertz%a*hertz%b)*fx
+        errors%arm = errors%arm + fx
+        errors%mz = errors%mz + mz_factor*(any_shape + misfit%aside)*(wide + mz_narrow)*share + fx
     end subroutine add_hertz_errors
 end module faststrip_tangential_hertz_errors
