@@ -56,7 +56,7 @@ def main(arguments=None):
             style.title(panel, f"{name}\n{what}, at most {worst} %" if row == 0
                         else f"{what}, at most {worst} %")
         figure.colorbar(colours, ax=axes[:, k], location="bottom", shrink=0.9, pad=0.02,
-                        label=r"% of $\mu N$" + (r"$\sqrt{ab}$" if force == "Mz" else ""))
+                        label=r"% of $\mu\cdot N$" + (r"$\sqrt{ab}$" if force == "Mz" else ""))
         axes[1, k].set_xlabel("$a/b$")
     for panel in axes[:, 0]:
         panel.set_ylabel(r"linear force over $\mu N$")

@@ -45,6 +45,9 @@ HEADINGS = {
 }
 ESTIMATES = (("Fx", "$F_x$", "$\\mu\\cdot N$"), ("Fy", "$F_y$", "$\\mu\\cdot N$"),
              ("Mz", "$M_z$", "$\\mu\\cdot N c$"))
+# Of each family one resolution, if they are there: dots of all hide each other.
+SHOWN = ("strips 15 + FASTSIM 50x50", "strips 15 + plain 15", "strips 15 + FASTSTRIP 15",
+         "NORM + TANG 18")
 LEAST, MOST = 1e-3, 300.0  # % between which errors are drawn
 FRONT_LEAST, FRONT_MOST = 0.02, 100.0  # the same on the front
 WIDTH = 0.36  # of a column of contacts, of the distance of tolerances
@@ -147,6 +150,7 @@ def draw_promises(axes, solved, target, shares):
 def estimates_figure(judged):
     """Estimates against errors of the forces, one panel a force."""
     known = [each for each in judged.fixed() if not np.isnan(each.estimate["Fx"]).all()]
+    known = [each for each in known if each.method.name in SHOWN] or known
     if not known:
         return None
     figure = style.new_figure(12.0, 4.9)
