@@ -59,7 +59,7 @@ def main(arguments=None):
                         label=r"% of $\mu\cdot N$" + (r"$\sqrt{ab}$" if force == "Mz" else ""))
         axes[1, k].set_xlabel("$a/b$")
     for panel in axes[:, 0]:
-        panel.set_ylabel(r"linear force over $\mu N$")
+        panel.set_ylabel(r"linear force over $\mu\cdot N$")
     style.save(figure, options.output, [revision(table)])
     print(options.output)
 
