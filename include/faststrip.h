@@ -65,10 +65,11 @@ enum faststrip_status {
 
 /* BEGIN methods, written by tools/methods.py */
 enum faststrip_normal {
-    FASTSTRIP_NORMAL_STRIP = 1,        /* strips, for any patch and any number of patches */
-    FASTSTRIP_NORMAL_HERTZ = 2,        /* the Hertz ellipse where the gap is lowest */
-    FASTSTRIP_NORMAL_EQUAL_AREA = 3,   /* patches as ellipses of equal area, proportions of Hertz */
-    FASTSTRIP_NORMAL_EQUAL_MOMENTS = 4 /* the same, proportions of the second moments */
+    FASTSTRIP_NORMAL_STRIP = 1,         /* strips, for any patch and any number of patches */
+    FASTSTRIP_NORMAL_HERTZ = 2,         /* the Hertz ellipse where the gap is lowest */
+    FASTSTRIP_NORMAL_EQUAL_AREA = 3,    /* ellipses of equal area, proportions of Hertz */
+    FASTSTRIP_NORMAL_EQUAL_MOMENTS = 4, /* the same, proportions of the second moments */
+    FASTSTRIP_NORMAL_AUTO = 6           /* both methods, as fine as estimated errors ask */
 };
 
 enum faststrip_tangential {

@@ -41,7 +41,6 @@ GIVEN_FILES = {
     "geometry/wheel_s1002.f90": "the profile of EN 13715",
     "tangential/kalker_table.f90": "Kalker's table, written by tools/kalker_table.py",
     "tangential/force_weights.f90": "a fit, written by tools/force_weights.py",
-    "contact/choice_table.f90": "measured errors, written by tools/choice_table.py",
 }
 PAGE = "docs/constants.md"
 MEASURED = "reference/constants.csv"

@@ -85,7 +85,7 @@ OWN_STAGES = {
     "python": [("installed", FACES[:3])],
     "plots": [("python", ["test/plots"])],
 }
-TABLES = ["test/tools/test_choice_table.py", "test/tools/test_generated_modules.py"]
+TABLES = ["test/tools/test_generated_modules.py"]
 ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),
               ("python", ["test/plots"])]
 # What is linked of what: the beginnings of the names of its sources.

@@ -24,7 +24,7 @@ from pathlib import Path
 from measured import ROOT, Measured, condense, measured_csv  # first: it finds the plots' package
 from pages import FENCE
 
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.tables import InputError
 from faststrip_plots.verdicts import (
     CHAPTERS,
     accepts,
@@ -35,7 +35,6 @@ from faststrip_plots.verdicts import (
 
 MEASURED = "reference/measured.csv"
 MANIFEST = "reference/comparisons.csv"
-CHOICE = "reference/choice_validation.csv"
 PAGE = "docs/validation.md"
 PLACE = re.compile(r"<!-- measured: (?P<name>.*?) -->(?P<text>.*?)<!-- end -->", re.DOTALL)
 
@@ -131,7 +130,6 @@ class Figures:
     def __init__(self, root):
         self.measured = Measured(root / MEASURED)
         self.manifest = read_manifest(str(root / MANIFEST))
-        self.choice = read_table(str(root / CHOICE))
 
     def place(self, name):
         """What stands in a marked place."""
@@ -271,13 +269,6 @@ def certificate_table(figures):
                                         for row in figures.measured.rows("certificate"))])
 
 
-def choice_table(figures):
-    columns = ("target", "tolerance", "contacts", "promised", "met_of_promised", "speedup")
-    cells = [figures.choice.words(name) for name in columns]
-    return table([name.replace("_", " ") for name in columns],
-                 [[column[k] for column in cells] for k in range(len(figures.choice))])
-
-
 def statements_table(figures):
     return table(["verdict", "statements"],
                  [[row, figures.measured.word("statements", row, "count")]
@@ -317,7 +308,6 @@ TABLES = {
     "times": times_table,
     "extremes": extremes_table,
     "certificate": certificate_table,
-    "choice": choice_table,
     "statements": statements_table,
     "stamp": stamp,
 } | {chapter: (lambda figures, own=chapter: verdict_table(figures, own)) for chapter in CHAPTERS}
@@ -358,9 +348,6 @@ SECTIONS = (
     ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
      " core, from nothing (`bench trade`).", "trade"),
-    ("Only what a contact requires",
-     "How often the automatic choice keeps its promise, on the contacts that did not serve to"
-     " calibrate it; `speedup` is against always taking the finest strips.", "choice"),
     ("Influence integral",
      "Geometric means of times over n = 0, 1, 10 and b = 0.02, 0.3, 5 (`bench integral`).",
      "influence"),

@@ -1,122 +1,192 @@
-!> `--normal auto`: the cheapest methods that are expected to meet the user's tolerance.
+!> `--normal auto` beyond the core: what is asked of it, which grid Kalker's methods take where
+!> strips cannot do, and the words about all steps.
 module faststrip_command_auto_stage
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, st_target_missed
+    use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_base_text, only: integer_text
-    use faststrip_geometry_gap_curve, only: gap_curve_t
+    use faststrip_normal_strips, only: contact_strips_t, last_of_patch
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_auto, only: auto_step_t, taken_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
-                                         tangential_method_name, normal_strip, normal_hertz, &
-                                         normal_norm, tangential_fastsim, tangential_none, &
-                                         tangential_tang, gives_elements
-    use faststrip_contact_indicators, only: indicators_t, find_indicators
-    use faststrip_contact_choice, only: choose_methods, target_forces, target_pmax, &
-                                        target_penetration
+    use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
+                                         normal_norm, tangential_none
+    use faststrip_contact_target, only: unknown_error
+    use faststrip_contact_wanted, only: wanted_t, others_t, others_across, others_time, &
+                                        needs_forces, margin, target_area
     use faststrip_kalker_tangential, only: are_alike
-    use faststrip_command_methods, only: numerics_t, targets
+    use faststrip_command_methods, only: numerics_t
     implicit none
     private
 
-    public :: choose
+    public :: wanted_of, grid_step_t, first_grid, next_grid, step_words, grid_words
 
-    ! Elements across the patch where only Kalker's method is good enough.
-    real(wp), parameter :: elements_across = 30.0_wp
+    ! Grids that Kalker's methods are tried on for one contact.
+    integer, parameter :: most_grids = 3
+    ! Strips across where Kalker's methods follow; their own estimate of the area falls slowly.
+    integer, parameter :: most_strips = 41
+    ! What Kalker's methods cost and how wrong they say they are, by target: forces, pmax,
+    ! penetration, area, power; medians of 134 contacts of the families of `force-data`.
+    type(others_t), parameter :: kalker(5) = [ &
+        others_t(one_us=10.0_wp, one=1.3_wp, order=1.8_wp), &
+        others_t(one_us=3.0_wp, over_strips=3.5_wp, order=2.0_wp), &
+        others_t(one_us=3.0_wp, over_strips=2.9_wp, order=2.0_wp), &
+        others_t(one_us=3.0_wp, over_strips=6.4_wp, order=1.3_wp), &
+        others_t(one_us=10.0_wp, one=2.6_wp, order=1.8_wp)]
+    ! Elements across the patch at least, and how many more the next try has at least and at most.
+    real(wp), parameter :: least_across = 8.0_wp, least_growth = 1.4_wp, largest_growth = 3.0_wp
+    ! What is left of a budget, of which so much is planned for a grid of which no time is known.
+    real(wp), parameter :: share_of_budget = 0.6_wp
+    ! Elements of a grid over those in its patches.
+    real(wp), parameter :: surplus = 1.7_wp
+
+    !> A try of Kalker's methods.
+    type :: grid_step_t
+        real(wp) :: across = 0.0_wp     !! elements across the widest patch, either way; 0: no try
+        real(wp) :: dx = 0.0_wp         !! sides of the elements, mm
+        real(wp) :: dy = 0.0_wp         !! the other
+        integer :: tangential = tangential_none  !! method of the forces
+        real(wp) :: estimate = unknown_error     !! of the target's error
+        real(wp) :: us = 0.0_wp         !! its time, us
+        type(status_t) :: status        !! how it ended
+        integer, private :: number = 1  ! of this contact
+        real(wp), private :: most_across = 0.0_wp
+    end type grid_step_t
 
 contains
 
-    !> Choose; `words` say what and why.
-    subroutine choose(numerics, case, curve, with_field, chosen, words, status)
-        type(numerics_t), intent(in) :: numerics  !! normal method auto, target and tolerance
-        type(contact_case_t), intent(in) :: case  !! checked
-        type(gap_curve_t), intent(in) :: curve    !! its gap
-        logical, intent(in) :: with_field         !! are elements wanted?
-        type(numerics_t), intent(out) :: chosen    !! by name
-        character(len=:), allocatable, intent(out) :: words !! for the CSV
-        type(status_t), intent(out) :: status
-            !! of the library; `st_target_missed` where even Kalker's methods cannot help
+    !> What is asked of the core.
+    pure type(wanted_t) function wanted_of(numerics, case) result(wanted)
+        type(numerics_t), intent(in) :: numerics !! normal method auto
+        type(contact_case_t), intent(in) :: case !! its material
 
-        integer, parameter :: numbers(3) = [target_forces, target_pmax, target_penetration]
-        type(indicators_t) :: indicators
-        type(contact_methods_t) :: core
-        real(wp) :: expected
-        integer :: target
+        wanted = numerics%wanted
+        if (wanted%budget_us > 0.0_wp .and. .not. numerics%tolerance_is_given) &
+            wanted%tolerance = 0.0_wp
+        if (needs_forces(wanted%target) .and. .not. are_alike(case%material)) return
+        if (wanted%budget_us > 0.0_wp .and. others_time(kalker(wanted%target), least_across) &
+            > share_of_budget*wanted%budget_us) return
+        wanted%others = kalker(wanted%target)
+        if (wanted%target /= target_area) wanted%most_strips = most_strips
+    end function wanted_of
 
-        words = ''
-        call find_indicators(curve, case, indicators, status)
-        if (is_error(status)) return
-        target = findloc(targets == numerics%target, .true., dim=1)
-        call choose_methods(indicators, numbers(target), numerics%tolerance, core, expected, status)
-        if (is_error(status)) return
-        if (with_field .and. .not. gives_elements(core%tangential)) &
-            core%tangential = tangential_fastsim
-        chosen = numerics
-        chosen%contact_methods_t = core
-        if (status%code == st_target_missed .and. numerics%target == targets(1) .and. &
-            .not. are_alike(case%material)) then
-            words = 'the best there is for unlike materials, expected within ' // percent(expected)
-        else if (status%code == st_target_missed) then
-            status = status_t()
-            call take_kalker(numerics, indicators, chosen)
-            words = 'nothing cheaper is expected to be within ' // percent(numerics%tolerance)
+    !> The first try for a contact that strips cannot do.
+    pure type(grid_step_t) function first_grid(wanted, taken, numerics, normal, strips, spent_us) &
+        result(step)
+        type(wanted_t), intent(in) :: wanted         !! target, tolerance and budget
+        type(taken_t), intent(in) :: taken           !! what the core did
+        type(numerics_t), intent(in) :: numerics     !! most elements
+        type(normal_result_t), intent(in) :: normal  !! the core's figures
+        type(contact_strips_t), intent(in) :: strips !! and strips
+        real(wp), intent(in) :: spent_us             !! its time, us
+
+        real(wp) :: width, across
+        integer :: first, last
+
+        width = 0.0_wp
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = last_of_patch(strips, first)
+            width = max(width, strips%y_right(last) - strips%y_left(first))
+        end do
+        step%most_across = sqrt(numerics%max_elements/surplus*width/(normal%y_max - normal%y_min))
+        across = least_across
+        associate (coarse => taken%steps(max(taken%first, 1)))
+            if (wanted%tolerance > 0.0_wp .and. coarse%estimate < unknown_error) &
+                across = max(across, others_across(wanted, &
+                                                   real(coarse%methods%strips_per_patch, wp), &
+                                                   coarse%estimate))
+        end associate
+        across = min(across, step%most_across)
+        if (wanted%budget_us > 0.0_wp) then
+            across = min(across, sqrt(share_of_budget*max(wanted%budget_us - spent_us, 0.0_wp) &
+                                      /wanted%others%one_us))
+            if (across < least_across) return
+        end if
+        across = real(ceiling(across), wp)
+        step%across = across
+        step%dx = 2.0_wp*normal%x_max/across
+        step%dy = width/across
+    end function first_grid
+
+    !> The next try, on a finer grid; none if it would not help, or not fit.
+    pure type(grid_step_t) function next_grid(wanted, last, spent_us) result(step)
+        type(wanted_t), intent(in) :: wanted  !! target, tolerance and budget
+        type(grid_step_t), intent(in) :: last !! with its estimate
+        real(wp), intent(in) :: spent_us      !! all time so far, us
+
+        real(wp) :: growth
+
+        if (last%estimate >= unknown_error .or. last%number >= most_grids) return
+        growth = min(last%most_across/last%across, largest_growth)
+        if (wanted%tolerance > 0.0_wp) &
+            growth = min(growth, max(least_growth, (last%estimate/(margin*wanted%tolerance)) &
+                                                   **(1.0_wp/wanted%others%order)))
+        if (wanted%budget_us > 0.0_wp) &
+            growth = min(growth, sqrt(max(wanted%budget_us - spent_us, 0.0_wp)/last%us))
+        if (growth < least_growth) return
+        growth = real(ceiling(growth*last%across), wp)/last%across
+        step = last
+        step%number = last%number + 1
+        step%across = growth*last%across
+        step%dx = last%dx/growth
+        step%dy = last%dy/growth
+        step%estimate = unknown_error
+    end function next_grid
+
+    !> A step of the core in words: methods, estimate, time.
+    function step_words(step) result(text)
+        type(auto_step_t), intent(in) :: step !! what was tried
+        character(len=:), allocatable :: text !! for the CSV
+
+        associate (methods => step%methods)
+            text = trim(normal_method_name(methods%normal)) // ' ' &
+                   // integer_text(methods%strips_per_patch)
+            if (methods%tangential /= tangential_none) &
+                text = text // ' + ' // trim(tangential_method_name(methods%tangential)) // ' ' &
+                       // integer_text(methods%points_per_strip)
+        end associate
+        text = text // told(step%estimate, step%normal_us + step%tangential_us)
+    end function step_words
+
+    !> A try of Kalker's methods in words.
+    function grid_words(step) result(text)
+        type(grid_step_t), intent(in) :: step !! what was tried
+        character(len=:), allocatable :: text !! for the CSV
+
+        text = trim(normal_method_name(normal_norm)) // ' ' // integer_text(nint(step%across))
+        if (step%tangential /= tangential_none) &
+            text = text // ' + ' // trim(tangential_method_name(step%tangential))
+        if (is_error(step%status)) then
+            text = text // ': ' // trim(status_word(step%status%code))
         else
-            words = 'expected within ' // percent(expected)
+            text = text // told(step%estimate, step%us)
         end if
-        words = what(chosen) // ': ' // words // ' (misfit ' // short(indicators%misfit) &
-                // ', saturation ' // short(indicators%saturation) // ', share of spin ' &
-                // short(indicators%spin_share) // ')'
-    end subroutine choose
+    end function grid_words
 
-    !> Kalker's variational methods, as fine as the target asks.
-    subroutine take_kalker(numerics, indicators, chosen)
-        type(numerics_t), intent(in) :: numerics
-        type(indicators_t), intent(in) :: indicators
-        type(numerics_t), intent(inout) :: chosen
-
-        chosen%normal = normal_norm
-        if (numerics%target /= targets(1)) then
-            chosen%error_target = numerics%tolerance
-            return
-        end if
-        chosen%tangential = tangential_tang
-        chosen%element_dx = 2.0_wp*indicators%a/elements_across
-        chosen%element_dy = 2.0_wp*indicators%b/elements_across
-    end subroutine take_kalker
-
-    !> Methods and resolutions in words.
-    function what(methods) result(text)
-        class(contact_methods_t), intent(in) :: methods
-        character(len=:), allocatable :: text, tangential
-
-        text = trim(normal_method_name(methods%normal))
-        if (methods%normal == normal_strip) &
-            text = text // ' ' // integer_text(methods%strips_per_patch)
-        if (methods%tangential == tangential_none) return
-        tangential = trim(tangential_method_name(methods%tangential))
-        text = text // ' + ' // tangential
-        if (index(tangential, 'faststrip') == 1) then
-            if (methods%normal == normal_hertz) &
-                text = text // ' ' // integer_text(methods%strips_per_patch)
-            text = text // ' x ' // integer_text(methods%points_per_strip)
-        else if (index(tangential, 'fastsim') == 1) then
-            text = text // ' ' // integer_text(methods%fastsim_nx) // ' x ' &
-                   // integer_text(methods%fastsim_ny)
-        end if
-    end function what
-
-    function percent(value) result(text)
-        real(wp), intent(in) :: value
+    function told(estimate, us) result(text)
+        real(wp), intent(in) :: estimate, us
         character(len=:), allocatable :: text
 
-        text = short(100.0_wp*value) // ' %'
-    end function percent
+        text = ': not known'
+        if (estimate < unknown_error) text = ': ' // short(estimate)
+        text = text // ' in ' // integer_text(nint(us)) // ' us'
+    end function told
 
+    !> A number of two digits that count.
     function short(value) result(text)
         real(wp), intent(in) :: value
         character(len=:), allocatable :: text
 
-        character(len=16) :: buffer
+        real(wp), parameter :: least_plain = 1.0e-6_wp, most_plain = 10.0_wp
+        character(len=24) :: buffer, form
 
-        write (buffer, '(g0.3)') value
+        if (value >= least_plain .and. value < most_plain) then
+            write (form, '(a, i0, a)') '(f12.', 1 - floor(log10(value)), ')'
+        else
+            form = '(es8.1)'
+        end if
+        write (buffer, form) value
         text = trim(adjustl(buffer))
     end function short
 end module faststrip_command_auto_stage

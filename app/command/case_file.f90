@@ -17,6 +17,7 @@ module faststrip_command_case_file
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name
+    use faststrip_contact_wanted, only: target_number, target_names
     use faststrip_command_methods, only: numerics_t, check_numerics, one_of, word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                           find_group, sets, refuse
@@ -39,7 +40,7 @@ module faststrip_command_case_file
         'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
         'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
         'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
-        'target', 'max_elements', 'resolution_limit', 'force_limit']
+        'target', 'budget_us', 'max_elements', 'resolution_limit', 'force_limit']
     character(len=name_length), parameter :: sweep_names(*) = [character(len=name_length) :: &
         'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
 
@@ -228,10 +229,10 @@ contains
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, tolerance, resolution_limit, force_limit
+            error_target, tolerance, budget_us, resolution_limit, force_limit
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, norm_start, tolerance, target, max_elements, &
+            error_target, norm_start, tolerance, target, budget_us, max_elements, &
             resolution_limit, force_limit
         type(group_t) :: group
         type(reading_t) :: reading
@@ -248,9 +249,10 @@ contains
         element_dy_mm = case%numerics%element_dy
         error_target = case%numerics%error_target
         norm_start = case%numerics%norm_start
-        tolerance = case%numerics%tolerance
+        tolerance = case%numerics%wanted%tolerance
+        budget_us = case%numerics%wanted%budget_us
         max_elements = case%numerics%max_elements
-        target = case%numerics%target
+        target = target_names(case%numerics%wanted%target)
         resolution_limit = case%resolution_limit
         force_limit = case%force_limit
         gap_step_mm = standard_gap_step
@@ -278,9 +280,13 @@ contains
         numbers%element_dy = element_dy_mm
         numbers%error_target = error_target
         numbers%norm_start = norm_start
-        numbers%tolerance = tolerance
+        numbers%wanted%tolerance = tolerance
+        numbers%wanted%budget_us = budget_us
+        numbers%tolerance_is_given = sets(content, group, 'tolerance')
         numbers%max_elements = max_elements
-        numbers%target = target
+        numbers%wanted%target = target_number(target)
+        if (numbers%wanted%target == 0) call refuse(content, group, 'target', 'must be ' &
+                                                    // one_of(target_names), trim(target))
         call check_numerics(numbers, what, range, value)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
         case%numerics = numbers

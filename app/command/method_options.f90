@@ -2,12 +2,13 @@
 module faststrip_command_method_options
     use faststrip_normal_strip, only: strips_auto
     use faststrip_command_options, only: command_t, option_t, option_text, option_integer, &
-                                         option_number, option_word
+                                         option_number, option_word, given
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_t, normal_table, tangential_table, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name
-    use faststrip_command_methods, only: numerics_t, norm_starts, targets, most_strips, &
+    use faststrip_contact_wanted, only: target_number, target_names
+    use faststrip_command_methods, only: numerics_t, norm_starts, most_strips, &
                                          most_points, most_points_per_strip, most_elements
     implicit none
     private
@@ -17,7 +18,7 @@ module faststrip_command_method_options
     character(len=*), parameter :: newline = new_line('a')
 
     !> For the table of a subcommand; the names are told by `method_notes`.
-    type(option_t), parameter :: method_options(16) = [ &
+    type(option_t), parameter :: method_options(17) = [ &
         option_t('--normal', 'NAME', 'normal method, one of the above (default strip)'), &
         option_t('--tangential', 'NAME', &
                  'tangential method, one of the above (default faststrip)'), &
@@ -36,7 +37,10 @@ module faststrip_command_method_options
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
-        option_t('--target', 'NAME', 'auto: of forces (default), over mu N, pmax or penetration')]
+        option_t('--target', 'NAME', &
+                 'auto: of forces (default), over mu N, pmax, penetration, area or power'), &
+        option_t('--budget-us', 'US', 'auto: the best in that time; goes before the default' &
+                 // ' tolerance')]
 
 contains
 
@@ -90,8 +94,13 @@ contains
                                               least=1, most=most_elements)
         numerics%smoothing_um = option_number(command, '--smooth', numerics%smoothing_um, &
                                              least=0)
-        numerics%tolerance = option_number(command, '--tolerance', numerics%tolerance, above=0)
-        numerics%target = option_word(command, '--target', trim(numerics%target), targets)
+        numerics%wanted%tolerance = option_number(command, '--tolerance', &
+                                                  numerics%wanted%tolerance, above=0)
+        if (given(command, '--tolerance')) numerics%tolerance_is_given = .true.
+        numerics%wanted%target = target_number(option_word( &
+            command, '--target', trim(target_names(numerics%wanted%target)), target_names))
+        numerics%wanted%budget_us = option_number(command, '--budget-us', &
+                                                  numerics%wanted%budget_us, above=0)
         numerics%element_dx = option_number(command, '--element-dx', numerics%element_dx, &
                                            above=0)
         numerics%element_dy = option_number(command, '--element-dy', numerics%element_dy, &

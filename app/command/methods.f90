@@ -10,21 +10,19 @@ module faststrip_command_methods
                                          tangential_table, normal_strip, tangential_none, &
                                          method_name_length, most_strips, &
                                          most_points => most_rows
+    use faststrip_contact_wanted, only: wanted_t
     implicit none
     private
 
     public :: numerics_t, check_numerics, one_of, core_methods, in_core
     public :: most_strips, most_points, most_points_per_strip, most_elements
-    public :: word_length, norm_starts, targets
+    public :: word_length, norm_starts
 
     !> Length of a word of the case file, characters.
     integer, parameter :: word_length = method_name_length
     !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']
-    !> Whose error the tolerance of auto is about.
-    character(len=word_length), parameter :: targets(3) = [character(len=word_length) :: &
-        'forces', 'pmax', 'penetration']
     !> Most elements of a grid of norm or tang, unless the user says otherwise: solved within about
     !> five seconds on one core; the time grows with their number.
     integer, parameter :: standard_max_elements = 1000000
@@ -39,8 +37,8 @@ module faststrip_command_methods
         real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
         integer :: max_elements = standard_max_elements !! of a grid, norm, tang
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
-        real(wp) :: tolerance = 0.02_wp  !! largest error wanted of auto
-        character(len=word_length) :: target = 'forces' !! one of `targets`
+        type(wanted_t) :: wanted = wanted_t() !! of auto: target, tolerance, budget
+        logical :: tolerance_is_given = .false. !! else it does not count beside a budget
     end type numerics_t
 
 contains
@@ -57,7 +55,6 @@ contains
         range = ''
         value = ''
         call check_word('norm_start', numerics%norm_start, norm_starts)
-        call check_word('target', numerics%target, targets)
         if (numerics%strips_per_patch /= strips_auto) &
             call check('strips_per_patch', numerics%strips_per_patch, 1, most_strips)
         call check('points_per_strip', numerics%points_per_strip, 1, most_points_per_strip)
@@ -68,7 +65,8 @@ contains
         call check_real('element_dy_mm', numerics%element_dy, .false.)
         call check_real('error_target', numerics%error_target, .true.)
         call check_real('smoothing_um', numerics%smoothing_um, .true.)
-        call check_real('tolerance', numerics%tolerance, .false.)
+        call check_real('tolerance', numerics%wanted%tolerance, numerics%wanted%budget_us > 0.0_wp)
+        call check_real('budget_us', numerics%wanted%budget_us, .true.)
 
     contains
 

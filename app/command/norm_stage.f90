@@ -6,7 +6,7 @@ module faststrip_command_norm_stage
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strip, only: strips_auto
-    use faststrip_normal_strips, only: reserve_strips
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_curve, norm_solve_demand
     use faststrip_kalker_grid, only: contact_grid_t
@@ -52,7 +52,7 @@ contains
 
     !> Solve the normal problem, from a coarser grid or from strips; if these fail, from the
     !> coarser grid.
-    subroutine solve_by_norm(stage, numerics, case, curve, normal, certificate, status)
+    subroutine solve_by_norm(stage, numerics, case, curve, normal, certificate, status, strips)
         type(norm_stage_t), intent(inout) :: stage   !! reserved for the gap
         type(numerics_t), intent(in) :: numerics     !! sides of the elements, what to start from
         type(contact_case_t), intent(in) :: case     !! material, load or penetration
@@ -60,6 +60,7 @@ contains
         type(normal_result_t), intent(out) :: normal !! figures
         type(certificate_t), intent(out) :: certificate !! residuals, and errors if estimated
         type(status_t), intent(out) :: status        !! of `norm_solve`
+        type(contact_strips_t), intent(in), optional :: strips !! for the coarser grid to start from
 
         type(norm_options_t) :: options
 
@@ -69,16 +70,20 @@ contains
         options%dy = numerics%element_dy
         options%error_target = numerics%error_target
         options%most_elements = numerics%max_elements
-        if (numerics%norm_start == 'strips') then
-            call solve_start(stage, case, curve)
+        if (present(strips)) then
+            call norm_solve_demand(stage%workspace, normal_compliance(case%material), &
+                                   case%demand_t, options, normal, status, strips, tell_of_grid)
         else
-            stage%start%strips%n = 0
+            if (numerics%norm_start == 'strips') then
+                call solve_start(stage, case, curve)
+                options%two_levels = stage%start%strips%n == 0
+            else
+                stage%start%strips%n = 0
+            end if
+            call norm_solve_demand(stage%workspace, normal_compliance(case%material), &
+                                   case%demand_t, options, normal, status, stage%start%strips, &
+                                   tell_of_grid)
         end if
-        if (numerics%norm_start == 'strips') &
-            options%two_levels = stage%start%strips%n == 0
-        call norm_solve_demand(stage%workspace, normal_compliance(case%material), &
-                               case%demand_t, options, normal, status, stage%start%strips, &
-                               tell_of_grid)
         if (.not. is_error(status)) certificate = stage%workspace%certificate
     end subroutine solve_by_norm
 

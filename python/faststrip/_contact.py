@@ -44,8 +44,9 @@ Array = npt.NDArray[np.float64]
 NORMAL = {
     "strip": 1,           # strips, for any patch and any number of patches
     "hertz": 2,           # the Hertz ellipse where the gap is lowest
-    "equal_area": 3,      # patches as ellipses of equal area, proportions of Hertz
+    "equal_area": 3,      # ellipses of equal area, proportions of Hertz
     "equal_moments": 4,   # the same, proportions of the second moments
+    "auto": 6,            # both methods, as fine as estimated errors ask
 }
 TANGENTIAL = {
     "none": 0,                  # no forces

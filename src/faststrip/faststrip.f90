@@ -74,6 +74,10 @@ module faststrip
                                        reserve_workspace, reserve_contact_field, &
                                        set_contact_gap, solve_contact, solve_contact_normal, &
                                        solve_contact_tangential, most_gap_points
+    use faststrip_contact_wanted, only: wanted_t, target_number, target_names, target_forces, &
+                                        target_pmax, target_penetration, target_area, &
+                                        target_power
+    use faststrip_contact_auto, only: solve_contact_auto, taken_t, auto_step_t
     implicit none
     public
 end module faststrip

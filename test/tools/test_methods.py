@@ -67,7 +67,7 @@ class Methods(unittest.TestCase):
     def test_methods_outside_the_core_are_not_told_to_its_hosts(self):
         listed = methods.read_methods(self.read(methods.LIST))
         outside = [m.name for part in listed.values() for m in part if not m.in_core]
-        self.assertEqual(outside, ["norm", "auto", "tang"])
+        self.assertEqual(outside, ["norm", "tang"])
         for name in outside:
             self.assertNotIn(f'"{name}":', self.read("python/faststrip/_contact.py"))
             self.assertNotRegex(self.read("include/faststrip.h"),

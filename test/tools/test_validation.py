@@ -76,8 +76,7 @@ class InACopy(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
-                     validation.CHOICE):
+        for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST):
             (self.root / name).parent.mkdir(exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         shutil.copytree(ROOT / "docs", self.root / "docs")
@@ -122,7 +121,7 @@ class InACopy(unittest.TestCase):
         path = self.root / validation.MANIFEST
         rows = path.read_text(encoding="utf-8")
         last = rows.splitlines()[-1]
-        path.write_text(rows + last.replace("auto-promises-kept", "new-one") + "\n",
+        path.write_text(rows + last.replace("norm-0.2mm-pmax", "new-one") + "\n",
                         encoding="utf-8")
         run("--root", self.root)
         page = (self.root / validation.PAGE).read_text(encoding="utf-8")

@@ -80,7 +80,7 @@ contains
         select case (m)
         case (1)
             numerics%normal = normal_auto
-            numerics%tolerance = never_met
+            numerics%wanted%tolerance = never_met
         case (2)
             numerics%normal = normal_hertz
             numerics%tangential = tangential_linear

@@ -5,6 +5,7 @@ module faststrip_lab_bench_method_list
     use faststrip_files_csv, only: csv_table_t, read_csv, require_column, column_index, cell_text, &
                                    cell_integer, cell_number
     use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
+    use faststrip_contact_wanted, only: target_number, target_names
     use faststrip_command_methods, only: numerics_t, check_numerics, one_of
     use faststrip_contact_methods, only: normal_method, tangential_method, normal_table, &
                                          tangential_table
@@ -109,10 +110,13 @@ contains
                 if (entry%across < 2) &
                     call refuse('across', 'a whole number from 2 on', further('across'))
             end if
-            if (further('target') /= '') entry%numerics%target = further('target')
+            if (further('target') /= '') &
+                entry%numerics%wanted%target = target_number(further('target'))
+            if (entry%numerics%wanted%target == 0) &
+                call refuse('target', one_of(target_names), further('target'))
             if (further('tolerance') == '') return
             column = column_index(table, 'tolerance')
-            call cell_number(table, row, column, entry%numerics%tolerance, status)
+            call cell_number(table, row, column, entry%numerics%wanted%tolerance, status)
             call fail_on_error(status)
         end subroutine take_wanted
 

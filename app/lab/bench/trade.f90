@@ -62,7 +62,6 @@ contains
         call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
                                   'normal', 'tangential', 'status', 'us'], &
                                  [character(len=15) :: 'err_' // figure_names], &
-                                 [character(len=15) :: 'misfit', 'saturation', 'spin_share'], &
                                  [character(len=15) :: cpu_columns]])
         call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
         do i = 1, size(entries)
@@ -144,9 +143,6 @@ contains
                         call put_cell(writer, '')
                     end if
                 end do
-                call put_cell(writer, case%indicators%misfit)
-                call put_cell(writer, case%indicators%saturation)
-                call put_cell(writer, case%indicators%spin_share)
                 do figure = 1, size(times)
                     if (runs == 0) then
                         call put_cell(writer, '')

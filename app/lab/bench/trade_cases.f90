@@ -7,10 +7,8 @@ module faststrip_lab_bench_trade_cases
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
-    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_files_gap, only: read_gap_file
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_indicators, only: indicators_t, find_indicators
     use faststrip_lab_bench_cases, only: read_columns
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
@@ -29,7 +27,6 @@ module faststrip_lab_bench_trade_cases
         character(len=:), allocatable :: name !! its name there
         real(wp) :: truth(n_figures) = 0.0_wp !! as `figure_names`: mm, MPa, mm2, N, N, N mm
         logical :: area_counts = .true.       !! is the area known better than to an element?
-        type(indicators_t) :: indicators      !! what is told before solving
     end type trade_case_t
 
     integer, parameter :: hertz_points = 401
@@ -64,8 +61,6 @@ contains
             cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))
             cases(i)%truth = values(i, 5:10)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
-            if (is_error(status)) return
-            call tell(cases(i), status)
             if (is_error(status)) return
         end do
     end subroutine read_wheelset_cases
@@ -112,8 +107,6 @@ contains
                     case%gap%inv2r(k) = inv2r_x
                 end do
             end associate
-            call tell(cases(i), status)
-            if (is_error(status)) return
         end do
     end subroutine read_hertz_cases
 
@@ -146,8 +139,6 @@ contains
             cases(i)%truth = values(i, 5:10)
             cases(i)%area_counts = .false.
             cases(i)%gap = scene%gap
-            call tell(cases(i), status)
-            if (is_error(status)) return
         end do
     end subroutine read_scene_cases
 
@@ -169,18 +160,4 @@ contains
         inv2r_y = merge(across, along, a >= b)
         penetration = 1.5_wp*load_compliance*k/long
     end subroutine ellipse_gap
-
-    !> Fill the indicators in.
-    subroutine tell(case, status)
-        type(trade_case_t), intent(inout) :: case
-        type(status_t), intent(out) :: status
-
-        type(gap_curve_t) :: curve
-
-        call reserve_gap_curve(curve, size(case%gap%y), status)
-        if (is_error(status)) return
-        call set_gap_curve(curve, case%gap, status)
-        if (is_error(status)) return
-        call find_indicators(curve, case%contact_case_t, case%indicators, status)
-    end subroutine tell
 end module faststrip_lab_bench_trade_cases

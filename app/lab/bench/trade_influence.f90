@@ -88,9 +88,6 @@ contains
                         call put_cell(writer, '')
                     end do
                 end if
-                call put_cell(writer, cases(i)%indicators%misfit)
-                call put_cell(writer, cases(i)%indicators%saturation)
-                call put_cell(writer, cases(i)%indicators%spin_share)
                 do k = 1, size(us, 1)
                     if (is_error(status(m))) then
                         call put_cell(writer, '')

@@ -30,19 +30,19 @@ module faststrip_contact_methods
 
     ! Numbers of the methods, from the tables below; written by tools/methods.py.
     ! BEGIN methods
-    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments
+    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments, normal_auto
     integer, parameter :: normal_strip = 1
         !! strips, for any patch and any number of patches
     integer, parameter :: normal_hertz = 2
         !! the Hertz ellipse where the gap is lowest
     integer, parameter :: normal_equal_area = 3
-        !! patches as ellipses of equal area, proportions of Hertz
+        !! ellipses of equal area, proportions of Hertz
     integer, parameter :: normal_equal_moments = 4
         !! the same, proportions of the second moments
+    integer, parameter :: normal_auto = 6
+        !! both methods, as fine as estimated errors ask
     integer, parameter, public :: normal_norm = 5
         !! NORM, Kalker's variational method: the reference
-    integer, parameter, public :: normal_auto = 6
-        !! both methods, the cheapest expected to do
     public :: tangential_none, tangential_faststrip, tangential_fastsim, &
               tangential_faststrip_paper, tangential_faststrip_corrected, &
               tangential_fastsim_elliptic, tangential_fastsim_weighted, tangential_linear, &
@@ -85,13 +85,13 @@ module faststrip_contact_methods
         method_t(2, 'hertz', needs='an ellipse', &
                  help='the Hertz ellipse where the gap is lowest'), &
         method_t(3, 'equal_area', needs='LAPACK', &
-                 help='patches as ellipses of equal area, proportions of Hertz'), &
+                 help='ellipses of equal area, proportions of Hertz'), &
         method_t(4, 'equal_moments', needs='LAPACK', &
                  help='the same, proportions of the second moments'), &
         method_t(5, 'norm', needs='FFTW', in_core=.false., &
                  help='NORM, Kalker''s variational method: the reference'), &
-        method_t(6, 'auto', needs='FFTW', in_core=.false., &
-                 help='both methods, the cheapest expected to do')]
+        method_t(6, 'auto', needs='LAPACK', &
+                 help='both methods, as fine as estimated errors ask')]
 
     !> The tangential methods, in the order that people see.
     type(method_t), parameter :: tangential_table(*) = [ &

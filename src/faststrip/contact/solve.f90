@@ -42,7 +42,8 @@ module faststrip_contact_solve
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
-                                         normal_strip, normal_equal_area, tangential_none, &
+                                         normal_strip, normal_auto, normal_equal_area, &
+                                         tangential_none, &
                                          tangential_faststrip, tangential_faststrip_plain, &
                                          tangential_faststrip_paper, &
                                          tangential_faststrip_corrected, tangential_fastsim, &
@@ -96,13 +97,17 @@ module faststrip_contact_solve
         type(contact_strips_t) :: strips  !! of the last contact
         type(hertz_t) :: hertz            !! of the last contact, if by Hertz
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
+        type(contact_strips_t) :: best_strips !! of the best step so far of `solve_contact_auto`
+        integer :: first_strips = 0
+            !! strips that the last contact of `solve_contact_auto` needed, 0: there was none
     end type workspace_t
 
 contains
 
     !> Allocate for the methods and for gaps of up to `max_points` points: the only allocation.
     !>
-    !> A workspace with capacity for strips serves every normal method up to its number of strips.
+    !> A workspace with capacity for strips serves every normal method up to its number of strips;
+    !> one for `normal_auto` has capacity for as many as `solve_contact_auto` may take.
     subroutine reserve_workspace(workspace, methods, max_points, status)
         type(workspace_t), intent(inout) :: workspace  !! sized
         type(contact_methods_t), intent(in) :: methods !! what will be asked of it
@@ -134,6 +139,8 @@ contains
         deallocate (trial)
         workspace%solved_by = 0
         call reserve_strips(workspace%strips, capacity, status)
+        if (.not. is_error(status) .and. methods%normal == normal_auto) &
+            call reserve_strips(workspace%best_strips, capacity, status)
         if (is_error(status)) return
         if (methods%normal == normal_hertz) then
             call reserve_gap_curve(workspace%solver%curve, max_points, status)
@@ -151,7 +158,7 @@ contains
 
         real(wp), allocatable :: trial(:)
         integer(int64) :: elements
-        integer :: failure
+        integer :: failure, points
 
         call check_contact_methods(methods, status)
         if (is_error(status)) return
@@ -161,7 +168,9 @@ contains
                             // 'only, no tractions element by element')
             return
         end if
-        elements = max(int(strip_capacity(methods), int64)*methods%points_per_strip, &
+        points = methods%points_per_strip
+        if (methods%normal == normal_auto) points = max(points, strips_auto_most)
+        elements = max(int(strip_capacity(methods), int64)*points, &
                        int(methods%fastsim_nx, int64)*methods%fastsim_ny*most_patches)
         failure = 1
         if (elements < huge(failure)) allocate (trial(9*elements), stat=failure)
@@ -290,29 +299,34 @@ contains
 
     !> How wrong forces on the workspace's normal solution are, for who asks for the parts of a
     !> solution.
-    subroutine estimate_contact_forces(workspace, case, certificate, errors, is_estimated, status)
+    subroutine estimate_contact_forces(workspace, case, certificate, errors, is_estimated, status, &
+                                       finer)
         type(workspace_t), intent(in) :: workspace      !! with a solution by strips or by Hertz
         type(contact_case_t), intent(in) :: case        !! what was solved, by which method
         type(certificate_t), intent(in) :: certificate  !! of the normal solution
         type(force_errors_t), intent(out) :: errors     !! of the forces
         logical, intent(out) :: is_estimated            !! is that known?
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+        real(wp), intent(in), optional :: finer
+            !! what would be estimated of so many times as many strips; see `estimate_force_errors`
 
         type(environment_t) :: environment
 
         call hold_environment(environment)
-        call estimate_forces(workspace, case, certificate, errors, is_estimated, status)
+        call estimate_forces(workspace, case, certificate, errors, is_estimated, status, &
+                             finer)
         call restore_environment(environment)
     end subroutine estimate_contact_forces
 
     !> How wrong the forces are; methods that are no march in a patch have no estimate.
-    subroutine estimate_forces(workspace, case, certificate, errors, is_estimated, status)
+    subroutine estimate_forces(workspace, case, certificate, errors, is_estimated, status, finer)
         type(workspace_t), intent(in) :: workspace
         type(contact_case_t), intent(in) :: case
         type(certificate_t), intent(in) :: certificate
         type(force_errors_t), intent(out) :: errors
         logical, intent(out) :: is_estimated
         type(status_t), intent(inout) :: status
+        real(wp), intent(in), optional :: finer
 
         type(status_t) :: estimate
         integer :: method, points
@@ -333,11 +347,11 @@ contains
         if (workspace%solved_by == normal_hertz) then
             ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
             call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
-                                       method, points, certificate_t(), errors, estimate)
+                                       method, points, certificate_t(), errors, estimate, finer)
             if (.not. is_error(estimate)) call add_shape_errors(workspace, case, errors, estimate)
         else
             call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
-                                       method, points, certificate, errors, estimate)
+                                       method, points, certificate, errors, estimate, finer)
         end if
         is_estimated = .not. is_error(estimate)
         if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
@@ -368,6 +382,11 @@ contains
         is_estimated = .false.
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
+        if (case%methods%normal == normal_auto) then
+            call set_status(status, st_bad_argument, &
+                            'normal method auto is for solve_contact_auto')
+            return
+        end if
         call check_resolution(case%resolution_limit, 'the resolution limit', status)
         if (is_error(status)) return
         call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
@@ -603,7 +622,7 @@ contains
         type(contact_methods_t), intent(in) :: methods
 
         strip_capacity = 2*methods%strips_per_patch + spare_strips
-        if (methods%strips_per_patch == strips_auto) &
+        if (methods%strips_per_patch == strips_auto .or. methods%normal == normal_auto) &
             strip_capacity = 2*strips_auto_most + spare_strips
     end function strip_capacity
 end module faststrip_contact_solve

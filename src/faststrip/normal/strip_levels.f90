@@ -105,7 +105,7 @@ contains
         if (options%warm_start .and. workspace%old%n > 0) then
             start = from_last_solution
             call resume_patches(workspace, demand, settling%patches, settling%penetration)
-            level = merge(plan%first_counted, plan%n, plan%is_auto)
+            level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
         end if
         n_settled = 0
         do while (level <= plan%n)
@@ -150,6 +150,17 @@ contains
         ! What did not settle is no start for the next solution.
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
+
+    !> The level that a solution is near enough to be the start of.
+    pure integer function warm_level(plan, strips)
+        type(plan_t), intent(in) :: plan
+        integer, intent(in) :: strips ! across the patch of the solution that has most
+
+        warm_level = plan%first_counted
+        if (plan%is_auto) return
+        warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips, .true., dim=1, &
+                                    back=.true.))
+    end function warm_level
 
     !> What a level of the plan asks for.
     pure type(level_t) function level_of(plan, level, start, tolerance)

@@ -7,7 +7,7 @@ module faststrip_normal_strips
     implicit none
     private
 
-    public :: contact_strips_t, reserve_strips, mirror_strips, strip_load, strips_load
+    public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips, strip_load, strips_load
     public :: starts_patch, first_of_patch, last_of_patch
 
     !> Contact patches cut into strips along the rolling direction x, each with the pressure
@@ -47,6 +47,22 @@ contains
                   strips%half_length(capacity), strips%p0(capacity), source=0.0_wp)
         allocate (strips%patch(capacity), source=0)
     end subroutine reserve_strips
+
+    !> Copy strips into others that have the capacity.
+    pure subroutine copy_strips(from, to)
+        type(contact_strips_t), intent(in) :: from  !! a normal solution
+        type(contact_strips_t), intent(inout) :: to !! reserved for as many strips
+
+        associate (n => from%n)
+            to%n = n
+            to%n_patches = from%n_patches
+            to%y_left(:n) = from%y_left(:n)
+            to%y_right(:n) = from%y_right(:n)
+            to%half_length(:n) = from%half_length(:n)
+            to%p0(:n) = from%p0(:n)
+            to%patch(:n) = from%patch(:n)
+        end associate
+    end subroutine copy_strips
 
     !> Mirror strips, y to -y.
     pure subroutine mirror_strips(strips)

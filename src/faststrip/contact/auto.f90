@@ -1,0 +1,633 @@
+!> Only the model a contact requires: solve cheaply, read the estimated errors, refine what they say
+!> is missing, stop when the estimate of what is wanted meets the tolerance.
+!>
+!> Hertz is taken where the gap is near enough to a parabola for its error to be estimated; else a
+!> few strips find the patches and more start from them. The estimate says how many: it falls with a
+!> power of their number, to what the method itself is wrong by, which more strips do not help. What
+!> strips cannot meet ends in `st_target_missed`, as near as they come, or is left to who follows.
+!> Methods whose errors are not estimated are never taken.
+!>
+!> A workspace that was reserved for `normal_auto` is enough; nothing is allocated.
+module faststrip_contact_auto
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_workspace_too_small, st_more_strips, st_fewer_strips
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_geometry_gap_curve, only: gap_curve_t, set_gap_curve, copy_gap_curve
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_limitations, only: check_resolution
+    use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
+    use faststrip_tangential_force_errors, only: estimate_force_errors, &
+                                                 errors_of_fitted
+    use faststrip_tangential_types, only: tangential_field_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_strip, &
+                                         normal_hertz, tangential_none, tangential_faststrip
+    use faststrip_contact_solve, only: workspace_t, contact_result_t, solve_contact_normal, &
+                                       solve_contact_tangential, estimate_contact_forces
+    use faststrip_contact_target, only: target_error, name_target, unknown_error
+    use faststrip_contact_wanted, only: wanted_t, check_wanted, needs_forces, margin, &
+                                        others_across, others_time
+    implicit none
+    private
+
+    public :: auto_step_t, taken_t, solve_contact_auto
+    public :: most_steps
+
+    !> Most steps of one contact.
+    !> Tuned [steps]. Origin: safeguard: the estimate leads there in three.
+    integer, parameter :: most_steps = 8
+
+    ! Tuned [strips]: Strips that find the patches. Origin: time: fewer are no cheaper.
+    integer, parameter :: first_strips = 5
+    ! Tuned [strips]: Strips of a Hertz ellipse, which cost next to nothing. Origin: as
+    ! strips_per_patch.
+    integer, parameter :: hertz_strips = 15
+    ! Tuned [points]: Least points along a strip. Origin: as points_per_strip; they are cheap.
+    integer, parameter :: least_points = 15
+    ! Tuned [power]: Power of the number of strips by which estimates fall, where nothing else is
+    ! known, and its bounds where two steps tell it. Origin: measured on 200 contacts, 5 to 31
+    ! strips: 1.9 for pmax, 2.1 for the penetration, 1.7 for the area; next to none at kinks.
+    real(wp), parameter :: usual_order = 1.9_wp, least_order = 0.2_wp, largest_order = 2.5_wp
+    ! Tuned [1]: As near as this part to what the method itself is wrong by is near enough. Origin:
+    ! chosen.
+    real(wp), parameter :: near = 0.1_wp
+    ! Tuned [1]: Factor of the number of strips of a step at least. Origin: chosen for the time.
+    real(wp), parameter :: least_growth = 1.3_wp
+    ! Tuned [1]: Factor of the number of strips of a step at most: what few strips tell of many more
+    ! is little. Origin: measured on contacts with waves and kinks.
+    real(wp), parameter :: largest_growth = 5.0_wp
+    ! Tuned [1]: Estimated error of the area up to which a Hertz ellipse tells others how large the
+    ! contact is. Origin: chosen.
+    real(wp), parameter :: nearly_ellipse = 0.2_wp
+    ! Tuned [power]: Power of the number of strips by which their time grows. Origin: measured, 1.3
+    ! from 5 to 15 strips, 1.6 from 15 to 31, 2.5 from there to 47.
+    real(wp), parameter :: time_order = 1.6_wp
+    ! Tuned [us]: Time of strips by what they cost: always, of a step, of an influence number with
+    ! or without derivatives; of the estimate for a pair of strips. Origin: 58 contacts with 5 to 61
+    ! strips, of which nine in ten are within a third. Counts tell it alike on every machine,
+    ! however busy.
+    real(wp), parameter :: always_us = 40.0_wp, step_us = 3.6_wp, number_us = 0.058_wp, &
+                           pair_us = 0.36_wp
+    ! Tuned [1]: Time of the first strips over that of an ellipse. Origin: measured.
+    real(wp), parameter :: strips_over_ellipse = 8.0_wp
+    ! Given: microseconds of a second.
+    real(wp), parameter :: us_per_second = 1.0e6_wp
+
+    !> One solution on the way.
+    type :: auto_step_t
+        type(contact_methods_t) :: methods        !! with the resolutions that were used
+        real(wp) :: estimate = unknown_error      !! of the target's error; `unknown_error`
+        real(wp) :: normal_us = 0.0_wp            !! time of the normal problem and its estimates
+        real(wp) :: tangential_us = 0.0_wp        !! of the tangential problem and its estimates
+    end type auto_step_t
+
+    !> What was tried, and what came of it.
+    type :: taken_t
+        integer :: n = 0                         !! steps
+        integer :: first = 0                     !! the first of them by strips, 0: none
+        real(wp) :: first_across = 0.0_wp
+            !! strips across the widest patch of it, if all were as narrow as those of the narrowest
+        type(auto_step_t) :: steps(most_steps)   !! the first `n`, in their order
+        integer :: best = 0                      !! the step whose solution is the result
+        real(wp) :: estimate = unknown_error     !! of the target's error, of that step
+        logical :: is_met = .false.              !! is it within the tolerance?
+    end type taken_t
+
+    !> How the estimate falls with the number of strips: to `least`, and the rest with a power.
+    type :: fall_t
+        integer :: normal = 0                    ! method
+        real(wp) :: across = 0.0_wp              ! strips
+        real(wp) :: estimate = unknown_error     ! with them
+        real(wp) :: least = 0.0_wp               ! what more strips do not help
+        real(wp) :: order = usual_order          ! the power
+        real(wp) :: us = 0.0_wp                  ! time that such a solution takes
+    end type fall_t
+
+    !> Where the search is.
+    type :: search_t
+        type(wanted_t) :: wanted
+        type(contact_case_t) :: case             ! without a gap, by the methods of the step
+        type(contact_result_t) :: last, best     ! figures
+        type(status_t) :: last_status, best_status
+        integer :: best_solved_by = 0
+        logical :: is_best = .false.             ! is the best in the workspace?
+        type(fall_t) :: before                   ! of the step before, if by the same normal method
+        real(wp) :: idle_us = 0.0_wp             ! of what gave no step
+        integer(int64) :: began = 0
+    end type search_t
+
+contains
+
+    !> Solve a contact as well as is wanted.
+    !>
+    !> Of the case's methods only the tangential one counts, where the target does not need forces:
+    !> they are computed by it on the solution that is taken; else the march takes its place.
+    !> `case%force_limit`, or `case%resolution_limit` where the target is no force, counts where no
+    !> tolerance is given. With an error there is no result.
+    subroutine solve_contact_auto(workspace, case, wanted, result, taken, status, field, curve)
+        type(workspace_t), intent(inout) :: workspace !! reserved for `normal_auto`
+        type(contact_case_t), intent(in) :: case      !! what to solve
+        type(wanted_t), intent(in) :: wanted          !! and how well
+        type(contact_result_t), intent(out) :: result !! figures
+        type(taken_t), intent(out) :: taken           !! the steps
+        type(status_t), intent(out) :: status
+            !! those of `check_wanted` and `solve_contact`; `st_workspace_too_small`: not reserved
+            !! for `normal_auto`; limitation `st_target_missed`
+        type(tangential_field_t), intent(inout), optional :: field
+            !! elements, if wanted; see `reserve_contact_field`
+        type(gap_curve_t), intent(in), optional :: curve !! its gap, set already; not set again
+
+        type(environment_t) :: environment
+        type(search_t) :: search
+
+        search%began = now()
+        workspace%solved_by = 0
+        if (present(field)) field%n = 0
+        call check_case(workspace, case, wanted, status)
+        if (is_error(status)) return
+        call hold_environment(environment)
+        if (present(curve)) then
+            call copy_gap_curve(curve, workspace%solver%curve, status)
+        else if (allocated(case%gap%y)) then
+            call set_gap_curve(workspace%solver%curve, case%gap, status)
+        end if
+        if (.not. is_error(status)) then
+            call begin_search(case, wanted, search)
+            call climb(search, workspace, case%warm_start, taken, status)
+        end if
+        if (.not. is_error(status)) call finish(search, workspace, case, taken, status, field)
+        if (is_error(status)) then
+            workspace%solved_by = 0
+            if (present(field)) field%n = 0
+        else
+            result = search%best
+        end if
+        call restore_environment(environment)
+    end subroutine solve_contact_auto
+
+    !> Refuse what cannot be solved.
+    subroutine check_case(workspace, case, wanted, status)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(wanted_t), intent(in) :: wanted
+        type(status_t), intent(out) :: status
+
+        logical :: is_reserved
+
+        call check_wanted(wanted, case%methods%tangential, status)
+        if (.not. is_error(status)) call check_contact_methods(case%methods, status)
+        if (.not. is_error(status)) &
+            call check_resolution(case%resolution_limit, 'the resolution limit', status)
+        if (is_error(status)) return
+        is_reserved = allocated(workspace%best_strips%p0) .and. allocated(workspace%strips%p0)
+        if (is_reserved) is_reserved = size(workspace%strips%p0) >= size(workspace%best_strips%p0)
+        if (.not. is_reserved) call set_status(status, st_workspace_too_small, &
+            'the workspace was not reserved for normal method auto')
+    end subroutine check_case
+
+    !> A case for the steps.
+    subroutine begin_search(case, wanted, search)
+        type(contact_case_t), intent(in) :: case
+        type(wanted_t), intent(in) :: wanted
+        type(search_t), intent(inout) :: search
+
+        search%wanted = wanted
+        search%case%demand_t = case%demand_t
+        search%case%material = case%material
+        search%case%mu = case%mu
+        search%case%creepage = case%creepage
+        ! What is under resolved for the target is told in the end.
+        search%case%resolution_limit = huge(1.0_wp)
+        search%case%force_limit = huge(1.0_wp)
+    end subroutine begin_search
+
+    !> Take steps until the estimate is met or nothing more would help.
+    subroutine climb(search, workspace, warm_start, taken, status)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        logical, intent(in) :: warm_start
+        type(taken_t), intent(inout) :: taken
+        type(status_t), intent(inout) :: status
+
+        integer :: n
+
+        call try_ellipse(search, workspace, taken)
+        if (taken%is_met .or. is_left(search, workspace, taken) &
+            .or. is_spent(search, taken)) return
+        n = first_strips
+        if (warm_start .and. workspace%first_strips > 0) n = workspace%first_strips
+        n = min(n, search%wanted%most_strips)
+        search%case%warm_start = warm_start
+        do
+            call solve_step(search, workspace, normal_strip, n, taken, status)
+            if (is_error(status) .and. taken%n > 0) then
+                ! What was found before stands.
+                call clear_status(status)
+                return
+            end if
+            if (is_error(status) .or. taken%is_met .or. taken%n == most_steps) return
+            search%case%warm_start = .true.
+            n = next_strips(search, workspace, taken)
+            if (n == 0) return
+        end do
+    end subroutine climb
+
+    !> Take the Hertz ellipse, with more strips if they are all that is missing, where its error is
+    !> estimated.
+    subroutine try_ellipse(search, workspace, taken)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        type(taken_t), intent(inout) :: taken
+
+        type(status_t) :: status
+        integer :: n
+
+        n = hertz_strips
+        do while (n > 0 .and. taken%n < 2)
+            call solve_step(search, workspace, normal_hertz, n, taken, status)
+            if (is_error(status) .or. taken%n == 0 .or. taken%is_met) return
+            n = next_strips(search, workspace, taken)
+        end do
+    end subroutine try_ellipse
+
+    !> Is it known after an ellipse that strips cannot do, and is somebody there to follow?
+    logical function is_left(search, workspace, taken)
+        type(search_t), intent(in) :: search
+        type(workspace_t), intent(in) :: workspace
+        type(taken_t), intent(in) :: taken
+
+        is_left = .false.
+        if (taken%n == 0 .or. search%wanted%others%one_us <= 0.0_wp) return
+        if (.not. needs_forces(search%wanted%target)) return
+        ! An ellipse that is far off is no start for others.
+        if (search%last%certificate%est_err_area > nearly_ellipse) return
+        is_left = least_of_strips(search, workspace) > search%wanted%tolerance
+    end function is_left
+
+    !> Is there an answer by an ellipse, and no time for strips?
+    logical function is_spent(search, taken)
+        type(search_t), intent(in) :: search
+        type(taken_t), intent(in) :: taken
+
+        is_spent = .false.
+        if (taken%n == 0 .or. search%wanted%budget_us <= 0.0_wp) return
+        is_spent = since(search%began)*(1.0_wp + strips_over_ellipse) > search%wanted%budget_us
+    end function is_spent
+
+    !> Methods of a step.
+    pure type(contact_methods_t) function methods_of(wanted, normal, strips) result(methods)
+        type(wanted_t), intent(in) :: wanted
+        integer, intent(in) :: normal, strips
+
+        methods%normal = normal
+        methods%tangential = merge(tangential_faststrip, tangential_none, &
+                                   needs_forces(wanted%target))
+        methods%strips_per_patch = strips
+        methods%points_per_strip = max(strips, least_points)
+    end function methods_of
+
+    !> Solve by some methods, and keep the solution if it is the best; an ellipse without estimate
+    !> is no step.
+    subroutine solve_step(search, workspace, normal, strips, taken, status)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: normal, strips ! method, and how many
+        type(taken_t), intent(inout) :: taken
+        type(status_t), intent(out) :: status
+
+        type(auto_step_t) :: step
+        type(status_t) :: forces
+        integer(int64) :: before
+
+        before = now()
+        step%methods = methods_of(search%wanted, normal, strips)
+        search%case%methods = step%methods
+        search%last = contact_result_t()
+        search%is_best = .false.
+        associate (last => search%last)
+            call solve_contact_normal(workspace, search%case, last%normal, status, &
+                                      last%certificate, last%is_estimated)
+            step%normal_us = search%idle_us + since(before)
+            if (is_error(status) .or. &
+                (normal == normal_hertz .and. .not. last%is_estimated)) then
+                search%idle_us = step%normal_us
+                return
+            end if
+            search%idle_us = 0.0_wp
+            before = now()
+            if (needs_forces(search%wanted%target)) then
+                call solve_contact_tangential(workspace, search%case, last%tangential, forces)
+                if (is_error(forces)) then
+                    status = forces
+                    search%idle_us = step%normal_us + since(before)
+                    return
+                end if
+                if (last%is_estimated) &
+                    call estimate_contact_forces(workspace, search%case, last%certificate, &
+                                                 last%force_errors, last%forces_are_estimated, &
+                                                 status)
+            end if
+            step%estimate = target_error(search%wanted%target, search%case, last)
+            step%tangential_us = since(before)
+            if (last%normal%strips_across > 0) &
+                step%methods%strips_per_patch = last%normal%strips_across
+        end associate
+        search%last_status = status
+        call add_step(search, workspace, step, taken)
+    end subroutine solve_step
+
+    !> Add a step; the best so far is kept.
+    subroutine add_step(search, workspace, step, taken)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        type(auto_step_t), intent(in) :: step
+        type(taken_t), intent(inout) :: taken
+
+        taken%n = taken%n + 1
+        taken%steps(taken%n) = step
+        if (taken%first == 0 .and. step%methods%normal == normal_strip) then
+            taken%first = taken%n
+            taken%first_across = narrow_across(workspace%strips)
+        end if
+        if (taken%best > 0 .and. step%estimate >= taken%estimate) return
+        taken%best = taken%n
+        taken%estimate = step%estimate
+        taken%is_met = step%estimate <= search%wanted%tolerance
+        search%best = search%last
+        search%best_status = search%last_status
+        search%best_solved_by = workspace%solved_by
+        search%is_best = .true.
+        if (.not. taken%is_met) call copy_strips(workspace%strips, workspace%best_strips)
+    end subroutine add_step
+
+    !> How many strips the next step takes; 0: none, nothing more would help or fit the budget.
+    integer function next_strips(search, workspace, taken) result(n)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(in) :: workspace
+        type(taken_t), intent(in) :: taken
+
+        type(fall_t) :: fall
+        real(wp) :: growth, most, aim
+        logical :: does_not_grow
+
+        n = 0
+        associate (step => taken%steps(taken%n), wanted => search%wanted)
+            fall = fall_of(search, workspace, step)
+            does_not_grow = search%before%normal == fall%normal &
+                            .and. search%before%across >= fall%across
+            search%before = fall
+            ! More were asked for and did not settle.
+            if (does_not_grow) return
+            most = most_growth(search, taken, fall)
+            growth = most
+            if (fall%estimate >= unknown_error) then
+                ! Given: twice as many.
+                growth = min(growth, 2.0_wp)
+            else
+                if (is_beyond(fall, most, wanted)) return
+                aim = max(margin*wanted%tolerance, (1.0_wp + near)*fall%least)
+                if (fall%estimate <= aim) return
+                if (aim > fall%least) &
+                    growth = min(most, ((fall%estimate - fall%least)/(aim - fall%least)) &
+                                       **(1.0_wp/fall%order))
+            end if
+            growth = min(max(growth, least_growth), most, largest_growth)
+            n = min(odd_number(growth*fall%across), wanted%most_strips)
+            if (n < least_growth*fall%across) n = 0
+        end associate
+    end function next_strips
+
+    !> Times as many strips as there may be: they fit the budget, and take no longer than others.
+    real(wp) function most_growth(search, taken, fall) result(growth)
+        type(search_t), intent(in) :: search
+        type(taken_t), intent(in) :: taken
+        type(fall_t), intent(in) :: fall
+
+        real(wp) :: left, others
+
+        associate (wanted => search%wanted, step => taken%steps(taken%n))
+            growth = wanted%most_strips/fall%across
+            if (wanted%budget_us > 0.0_wp) then
+                left = max(wanted%budget_us - since(search%began), 0.0_wp)
+                growth = min(growth, (left/max(step%normal_us + step%tangential_us, &
+                                               tiny(1.0_wp)))**(1.0_wp/time_order))
+            end if
+            if (wanted%others%one_us <= 0.0_wp .or. wanted%tolerance <= 0.0_wp &
+                .or. taken%first == 0 .or. fall%estimate >= unknown_error) return
+            associate (first => taken%steps(taken%first))
+                others = others_time(wanted%others, others_across(wanted, taken%first_across, &
+                                                                  first%estimate))
+            end associate
+            growth = min(growth, (others/fall%us)**(1.0_wp/time_order))
+        end associate
+    end function most_growth
+
+    !> Can more strips by the same method not do, and is there another way? From an ellipse there
+    !> always is: strips.
+    pure logical function is_beyond(fall, most, wanted)
+        type(fall_t), intent(in) :: fall
+        real(wp), intent(in) :: most ! times as many strips as there may be
+        type(wanted_t), intent(in) :: wanted
+
+        real(wp) :: reach
+
+        reach = fall%least + (fall%estimate - fall%least)/max(most, 1.0_wp)**fall%order
+        is_beyond = reach > wanted%tolerance &
+                    .and. (wanted%others%one_us > 0.0_wp .or. fall%normal == normal_hertz)
+    end function is_beyond
+
+    !> How the estimate of the last step is going to fall.
+    type(fall_t) function fall_of(search, workspace, step) result(fall)
+        type(search_t), intent(in) :: search
+        type(workspace_t), intent(in) :: workspace
+        type(auto_step_t), intent(in) :: step
+
+        real(wp) :: growth
+
+        fall%normal = step%methods%normal
+        fall%across = step%methods%strips_per_patch
+        fall%estimate = step%estimate
+        associate (cost => search%last%normal%cost, n => workspace%strips%n)
+            fall%us = always_us + step_us*cost%iterations + number_us*cost%values &
+                      + number_us*cost%gradients + pair_us*real(n, wp)**2
+        end associate
+        if (needs_forces(search%wanted%target)) then
+            fall%least = least_estimate(search, workspace, fall)
+        else if (fall%normal == normal_hertz) then
+            fall%least = fall%estimate
+        end if
+        associate (before => search%before)
+            growth = fall%across/max(before%across, 1.0_wp)
+            if (before%normal /= fall%normal .or. growth <= 1.0_wp) return
+            if (before%estimate >= unknown_error .or. before%estimate <= before%least) return
+            if (fall%estimate <= fall%least) return
+            fall%order = log((before%estimate - before%least)/(fall%estimate - fall%least)) &
+                         /log(growth)
+            fall%order = min(max(fall%order, least_order), largest_order)
+        end associate
+    end function fall_of
+
+    !> What the method itself is wrong by: the estimate of as many strips as there may be, with
+    !> estimates of the pressures as they would be then.
+    real(wp) function least_estimate(search, workspace, fall) result(least)
+        type(search_t), intent(in) :: search
+        type(workspace_t), intent(in) :: workspace
+        type(fall_t), intent(in) :: fall
+
+        type(contact_case_t) :: case
+        type(contact_result_t) :: asked
+        type(status_t) :: status
+        real(wp) :: finer
+
+        least = fall%estimate
+        asked = search%last
+        if (.not. asked%forces_are_estimated) return
+        finer = max(search%wanted%most_strips/fall%across, 1.0_wp)
+        associate (c => asked%certificate)
+            c%est_err_pmax = c%est_err_pmax/finer**usual_order
+            c%est_err_penetration = c%est_err_penetration/finer**usual_order
+            c%est_err_area = c%est_err_area/finer**usual_order
+        end associate
+        case = search%case
+        case%methods%points_per_strip = max(search%wanted%most_strips, least_points)
+        call clear_status(status)
+        call estimate_contact_forces(workspace, case, asked%certificate, asked%force_errors, &
+                                     asked%forces_are_estimated, status, finer)
+        least = min(target_error(search%wanted%target, case, asked), fall%estimate)
+    end function least_estimate
+
+    !> The same after an ellipse for strips, if these had no errors of their own.
+    real(wp) function least_of_strips(search, workspace) result(least)
+        type(search_t), intent(in) :: search
+        type(workspace_t), intent(in) :: workspace
+
+        type(contact_result_t) :: asked
+        type(status_t) :: status
+
+        asked = search%last
+        call clear_status(status)
+        call estimate_force_errors(workspace%strips, search%case%material, search%case%mu, &
+                                   search%case%creepage, errors_of_fitted, &
+                                   max(search%wanted%most_strips, least_points), &
+                                   certificate_t(), asked%force_errors, status, &
+                                   search%wanted%most_strips/search%before%across)
+        least = target_error(search%wanted%target, search%case, asked)
+        if (is_error(status)) least = 0.0_wp
+    end function least_of_strips
+
+    !> Strips across the widest patch, if all were as narrow as those of the narrowest patch.
+    pure real(wp) function narrow_across(strips) result(across)
+        type(contact_strips_t), intent(in) :: strips
+
+        real(wp) :: widest, width, narrowest
+        integer :: first, last
+
+        widest = 0.0_wp
+        narrowest = huge(1.0_wp)
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = last_of_patch(strips, first)
+            width = strips%y_right(last) - strips%y_left(first)
+            widest = max(widest, width)
+            narrowest = min(narrowest, width/(last - first + 1))
+        end do
+        across = widest/narrowest
+    end function narrow_across
+
+    !> The next odd number, upwards: one strip is in the middle.
+    pure integer function odd_number(number)
+        real(wp), intent(in) :: number
+
+        odd_number = 2*(ceiling(number)/2) + 1
+    end function odd_number
+
+    !> Take the best solution, and what else the case asks for on it; say what is missing.
+    subroutine finish(search, workspace, case, taken, status, field)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(taken_t), intent(inout) :: taken
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+
+        integer(int64) :: before
+
+        before = now()
+        if (.not. search%is_best) call copy_strips(workspace%best_strips, workspace%strips)
+        workspace%solved_by = search%best_solved_by
+        status = search%best_status
+        ! Nobody asked for a number of strips.
+        if (status%code == st_more_strips .or. status%code == st_fewer_strips) &
+            call clear_status(status)
+        search%case%methods = taken%steps(taken%best)%methods
+        if (.not. needs_forces(search%wanted%target)) then
+            search%case%methods%tangential = case%methods%tangential
+            search%case%methods%points_per_strip = case%methods%points_per_strip
+            search%case%methods%fastsim_nx = case%methods%fastsim_nx
+            search%case%methods%fastsim_ny = case%methods%fastsim_ny
+            call add_forces(search, workspace, status, field)
+        else if (present(field)) then
+            call add_forces(search, workspace, status, field)
+        end if
+        if (is_error(status)) return
+        associate (step => taken%steps(taken%best))
+            step%methods = search%case%methods
+            step%tangential_us = step%tangential_us + since(before)
+        end associate
+        if (taken%steps(taken%best)%methods%normal == normal_strip) &
+            workspace%first_strips = strips_next_time(search, taken)
+        call name_target(search%wanted, taken%estimate, &
+                         merge(case%force_limit, case%resolution_limit, &
+                               needs_forces(search%wanted%target)), status)
+    end subroutine finish
+
+    !> Strips that a contact like this one begins with in a warm start.
+    pure integer function strips_next_time(search, taken) result(n)
+        type(search_t), intent(in) :: search
+        type(taken_t), intent(in) :: taken
+
+        n = taken%steps(taken%best)%methods%strips_per_patch
+        if (taken%is_met) &
+            n = min(n, odd_number(n*(taken%estimate/(margin*search%wanted%tolerance)) &
+                                  **(1.0_wp/usual_order)))
+        n = max(n, first_strips)
+    end function strips_next_time
+
+    !> Forces on the solution that is taken.
+    subroutine add_forces(search, workspace, status, field)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(in) :: workspace
+        type(status_t), intent(inout) :: status ! changed by an error
+        type(tangential_field_t), intent(inout), optional :: field
+
+        type(status_t) :: forces
+
+        if (search%case%methods%tangential == tangential_none) return
+        associate (best => search%best)
+            call solve_contact_tangential(workspace, search%case, best%tangential, forces, field)
+            if (is_error(forces)) then
+                status = forces
+            else if (best%is_estimated) then
+                call estimate_contact_forces(workspace, search%case, best%certificate, &
+                                             best%force_errors, best%forces_are_estimated, status)
+            end if
+        end associate
+    end subroutine add_forces
+
+    integer(int64) function now()
+        call system_clock(now)
+    end function now
+
+    !> Microseconds since a reading of the clock.
+    real(wp) function since(before)
+        integer(int64), intent(in) :: before
+
+        integer(int64) :: after, rate
+
+        call system_clock(after, rate)
+        since = us_per_second*real(after - before, wp)/real(rate, wp)
+    end function since
+end module faststrip_contact_auto

@@ -1,0 +1,135 @@
+!> What is wanted of an automatic solution: which figure, how good, in which time.
+module faststrip_contact_wanted
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
+                                     st_bad_argument
+    use faststrip_normal_strip, only: strips_auto_most, fewest_strips
+    use faststrip_contact_methods, only: tangential_none
+    implicit none
+    private
+
+    public :: wanted_t, others_t, check_wanted, needs_forces, target_number, target_names
+    public :: others_across, others_time
+    public :: margin
+
+    ! Given: numbers of kinds, in the order of `target_names`; they stay for ever.
+    integer, parameter, public :: target_forces = 1
+        !! Fx and Fy over mu N and Mz over mu N c, c = sqrt(area/pi), the worst of the three
+    integer, parameter, public :: target_pmax = 2        !! largest pressure, relative
+    integer, parameter, public :: target_penetration = 3 !! of the depth below the lowest point
+    integer, parameter, public :: target_area = 4        !! relative
+    integer, parameter, public :: target_power = 5       !! friction power, relative
+
+    !> Part of the tolerance that is aimed at.
+    !> Tuned [1]. Origin: chosen for the time.
+    real(wp), parameter :: margin = 0.85_wp
+
+    ! Tuned [1]: Estimated error above which a solution tells no more of what others need. Origin:
+    ! measured on contacts with waves, kinks and corners.
+    real(wp), parameter :: most_telling = 0.3_wp
+
+    !> What people call them.
+    character(len=*), parameter :: target_names(5) = [character(len=11) :: &
+        'forces', 'pmax', 'penetration', 'area', 'power']
+
+    !> Finer methods that a caller has, as Kalker's: what they are expected to cost.
+    type :: others_t
+        real(wp) :: one_us = 0.0_wp !! time with one element across, us; grows with the square of
+                                    !! elements across; 0: there are none
+        real(wp) :: one = 0.0_wp    !! estimated error with one element across
+        real(wp) :: over_strips = 0.0_wp
+            !! if above 0, `one` is not used: estimated error over that of as many strips
+        ! Given: the default.
+        real(wp) :: order = 2.0_wp  !! power of elements across by which it falls
+    end type others_t
+
+    !> What is wanted.
+    type :: wanted_t
+        integer :: target = target_forces !! one of the `target_` numbers
+        ! Tuned [1]. Origin: chosen.
+        real(wp) :: tolerance = 0.02_wp   !! largest estimated error; 0: the least within the budget
+        real(wp) :: budget_us = 0.0_wp    !! time for it, us; 0: as long as it takes
+        integer :: most_strips = strips_auto_most !! across the largest patch, 3 to 81
+        type(others_t) :: others = others_t()
+            !! finer methods of the caller: what strips are not expected to meet, or not sooner, is
+            !! left to them at once, instead of coming as near as strips can
+    end type wanted_t
+
+contains
+
+    !> Refuse what cannot be wanted.
+    pure subroutine check_wanted(wanted, tangential, status)
+        type(wanted_t), intent(in) :: wanted  !! as the caller set it
+        integer, intent(in) :: tangential     !! tangential method of the case
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
+        call clear_status(status)
+        if (wanted%target < 1 .or. wanted%target > size(target_names)) then
+            call set_status(status, st_bad_argument, 'the target must be 1 to 5, got ' &
+                            // count_text(wanted%target))
+        else if (.not. is_number(wanted%tolerance)) then
+            call set_status(status, st_bad_argument, 'the tolerance must be a number from 0 on, ' &
+                            // 'got ' // number_text(wanted%tolerance))
+        else if (.not. is_number(wanted%budget_us)) then
+            call set_status(status, st_bad_argument, 'the budget must be a number of ' &
+                            // 'microseconds from 0 on, got ' // number_text(wanted%budget_us))
+        else if (.not. (wanted%tolerance > 0.0_wp .or. wanted%budget_us > 0.0_wp)) then
+            call set_status(status, st_bad_argument, &
+                            'a tolerance or a budget must be given, both are 0')
+        else if (wanted%most_strips < fewest_strips &
+                 .or. wanted%most_strips > strips_auto_most) then
+            call set_status(status, st_bad_argument, 'the most strips must be 3 to 81, got ' &
+                            // count_text(wanted%most_strips))
+        else if (needs_forces(wanted%target) .and. tangential == tangential_none) then
+            call set_status(status, st_bad_argument, 'the target ' &
+                            // trim(target_names(wanted%target)) &
+                            // ' needs a tangential method, got none')
+        end if
+    end subroutine check_wanted
+
+    elemental logical function is_number(value)
+        real(wp), intent(in) :: value
+
+        is_number = ieee_is_finite(value)
+        if (is_number) is_number = value >= 0.0_wp
+    end function is_number
+
+    !> Is a target a figure of the tangential problem?
+    elemental logical function needs_forces(target)
+        integer, intent(in) :: target !! one of the `target_` numbers
+
+        needs_forces = target == target_forces .or. target == target_power
+    end function needs_forces
+
+    !> Elements across that others need for the tolerance.
+    pure real(wp) function others_across(wanted, strips, estimate) result(across)
+        type(wanted_t), intent(in) :: wanted !! tolerance above 0, others
+        real(wp), intent(in) :: strips       !! across, of a solution
+        real(wp), intent(in) :: estimate     !! of its error
+
+        associate (others => wanted%others, aim => margin*wanted%tolerance)
+            if (others%over_strips > 0.0_wp) then
+                across = strips*(others%over_strips*min(estimate, most_telling)/aim) &
+                         **(1.0_wp/others%order)
+            else
+                across = (others%one/aim)**(1.0_wp/others%order)
+            end if
+        end associate
+    end function others_across
+
+    !> Time of others, us.
+    elemental real(wp) function others_time(others, across) result(time)
+        type(others_t), intent(in) :: others !! what they cost
+        real(wp), intent(in) :: across       !! elements across
+
+        time = others%one_us*across**2
+    end function others_time
+
+    !> The number of the target of this name; 0 if there is none.
+    pure integer function target_number(name)
+        character(len=*), intent(in) :: name !! lower case, trailing blanks do not matter
+
+        target_number = findloc(target_names == name, .true., dim=1)
+    end function target_number
+end module faststrip_contact_wanted
