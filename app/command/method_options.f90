@@ -31,9 +31,9 @@ module faststrip_command_method_options
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--max-elements', 'N', 'norm, tang: no larger grids than that (default' &
                  // ' 1000000)'), &
-        option_t('--resolution-limit', 'E', 'status under_resolved above this' &
-                 // ' est_err_penetration, _pmax, _area (default 0.1)'), &
-        option_t('--force-limit', 'E', 'the same above this est_err_Fx, _Fy, _Mz (default 0.1)'), &
+        option_t('--resolution-limit', 'E', 'status under_resolved above this est_err_...' &
+                 // ' (default 0.1)'), &
+        option_t('--force-limit', 'E', 'the same of est_err_Fx, _Fy, _Mz (default 0.1)'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &

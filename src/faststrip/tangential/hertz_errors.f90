@@ -54,7 +54,7 @@ contains
         type(status_t), intent(inout) :: status  !! that of `kalker_coefficients`
 
         type(patch_law_t) :: law
-        real(wp) :: u(3), any_shape, beside, wide, share, fx
+        real(wp) :: u(3), any_shape, beside, wide, share, fx, arm
 
         call find_law(patch_ellipse_t(a=hertz%a, b=hertz%b, y=hertz%y, load=hertz%load), &
                       material, mu, creepage, law, status, u)
@@ -67,8 +67,8 @@ contains
         errors%fx = errors%fx + fx
         errors%fy = errors%fy + fy_factor*(any_shape + fy_aside*misfit%aside) &
                     *max(1.0_wp, wide)*share
-        fx = abs(hertz%y)/sqrt(hertz%a*hertz%b)*fx
-        errors%arm = errors%arm + fx
-        errors%mz = errors%mz + mz_factor*(any_shape + misfit%aside)*(wide + mz_narrow)*share + fx
+        arm = abs(hertz%y)/sqrt(hertz%a*hertz%b)*fx
+        errors%arm = errors%arm + arm
+        errors%mz = errors%mz + mz_factor*(any_shape + misfit%aside)*(wide + mz_narrow)*share + arm
     end subroutine add_hertz_errors
 end module faststrip_tangential_hertz_errors
