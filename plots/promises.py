@@ -34,7 +34,7 @@ FAMILIES = {
     "strips + TANG": ("strips + TANG", "#86b98a", "<"),
     "NORM": ("NORM + TANG", "#2f7d32", "v"),
 }
-KEPT, BROKEN, NONE = "#0b3c78", "#d22f27", "#b9b9b9"
+KEPT, BROKEN, NONE = "#0b3c78", "#d22f27", "#9a9a9a"
 AUTO = "#d22f27"
 HEADINGS = {
     "forces": "Forces and moment: the worst of $F_x$, $F_y$, $M_z$",
@@ -113,6 +113,8 @@ def promises_figure(judged):
     for axes in panels[::2]:
         axes.set_ylabel("true error, %")
     style.legend_above(figure, *panels[:len(targets)])
+    for handle in figure.legends[0].legend_handles[:3]:
+        handle.set_sizes([24.0])
     return figure
 
 
@@ -124,7 +126,7 @@ def draw_promises(axes, solved, target, shares):
         word = promised(each)
         good = error <= 100.0 * tolerance
         for rows, colour, size, label in (
-                (~word & each.has_result, NONE, 4.0, "nothing promised"),
+                (~word & each.has_result, NONE, 8.0, "nothing promised"),
                 (word & good, KEPT, 5.0, "promise kept"),
                 (word & ~good, BROKEN, 14.0, "promise broken")):
             values = np.sort(error[rows])
@@ -173,6 +175,8 @@ def estimates_figure(judged):
         style.title(axes, symbol)
     panels[0].set_ylabel("true error, %")
     style.legend_above(figure, panels[0])
+    for handle in figure.legends[0].legend_handles[:-2]:
+        handle.set_sizes([24.0])
     return figure
 
 

@@ -197,6 +197,8 @@ def promise_rows(judged: Judged) -> list[dict]:
                     both &= target_error(other, target) <= tolerance
                 row[f"{which}_contacts"] = int(both.sum())
                 row[f"times_{which}"] = ratio(target_time(other, target)[both], us[both])
+            row["kalker_within"] = share(target_error(judged.baseline("kalker"), target)
+                                         <= tolerance)
             rows.append(row)
     return rows
 

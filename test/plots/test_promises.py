@@ -53,6 +53,7 @@ class Promises(unittest.TestCase):
         self.assertAlmostEqual(one["times_strips"], 0.4)
         self.assertEqual((five["kalker_contacts"], five["times_kalker"]), (4, 40.0))
         self.assertEqual((five["us_median"], five["us_total"]), (100.0, 400.0))
+        self.assertEqual((five["kalker_within"], one["kalker_within"]), (1.0, 1.0))
         # forces do not count where pressure is wanted
         self.assertAlmostEqual(pmax["times_kalker"], 1000.0 / 150.0)
         self.assertEqual((pmax["strips_contacts"], pmax["times_strips"]), (2, 2.0))

@@ -10,7 +10,7 @@ module faststrip_lab_promises
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, open_csv, put_comment, &
                                    put_header, put_cell, end_row, close_csv
-    use faststrip_command_clock, only: median
+    use faststrip_command_clock, only: cpu_microseconds, median
     use faststrip_command_console, only: fail_on_error, progress, put_origin
     use faststrip_command_files, only: take_input
     use faststrip_command_methods, only: numerics_t
@@ -88,9 +88,10 @@ contains
         call put_origin(writer)
         call put_comment(writer, 'err_*: relative, of Fx, Fy over mu N, of Mz over mu N c, c = ' &
                          // 'sqrt(area/pi), of the stick fraction as it is; est_* what the ' &
-                         // 'program says of it; times: processor')
+                         // 'program says of it; times: processor, whole_us with what the ' &
+                         // 'program does besides')
         call put_header(writer, [[character(len=20) :: 'kind', 'number', 'state', 'method', &
-                                  'status', 'normal_us', 'tangential_us'], &
+                                  'status', 'normal_us', 'tangential_us', 'whole_us'], &
                                  [character(len=20) :: 'err_' // figure_names], &
                                  [character(len=20) :: 'est_' // figure_names(:n_estimates)], &
                                  [character(len=20) :: 'choice']])
@@ -179,25 +180,27 @@ contains
         type(solver_t) :: solver
         type(outcome_t), allocatable :: outcomes(:)
         type(status_t), allocatable :: statuses(:)
-        real(wp), allocatable :: us(:, :, :) ! normal and tangential, round, contact
-        real(wp) :: spent
-        integer :: i, round, rounds
+        real(wp), allocatable :: us(:, :, :) ! normal, tangential, whole; round, contact
+        real(wp) :: spent, before
+        integer :: i, k, round, rounds
 
         allocate (outcomes(size(contacts)), statuses(size(contacts)))
-        allocate (us(2, most_rounds, size(contacts)), source=0.0_wp)
+        allocate (us(3, most_rounds, size(contacts)), source=0.0_wp)
         spent = 0.0_wp
         do round = 1, most_rounds
             rounds = round
             do i = 1, size(contacts)
+                before = cpu_microseconds()
                 call judge_contact(solver, entry, contacts(i), outcomes(i), statuses(i))
-                us(:, round, i) = [outcomes(i)%normal_cpu_us, outcomes(i)%tangential_cpu_us]
-                spent = spent + sum(us(:, round, i))
+                us(:, round, i) = [outcomes(i)%normal_cpu_us, outcomes(i)%tangential_cpu_us, &
+                                   cpu_microseconds() - before]
+                spent = spent + us(3, round, i)
             end do
             if (spent*(round + 1)/round > enough_us) exit
         end do
         do i = 1, size(contacts)
             call put_row(writer, entry%name, contacts(i)%truth, outcomes(i), statuses(i), &
-                         [median(us(1, :rounds, i)), median(us(2, :rounds, i))])
+                         [(median(us(k, :rounds, i)), k=1, size(us, 1))])
         end do
         call release_solver(solver)
     end subroutine judge_method
@@ -227,7 +230,7 @@ contains
         type(truth_record_t), intent(in) :: truth
         type(outcome_t), intent(in) :: outcome
         type(status_t), intent(in) :: status
-        real(wp), intent(in) :: us(2)
+        real(wp), intent(in) :: us(:) ! normal, tangential, whole
 
         real(wp) :: errors(n_figures), estimates(n_estimates)
         logical :: counts(n_figures), is_estimated(n_estimates)
@@ -252,7 +255,7 @@ contains
         end associate
         is_estimated(:3) = outcome%is_estimated
         is_estimated(4:) = outcome%forces_are_estimated
-        do i = 1, 2
+        do i = 1, size(us)
             call put_known(.true., us(i))
         end do
         do i = 1, n_figures
