@@ -51,6 +51,8 @@ module faststrip_command_case_file
         character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
         character(len=:), allocatable :: wheel_name !! `s1002` or the file's name
         character(len=:), allocatable :: rail_name  !! `uic60`, `60e1` or the file's name
+        character(len=:), allocatable :: wheel_words !! what was noticed of its file; or empty
+        character(len=:), allocatable :: rail_words !! the same
         logical :: load_is_vertical = .false.       !! else along the contact normal
         real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
         real(wp), allocatable :: shifts(:)          !! of the sweep, mm
@@ -84,8 +86,10 @@ contains
         call read_contact_group(content, case)
         from_profiles = len(case%gap_file) == 0
         call read_material_group(content, case)
-        call read_wheel_group(content, from_profiles, case%wheelset, case%wheel_name, case%wheel)
-        call read_rail_group(content, from_profiles, case%track, case%rail_name, case%rail)
+        call read_wheel_group(content, from_profiles, case%wheelset, case%wheel_name, case%wheel, &
+                              case%wheel_words)
+        call read_rail_group(content, from_profiles, case%track, case%rail_name, case%rail, &
+                             case%rail_words)
         call read_motion_group(content, from_profiles, case)
         call read_numerics_group(content, case)
         call read_sweep_group(content, case)

@@ -2,13 +2,15 @@
 module faststrip_command_case_profiles
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_base_text, only: lower_case
+    use faststrip_base_text, only: integer_text
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          make_points_profile, standard_cant
+                                          make_curve_profile, standard_cant
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
-    use faststrip_files_profile, only: read_points_file, read_simpack_file, simpack_wheel, &
-                                       simpack_rail
-    use faststrip_command_console, only: fail_on_error
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_touchable, only: touchable_t, touchable_words
+    use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t, &
+                                       length_unit, body_wheel, body_rail
+    use faststrip_command_console, only: fail_on_error, note
     use faststrip_command_files, only: take_input
     use faststrip_command_methods, only: word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, find_group, sets, refuse
@@ -23,25 +25,44 @@ module faststrip_command_case_profiles
 
     character(len=name_length), parameter :: wheel_names(*) = [character(len=name_length) :: &
         'profile', 'radius_mm', 'back_spacing_mm', 'tread_line_mm', &
-        'y_positive_to', 'z_positive_to']
+        'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', 'any_count', &
+        'ignore_smoothing', 'tape_circle_mm']
     character(len=name_length), parameter :: rail_names(*) = [character(len=name_length) :: &
-        'profile', 'cant', 'gauge_mm', 'gauge_depth_mm', 'y_positive_to', 'z_positive_to']
+        'profile', 'cant', 'gauge_mm', 'gauge_depth_mm', 'y_positive_to', 'z_positive_to', &
+        'unit', 'section', 'side', 'any_count', 'ignore_smoothing']
+
+    !> How a profile file is to be read, as a case file says it.
+    type :: file_words_t
+        character(len=word_length) :: y_positive_to = ''
+        character(len=word_length) :: z_positive_to = ''
+        character(len=word_length) :: unit = ''
+        character(len=word_length) :: side = 'right'
+        integer :: section = 0
+        logical :: any_count = .false.
+        logical :: ignore_smoothing = .false.
+    end type file_words_t
 
 contains
 
     !> Read the group of the wheel.
-    subroutine read_wheel_group(content, required, wheelset, name, shape)
+    subroutine read_wheel_group(content, required, wheelset, name, shape, words)
         type(namelist_file_t), intent(in) :: content       !! a case file
         logical, intent(in) :: required                    !! else nothing is taken
         type(wheelset_t), intent(inout) :: wheelset        !! mm
         character(len=:), allocatable, intent(out) :: name !! `s1002` or the file's name
         type(profile_t), intent(inout) :: shape            !! of the wheel
+        character(len=:), allocatable, intent(out) :: words !! what was noticed of a file; or empty
 
         character(len=path_length) :: profile
-        character(len=word_length) :: y_positive_to, z_positive_to
-        real(wp) :: radius_mm, back_spacing_mm, tread_line_mm
+        character(len=word_length) :: y_positive_to, z_positive_to, unit, side
+        integer :: section
+        logical :: any_count, ignore_smoothing
+        real(wp) :: radius_mm, back_spacing_mm, tread_line_mm, tape_circle_mm
         namelist /wheel/ profile, radius_mm, back_spacing_mm, tread_line_mm, &
-            y_positive_to, z_positive_to
+            y_positive_to, z_positive_to, unit, section, side, any_count, ignore_smoothing, &
+            tape_circle_mm
+        type(file_words_t) :: default
+        type(profile_options_t) :: options
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -51,8 +72,15 @@ contains
         radius_mm = wheelset%radius
         back_spacing_mm = wheelset%back_spacing
         tread_line_mm = wheelset%tread_line
-        y_positive_to = 'field'
-        z_positive_to = 'down'
+        tape_circle_mm = 0.0_wp
+        y_positive_to = default%y_positive_to
+        z_positive_to = default%z_positive_to
+        unit = default%unit
+        side = default%side
+        section = default%section
+        any_count = default%any_count
+        ignore_smoothing = default%ignore_smoothing
+        words = ''
         call find_group(content, 'wheel', required, group)
         do
             call next_lines(content, group, reading)
@@ -72,23 +100,34 @@ contains
             call make_wheel_profile('s1002', shape, status)
             call fail_on_error(status)
         case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, &
-                             simpack_wheel, 0.0_wp, shape)
+            call need_finite(content, group, 'tape_circle_mm', tape_circle_mm)
+            options%kind = body_wheel
+            options%has_tape_circle = sets(content, group, 'tape_circle_mm')
+            options%tape_circle = tape_circle_mm
+            call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
+                            section, any_count, ignore_smoothing), options)
+            call read_points(content, profile, options, 0.0_wp, shape, words)
         end select
     end subroutine read_wheel_group
 
     !> Read the group of the rail.
-    subroutine read_rail_group(content, required, track, name, shape)
+    subroutine read_rail_group(content, required, track, name, shape, words)
         type(namelist_file_t), intent(in) :: content       !! a case file
         logical, intent(in) :: required                    !! else nothing is taken
         type(track_t), intent(inout) :: track              !! mm
         character(len=:), allocatable, intent(out) :: name !! `uic60`, `60e1` or the file's name
         type(profile_t), intent(inout) :: shape            !! of the rail, inclined
+        character(len=:), allocatable, intent(out) :: words !! what was noticed of a file; or empty
 
         character(len=path_length) :: profile
-        character(len=word_length) :: y_positive_to, z_positive_to
+        character(len=word_length) :: y_positive_to, z_positive_to, unit, side
+        integer :: section
+        logical :: any_count, ignore_smoothing
         real(wp) :: cant, gauge_mm, gauge_depth_mm
-        namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to
+        namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to, &
+            unit, section, side, any_count, ignore_smoothing
+        type(file_words_t) :: default
+        type(profile_options_t) :: options
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -98,8 +137,14 @@ contains
         cant = unset()
         gauge_mm = track%gauge
         gauge_depth_mm = track%gauge_depth
-        y_positive_to = 'field'
-        z_positive_to = 'down'
+        y_positive_to = default%y_positive_to
+        z_positive_to = default%z_positive_to
+        unit = default%unit
+        side = default%side
+        section = default%section
+        any_count = default%any_count
+        ignore_smoothing = default%ignore_smoothing
+        words = ''
         call find_group(content, 'rail', required, group)
         do
             call next_lines(content, group, reading)
@@ -122,50 +167,75 @@ contains
             call make_rail_profile(trim(profile), cant, shape, status)
             if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
         case default
-            call read_points(content, group, profile, y_positive_to, z_positive_to, &
-                             simpack_rail, cant, shape)
+            options%kind = body_rail
+            call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
+                            section, any_count, ignore_smoothing), options)
+            call read_points(content, profile, options, cant, shape, words)
         end select
     end subroutine read_rail_group
 
-    subroutine read_points(content, group, path, y_positive_to, z_positive_to, simpack_kind, &
-                           cant, profile)
+    !> What the words of a case file mean.
+    subroutine take_words(content, group, words, options)
         type(namelist_file_t), intent(in) :: content
         type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: path, y_positive_to, z_positive_to
-        integer, intent(in) :: simpack_kind
+        type(file_words_t), intent(in) :: words
+        type(profile_options_t), intent(inout) :: options
+
+        options%y_sense = sense_of('y_positive_to', words%y_positive_to, 'field', 'gauge')
+        options%z_sense = sense_of('z_positive_to', words%z_positive_to, 'down', 'up')
+        options%side = sense_of('side', words%side, 'right', 'left')
+        if (words%unit /= '') then
+            options%unit_mm = length_unit(trim(words%unit))
+            if (.not. options%unit_mm > 0.0_wp) &
+                call refuse(content, group, 'unit', 'must be mm, m or in', words%unit)
+        end if
+        if (words%section < 0) &
+            call refuse(content, group, 'section', 'must be from 1 on', integer_text(words%section))
+        options%section = words%section
+        options%any_count = words%any_count
+        options%ignore_smoothing = words%ignore_smoothing
+
+    contains
+
+        !> +1 or -1 for one of two words, 0 for none.
+        integer function sense_of(name, word, positive, negative) result(sense)
+            character(len=*), intent(in) :: name, word, positive, negative
+
+            sense = 0
+            if (word == positive) sense = 1
+            if (word == negative) sense = -1
+            if (sense == 0 .and. word /= '') call refuse(content, group, name, 'must be ' // &
+                                                         positive // ' or ' // negative, word)
+        end function sense_of
+    end subroutine take_words
+
+    subroutine read_points(content, path, options, cant, profile, words)
+        type(namelist_file_t), intent(in) :: content
+        character(len=*), intent(in) :: path
+        type(profile_options_t), intent(in) :: options
         real(wp), intent(in) :: cant
         type(profile_t), intent(out) :: profile
+        character(len=:), allocatable, intent(out) :: words
 
         type(status_t) :: status
+        type(profile_file_t) :: points
+        type(touchable_t) :: part
         character(len=:), allocatable :: file
-        real(wp), allocatable :: y(:), z(:)
 
-        if (y_positive_to /= 'field' .and. y_positive_to /= 'gauge') &
-            call refuse(content, group, 'y_positive_to', 'must be field or gauge', &
-                        y_positive_to)
-        if (z_positive_to /= 'down' .and. z_positive_to /= 'up') &
-            call refuse(content, group, 'z_positive_to', 'must be down or up', z_positive_to)
         file = beside(content%file, trim(path))
         call take_input(file)
-        if (ends_with(file, '.prw') .or. ends_with(file, '.prr')) then
-            call read_simpack_file(file, simpack_kind, y, z, status)
-        else
-            call read_points_file(file, merge(1, -1, y_positive_to == 'field'), &
-                                  merge(1, -1, z_positive_to == 'down'), y, z, status)
-        end if
+        call read_profile(file, options, points, status)
         call fail_on_error(status)
-        call make_points_profile(y, z, cant, profile, status)
+        call make_curve_profile(points%y, points%z, options%kind, cant, standard_kink_angle, &
+                                profile, part, status)
         call fail_on_error(status, file)
+        words = trim(touchable_words(part))
+        if (points%notes /= '' .and. len(words) > 0) words = '; ' // words
+        words = trim(points%notes) // words
+        if (len(words) == 0) return
+        words = file // ': ' // words
+        call note(words)
     end subroutine read_points
-
-    !> Does a file name end so, in upper or lower case?
-    pure logical function ends_with(file, ending)
-        character(len=*), intent(in) :: file, ending
-
-        ends_with = .false.
-        if (len(file) < len(ending)) return
-        ends_with = lower_case(file(len(file) - len(ending) + 1:)) == ending
-    end function ends_with
 
     !> A path that is relative to the folder of another file.
     pure function beside(file, path) result(resolved)

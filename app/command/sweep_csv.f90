@@ -31,6 +31,8 @@ contains
             call put_comment(writer, 'gap ' // case%gap_file)
         else
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
+            if (len(case%wheel_words) > 0) call put_comment(writer, case%wheel_words)
+            if (len(case%rail_words) > 0) call put_comment(writer, case%rail_words)
         end if
         call put_notes(writer, case%numerics%smoothing_um)
         call put_header(writer, [case_columns, result_columns])

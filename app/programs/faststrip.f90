@@ -7,6 +7,7 @@ program faststrip_main
     use faststrip_command_batch, only: run_batch
     use faststrip_command_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
+    use faststrip_command_profile, only: run_profile
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -16,6 +17,7 @@ program faststrip_main
     case ('batch'); call run_batch()
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
+    case ('profile'); call run_profile()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -37,6 +39,7 @@ contains
         call say('  contact CASE.nml       one contact, from two profiles or a gap file')
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
+        call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

@@ -8,16 +8,21 @@ module faststrip_geometry_profile
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_rail_uic60, only: rail_head_t, make_rail_head, rail_head_at, &
                                              uic60_transition, en60e1_transition
+    use faststrip_geometry_arc_spline, only: arc_spline_t, make_arc_spline, arc_spline_at
+    use faststrip_geometry_touchable, only: touchable_t, find_touchable, body_wheel, body_rail
     use faststrip_geometry_sampled, only: sampled_profile_t, make_sampled_profile, &
                                           sampled_profile_at
     use faststrip_geometry_wheel_s1002, only: s1002_at, s1002_first, s1002_last
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_out_of_range
+                                     st_bad_argument, st_not_finite, st_out_of_range, &
+                                     st_too_few_points
     implicit none
     private
 
     public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
+    public :: make_curve_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
+    public :: profile_curve
     public :: standard_cant
 
     ! Given: numbers of kinds.
@@ -26,6 +31,7 @@ module faststrip_geometry_profile
     integer, parameter :: profile_uic60 = 2
     integer, parameter :: profile_60e1 = 3
     integer, parameter :: profile_points = 4
+    integer, parameter :: profile_curve = 5
 
     !> Rail cant 1:40.
     !> Given: 1:40.
@@ -42,6 +48,9 @@ module faststrip_geometry_profile
         real(wp) :: y_last = 0.0_wp        !! last y of the definition, mm
         type(rail_head_t) :: head          !! used by `uic60` and `60e1`
         type(sampled_profile_t) :: sampled !! used by `points`
+        type(arc_spline_t) :: curve        !! used by `curve`
+        real(wp) :: z_below = -huge(1.0_wp) !! how deep an overhang that was clipped at y_first
+                                           !! reaches, mm; no overhang: -huge
     end type profile_t
 
 contains
@@ -131,6 +140,57 @@ contains
         profile%y_last = profile%sampled%y(size(y))
     end subroutine make_points_profile
 
+    !> A wheel or rail profile through a curve of points, turned by a cant about the origin: what of
+    !> it can be touched.
+    !>
+    !> The points run along the curve from small y to large y; it may overhang, stand upright or
+    !> fold back. A cant of zero leaves the points where they are.
+    subroutine make_curve_profile(y, z, body, cant, kink_angle, profile, part, status)
+        real(wp), intent(in) :: y(:)             !! mm, to the field side
+        real(wp), intent(in) :: z(:)             !! mm, down
+        integer, intent(in) :: body              !! `body_wheel` or `body_rail`
+        real(wp), intent(in) :: cant             !! tangent of the angle by which the top leans to
+                                                 !! negative y, within +-1
+        real(wp), intent(in) :: kink_angle       !! turn from which a point is a kink, rad
+        type(profile_t), intent(out) :: profile  !! the curve through the points
+        type(touchable_t), intent(out) :: part   !! which of the points, and what was clipped
+        type(status_t), intent(out) :: status    !! `st_bad_argument`, `st_too_few_points`,
+                                                 !! `st_not_finite`, `st_linear_algebra`
+
+        real(wp), allocatable :: y_turned(:), z_turned(:)
+        logical :: valid
+
+        allocate (part%point(0))
+        call clear_status(status)
+        valid = ieee_is_finite(cant)
+        if (valid) valid = abs(cant) <= 1.0_wp
+        if (.not. valid) then
+            call set_status(status, st_bad_argument, 'rail cant must be -1 to 1, got ' // &
+                            number_text(cant))
+        else if (body /= body_wheel .and. body /= body_rail) then
+            call set_status(status, st_bad_argument, 'a profile must be of a wheel or of a rail')
+        else if (size(y) == 0 .or. size(y) /= size(z)) then
+            call set_status(status, st_too_few_points, 'a profile must have as many y as z')
+        else if (.not. all(ieee_is_finite(y)) .or. .not. all(ieee_is_finite(z))) then
+            call set_status(status, st_not_finite, 'points of a profile must be finite numbers')
+        else if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
+            call set_status(status, st_bad_argument, &
+                            'points of the profile must be within 10 m, got ' // &
+                            trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
+        end if
+        if (is_error(status)) return
+        y_turned = (y + cant*z)/hypot(1.0_wp, cant)
+        z_turned = (z - cant*y)/hypot(1.0_wp, cant)
+        call find_touchable(y_turned, z_turned, body, part)
+        call make_arc_spline(y_turned(part%point), z_turned(part%point), kink_angle, &
+                             profile%curve, status)
+        if (is_error(status)) return
+        profile%kind = profile_curve
+        profile%y_first = profile%curve%y(1)
+        profile%y_last = profile%curve%y(size(part%point))
+        if (part%n_clipped(1) > 0) profile%z_below = part%deepest(1)
+    end subroutine make_curve_profile
+
     !> The profile and its first two derivatives.
     pure subroutine profile_at(profile, y, z, dz, d2z, status)
         type(profile_t), intent(in) :: profile !! a profile that was made
@@ -148,6 +208,8 @@ contains
             call rail_head_at(profile%head, y, z, dz, d2z, status)
         case (profile_points)
             call sampled_profile_at(profile%sampled, y, z, dz, d2z, status)
+        case (profile_curve)
+            call arc_spline_at(profile%curve, y, z, dz, d2z, status)
         case default
             z = 0.0_wp
             dz = 0.0_wp

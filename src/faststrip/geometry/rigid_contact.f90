@@ -266,7 +266,8 @@ contains
         offset = 0.5_wp*track%gauge - y_gauge - wheel_line
     end subroutine rail_offset
 
-    ! The point of the gauge face at a depth below the highest point of the rail.
+    ! The point of the gauge face at a depth below the highest point of the rail, or the innermost
+    ! one above it where the face overhangs.
     pure subroutine find_gauge_point(rail, depth, y_gauge, status)
         type(profile_t), intent(in) :: rail
         real(wp), intent(in) :: depth
@@ -306,6 +307,11 @@ contains
             call profile_at(rail, rail%y_first + real(i, wp)*step, z, dz, d2z, status)
             if (z - top >= depth) exit
         end do
+        if (i < 0 .and. rail%z_below - top >= depth) then
+            ! The gauge face overhangs: its innermost place is where it was clipped.
+            y_gauge = rail%y_first
+            return
+        end if
         if (i < 0) then
             call set_status(status, st_out_of_range, 'the rail profile does not reach the ' // &
                             trim(number_text(depth)) // &

@@ -1,0 +1,193 @@
+!> Does a profile lie as its kind must? A file that is turned over, mirrored, in metres or with
+!> another origin is refused with the option that helps: it would give a wrong contact silently.
+module faststrip_files_profile_senses
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, clear_status, number_text, st_file_format, &
+                                     st_too_few_points
+    use faststrip_base_text, only: integer_text, set_place_status
+    use faststrip_geometry_touchable, only: body_wheel, body_rail
+    use faststrip_files_profile_points, only: profile_file_t
+    implicit none
+    private
+
+    public :: check_shape, min_points
+
+    !> Fewest points of a profile.
+    integer, parameter :: min_points = 5
+
+    ! Lengths of profiles, along the points: shorter or longer ones are not in mm.
+    real(wp), parameter :: shortest = 1.0_wp, longest = 3000.0_wp
+    ! A flange, or the face of a rim, is as high.
+    real(wp), parameter :: flange_height = 15.0_wp
+    ! A curve that comes back from its highest place by as much has a tip there.
+    real(wp), parameter :: tip_height = 2.0_wp
+    ! An end steeper than this is a side; its direction is that of a stretch of this length.
+    real(wp), parameter :: side_slope = 1.0_wp, side_length = 2.0_wp
+    ! Points that turn by more than this turn back; more of them than this have no order.
+    real(wp), parameter :: turned_back = 5.0_wp/6.0_wp*pi, most_turned_back = 0.05_wp
+    integer, parameter :: few = 5
+
+contains
+
+    !> Check the points of a profile, in its final frame.
+    subroutine check_shape(path, profile, kind, status)
+        character(len=*), intent(in) :: path           !! name of the file
+        type(profile_file_t), intent(in) :: profile    !! final
+        integer, intent(in) :: kind                    !! `body_wheel`, `body_rail`; 0: not known
+        type(status_t), intent(out) :: status          !! `st_too_few_points`, `st_file_format`
+
+        call clear_status(status)
+        call check_extent(path, profile, status)
+        if (status%code /= 0) return
+        if (kind == body_wheel) call check_wheel(path, profile%y, profile%z, status)
+        if (kind == body_rail) call check_rail(path, profile%y, profile%z, status)
+    end subroutine check_shape
+
+    subroutine check_extent(path, profile, status)
+        character(len=*), intent(in) :: path
+        type(profile_file_t), intent(in) :: profile
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: length, chord
+        integer :: i, n, n_back
+
+        n = size(profile%y)
+        if (n < min_points) then
+            call set_place_status(status, st_too_few_points, 'a profile must have at least ' // &
+                                  integer_text(min_points) // ' points', integer_text(n), path, 0)
+            return
+        end if
+        length = 0.0_wp
+        n_back = 0
+        associate (y => profile%y, z => profile%z)
+            do i = 2, n
+                chord = hypot(y(i) - y(i - 1), z(i) - z(i - 1))
+                length = length + chord
+                if (i == n) exit
+                if (abs(atan2((y(i) - y(i - 1))*(z(i + 1) - z(i)) &
+                              - (z(i) - z(i - 1))*(y(i + 1) - y(i)), &
+                              (y(i) - y(i - 1))*(y(i + 1) - y(i)) &
+                              + (z(i) - z(i - 1))*(z(i + 1) - z(i)))) > turned_back) &
+                    n_back = n_back + 1
+            end do
+        end associate
+        if (.not. (length >= shortest .and. length <= longest)) then
+            call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long ' // &
+                                  '(--unit says in what unit a file is)', &
+                                  trim(number_text(length)) // ' mm', path, 0)
+        else if (n_back > max(few, int(most_turned_back*n))) then
+            call set_place_status(status, st_file_format, 'points must stand in order along the ' // &
+                                  'profile, it turns back ' // integer_text(n_back) // ' times', &
+                                  '', path, 0)
+        end if
+    end subroutine check_extent
+
+    !> From the tape circle a flange goes down on the side of small y, and on the other side nothing
+    !> does; where a rim has a face it goes up.
+    subroutine check_wheel(path, y, z, status)
+        character(len=*), intent(in) :: path
+        real(wp), intent(in) :: y(:), z(:)
+        type(status_t), intent(inout) :: status
+
+        integer :: at, gauge, field
+        real(wp) :: offset
+        logical :: is_wrong
+
+        at = tape_point(y)
+        if (at == 0) then
+            call set_place_status(status, st_file_format, 'the tape circle must be on a wheel: y ' &
+                                  // 'is ' // trim(number_text(minval(y))) // ' to ' // &
+                                  trim(number_text(maxval(y))) // &
+                                  ' mm from it (--tape-circle says where it is)', '', path, 0)
+            return
+        end if
+        gauge = first_height(z, at, -1)
+        field = first_height(z, at, 1)
+        ! Both sides may go up, of a roller, or down, of a wheel with two flanges.
+        is_wrong = field > 0 .and. gauge <= 0
+        if (gauge < 0 .and. field == 0) is_wrong = returns(z, at)
+        if (is_wrong) then
+            offset = y(maxloc(z, dim=1))
+            call set_place_status(status, st_file_format, 'the flange of a wheel must go down at ' &
+                                  // 'y below 0, its deepest place is at y = ' // &
+                                  trim(number_text(offset)) // ' mm (--tape-circle, ' // &
+                                  '--y-positive-to, --z-positive-to say where and how it ' // &
+                                  'lies)', '', path, 0)
+        end if
+    end subroutine check_wheel
+
+    !> The point at y = 0, or the one before; 0: none.
+    pure integer function tape_point(y) result(at)
+        real(wp), intent(in) :: y(:)
+
+        integer :: i
+
+        at = 0
+        ! From the field side: the tread is the first that is met.
+        do i = size(y) - 1, 1, -1
+            if (y(i)*y(i + 1) > 0.0_wp) cycle
+            at = i
+            return
+        end do
+    end function tape_point
+
+    !> What comes first on one side of a point: a place lower by the height of a flange (1), one
+    !> higher by it (-1), or neither (0).
+    pure integer function first_height(z, at, side) result(sense)
+        real(wp), intent(in) :: z(:)
+        integer, intent(in) :: at, side
+
+        integer :: i
+
+        sense = 0
+        i = at
+        do while (i >= 1 .and. i <= size(z))
+            if (abs(z(i) - z(at)) > flange_height) then
+                sense = merge(1, -1, z(i) > z(at))
+                return
+            end if
+            i = i + side
+        end do
+    end function first_height
+
+    !> Does the curve below a point turn down again from its highest place, as from a tip?
+    pure logical function returns(z, at)
+        real(wp), intent(in) :: z(:)
+        integer, intent(in) :: at
+
+        integer :: highest
+
+        highest = minloc(z(:at), dim=1)
+        returns = maxval(z(:highest)) - z(highest) > tip_height
+    end function returns
+
+    !> The ends of a rail go down where they are steep.
+    subroutine check_rail(path, y, z, status)
+        character(len=*), intent(in) :: path
+        real(wp), intent(in) :: y(:), z(:)
+        type(status_t), intent(inout) :: status
+
+        if (.not. (goes_up(1) .or. goes_up(size(y)))) return
+        call set_place_status(status, st_file_format, 'the sides of a rail must go down: this ' // &
+                              'one lies upside down (--z-positive-to says how it lies)', '', path, &
+                              0)
+
+    contains
+
+        !> Does the curve go up steeply towards one of its ends?
+        pure logical function goes_up(end_point)
+            integer, intent(in) :: end_point
+
+            integer :: i, side
+
+            side = merge(1, -1, end_point == 1)
+            i = end_point + side
+            do while (i > 1 .and. i < size(y))
+                if (hypot(y(i) - y(end_point), z(i) - z(end_point)) >= side_length) exit
+                i = i + side
+            end do
+            i = min(max(i, 1), size(y))
+            goes_up = z(i) - z(end_point) > side_slope*abs(y(i) - y(end_point))
+        end function goes_up
+    end subroutine check_rail
+end module faststrip_files_profile_senses
