@@ -79,9 +79,13 @@ contains
             allocate (profile%y(0), profile%z(0), profile%line(0))
         call end_arrays(profile)
         if (.not. is_error(status)) call check_kind(path, options, profile, status)
-        if (is_error(status)) return
-        call take_frame(options, profile)
-        call check_shape(path, profile, profile%kind, status)
+        if (.not. is_error(status)) then
+            call take_frame(options, profile)
+            call check_shape(path, profile, profile%kind, status)
+        end if
+        if (.not. is_error(status)) return
+        profile%n = 0
+        call end_arrays(profile)
     end subroutine read_profile
 
     subroutine check_options(options, status)
@@ -123,6 +127,7 @@ contains
         logical :: is_key
 
         format = is_text
+        line = ''
         if (ends_with(path, '.prw') .or. ends_with(path, '.prr')) format = is_simpack
         if (ends_with(path, '.whl') .or. ends_with(path, '.ban') .or. ends_with(path, '.mpt')) &
             format = is_miniprof
@@ -170,8 +175,8 @@ contains
 
         if (options%kind > 0 .and. profile%kind > 0 .and. options%kind /= profile%kind) then
             call set_place_status(status, st_file_format, 'the profile must be that of a ' // &
-                                  kind_name(options%kind) // ', the file is that of a ' // &
-                                  kind_name(profile%kind), '', path, 0)
+                                  trim(kind_name(options%kind)) // ', the file is that of a ' // &
+                                  trim(kind_name(profile%kind)), '', path, 0)
         else if (options%kind > 0) then
             profile%kind = options%kind
         end if

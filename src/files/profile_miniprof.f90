@@ -105,6 +105,7 @@ contains
         first = 1
         last = 0
         n = 0
+        line = ''
         do i = 1, size(lines)
             line = lower_case(trim_blanks(lines(i)%text))
             if (index(line, '[profile') /= 1 .or. index(line, 'info]') == 0) cycle
@@ -144,6 +145,7 @@ contains
         is_free = is_old_header(lines)
         in_points = .false.
         n_comments = 0
+        line = ''
         do i = first, last
             call take_quotes(lines(i)%text, line, is_comment)
             if (is_comment .and. .not. is_free) n_comments = n_comments + 1

@@ -94,6 +94,7 @@ contains
         column_y = 0
         column_z = 0
         unit = 0.0_wp
+        word = ''
         call split_words(line, first, last, n_columns)
         do i = 1, min(n_columns, most_columns)
             word = lower_case(line(first(i):last(i)))

@@ -75,13 +75,15 @@ contains
             type(touchable_t), intent(inout) :: part
 
             integer :: i, last, end_point, folded, at
+            logical :: is_near
 
             n_kept = 0
             folded = 0
             last = start
             end_point = merge(n, 1, side > 0)
             do i = start + side, end_point, side
-                if (goes_on(last, i, side)) then
+                is_near = hypot(y(i) - y(last), z(i) - z(last)) <= bridge
+                if (goes_on(last, i, side) .and. (is_near .or. folded == 0)) then
                     n_kept = n_kept + 1
                     kept(n_kept) = i
                     last = i
@@ -89,7 +91,7 @@ contains
                     folded = 0
                 else
                     folded = folded + 1
-                    if (hypot(y(i) - y(last), z(i) - z(last)) > bridge) exit
+                    if (.not. is_near) exit
                 end if
             end do
             if (last == end_point) return

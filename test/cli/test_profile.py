@@ -1,0 +1,226 @@
+"""faststrip profile: what it reads, says, draws and writes."""
+
+import math
+import unittest
+import xml.etree.ElementTree
+
+from cli_program import ROOT, ProgramTest, profile_case, rows_of
+
+# Measured profiles that are no part of the project; where they are not, these tests are skipped.
+BANK = ROOT.parent / "shared" / "data" / "profiles"
+
+# Files that need to be told something, and what.
+TOLD = {
+    "MBench_UIC60_v3.ban": ["--z-positive-to", "down"],
+    "left-roller-v1-pre-dry.ban": ["--z-positive-to", "down"],
+    "avg_low2.ban": ["--any-count"],
+    "worn_high_mileage.prw": ["--tape-circle", "73"],
+    "SNX00500.mpt": ["--section", "2"],
+}
+
+
+def wheel_text(n=261, scale=1.0):
+    """A cone 1:20 with a flange of two arcs, y to the field side, z down."""
+    lines = []
+    for i in range(n):
+        y = -68.0 + 128.0 * i / (n - 1)
+        z = -0.05 * y
+        if y < -35.0:
+            z = 1.75 + 26.0 * math.sin(min((-35.0 - y) / 15.0, 1.0) * math.pi / 2.0) ** 2
+        if y < -50.0:
+            z = 27.75 - 15.0 * ((-50.0 - y) / 18.0) ** 2
+        lines.append(f"{y * scale:.6f} {z * scale:.6f}")
+    return "\n".join(lines) + "\n"
+
+
+def rail_text(n=401):
+    lines = []
+    for i in range(n):
+        angle = math.radians(178.0 * (i / (n - 1) - 0.5))
+        lines.append(f"{36.0 * math.sin(angle):.6f} {36.0 * (1.0 - math.cos(angle)):.6f}")
+    return "\n".join(lines) + "\n"
+
+
+class Profiles(ProgramTest):
+    def rows(self, *words):
+        done = self.run_program("profile", *words)
+        return done, rows_of(done.stdout)
+
+    def test_one_row_a_file_also_where_it_fails(self):
+        self.write("w.txt", wheel_text())
+        self.write("bad.txt", "1 1\n2 x\n")
+        done, rows = self.rows("w.txt", "bad.txt", "none.txt", "--kind", "wheel")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([row["status"] for row in rows], ["ok", "file_format", "file_missing"])
+        self.assertEqual([row["file"] for row in rows], ["w.txt", "bad.txt", "none.txt"])
+        self.assertIn("(bad.txt:2)", rows[1]["message"])
+        self.assertEqual(len(done.stderr.splitlines()), 3)
+        self.assertIn("2 of 3 profiles failed", done.stderr)
+        self.assertEqual(rows[0]["points"], "261")
+        self.assertAlmostEqual(float(rows[0]["y_min_mm"]), -68.0, places=9)
+        self.assertAlmostEqual(float(rows[0]["Sh_mm"]), 27.75, delta=0.01)
+        self.assertEqual(rows[1]["points"], "")
+
+    def test_the_columns_that_are_promised(self):
+        self.write("r.txt", rail_text())
+        done, rows = self.rows("r.txt", "--kind", "rail")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        promised = ("file,format,kind,points,y_min_mm,y_max_mm,z_min_mm,z_max_mm,Sd_mm,Sh_mm,"
+                    "qR_mm,status,message").split(",")
+        self.assertLessEqual(set(promised), set(rows[0]))
+        self.assertEqual(list(rows[0])[:11], promised[:11])
+        self.assertEqual(rows[0]["Sd_mm"], "")
+        self.assertAlmostEqual(float(rows[0]["curvature_max_per_mm"]), 1.0 / 36.0, delta=1e-3)
+
+    def test_what_was_clipped_is_said_once_and_stands_in_the_csv(self):
+        text = "-36.5 60\n-36.2 50\n" + rail_text() + "35.9 40\n36.0 50\n"
+        self.write("r.txt", text)
+        done, rows = self.rows("r.txt", "--kind", "rail")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        words = "2 points clipped beyond y = 35.9945 mm"
+        self.assertIn(words, done.stderr)
+        self.assertIn(words, rows[0]["message"])
+        self.assertTrue(any(line.startswith("# ") and words in line
+                            for line in done.stdout.splitlines()))
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+    def test_curation_is_done_as_asked_and_told(self):
+        self.write("w.txt", wheel_text(scale=0.001))
+        done, rows = self.rows("w.txt", "--kind", "wheel")
+        self.assertIn("--unit", rows[0]["message"])
+        done, rows = self.rows("w.txt", "--kind", "wheel", "--unit", "m", "--shift-z", "2",
+                               "--smooth-wavelength", "2", "--resample", "0.25")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(float(rows[0]["spacing_max_mm"]), 0.25, delta=0.01)
+        for words in ("shifted by 0.00000, 2.00000 mm", "smoothed by a wavelength of 2.00000 mm",
+                      "resampled every 0.250000 mm"):
+            self.assertIn(words, rows[0]["curation"])
+            self.assertIn(words, done.stderr)
+        done, rows = self.rows("w.txt", "--kind", "wheel", "--unit", "m")
+        self.assertEqual(rows[0]["curation"], "")
+        self.assertEqual(done.stderr, "")
+
+    def test_conversion_round_trips(self):
+        self.write("w.txt", wheel_text())
+        for path in ("a.csv", "a.prw"):
+            done = self.run_program("profile", "w.txt", "--kind", "wheel", "-o", path)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.run_program("profile", path, "--kind", "wheel", "-o", "b.csv")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            points = [[float(x) for x in row.values()] for row in self.read("b.csv")]
+            given = [[float(x) for x in line.split()] for line in wheel_text().splitlines()]
+            self.assertEqual(points, given)
+        done = self.run_program("profile", "w.txt", "--kind", "wheel", "-o", "a.prr")
+        self.assertEqual(done.returncode, 2)
+
+    def test_wear_against_a_nominal_rail(self):
+        self.good_points("uic60", "r.csv", cant="0")
+        rows = self.read("r.csv")
+        lines = [f"{float(r['y_mm'])} {float(r['z_mm']) + 0.7 * (float(r['y_mm']) < 3.0)}"
+                 for r in rows if r["body"] == "rail"]
+        self.write("worn.txt", "\n".join(lines) + "\n")
+        done, rows = self.rows("worn.txt", "--kind", "rail", "--nominal", "uic60", "--cant",
+                               "0.025", "--draw", "p.svg")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(float(rows[0]["wear_top_mm"]), 0.7, delta=0.02)
+        self.assertAlmostEqual(float(rows[0]["wear_side_mm"]), 0.7 / 20.0, delta=0.02)
+        picture = xml.etree.ElementTree.fromstring(
+            (self.folder / "p.svg").read_text(encoding="utf-8"))
+        names = [text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+        for name in ("z (down), mm", "curvature, 1/mm", "wear depth, mm"):
+            self.assertIn(name, names)
+
+    def good_points(self, rail, path, cant):
+        self.write("c.nml", profile_case(rail=f"profile = '{rail}', cant = {cant}"))
+        done = self.run_program("contact", "c.nml", "--profiles", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_case_takes_the_same_words(self):
+        self.write("w.txt", wheel_text(scale=0.001))
+        self.write("r.txt", rail_text() + "35.9 40\n")
+        wheel = "profile = 'w.txt', unit = 'm'"
+        self.write("c.nml", profile_case(wheel=wheel, rail="profile = 'r.txt'"))
+        done = self.run_program("contact", "c.nml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("r.txt: 1 points clipped beyond y = 35.9945 mm", done.stderr)
+        self.assertIn("# r.txt: 1 points clipped", done.stdout)
+        self.write("c.nml", profile_case(wheel="profile = 'w.txt'"))
+        done = self.run_program("contact", "c.nml")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--unit", done.stderr)
+
+    def test_usage(self):
+        self.write("w.txt", wheel_text())
+        for words in (["w.txt", "w.txt", "-o", "x.csv"], ["w.txt", "--keep", "3"],
+                      ["w.txt", "--unit", "ft"], ["w.txt", "--smooth-noise", "0"], [],
+                      ["w.txt", "--smooth-noise", "5", "--smooth-wavelength", "3"]):
+            done = self.run_program("profile", *words)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+
+
+@unittest.skipUnless(BANK.is_dir(), "the measured profiles are not here")
+class Bank(ProgramTest):
+    def test_every_file_gives_a_profile_or_names_the_option(self):
+        files = sorted(path for path in BANK.iterdir() if path.suffix != ".md")
+        self.assertGreaterEqual(len(files), 32)
+        for path in files:
+            done = self.run_program("profile", str(path))
+            row = rows_of(done.stdout)[0]
+            if path.name not in TOLD:
+                self.assertEqual((done.returncode, row["status"]), (0, "ok"), path.name)
+                continue
+            self.assertEqual(done.returncode, 1, path.name)
+            self.assertIn(TOLD[path.name][0], done.stderr)
+            done = self.run_program("profile", str(path), *TOLD[path.name])
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_flange_figures_are_those_of_the_headers(self):
+        for path in sorted(BANK.glob("*.whl")):
+            printed = {}
+            for line in path.read_text(encoding="latin-1").splitlines():
+                key, equals, value = line.partition("=")
+                if equals and key in ("Sd", "Sh", "qR"):
+                    printed[key] = float(value)
+            if not printed:
+                continue
+            row = rows_of(self.run_program("profile", str(path)).stdout)[0]
+            for key, value in printed.items():
+                self.assertAlmostEqual(float(row[f"{key}_mm"]), value, delta=0.05, msg=path.name)
+
+    def test_what_is_written_reads_back(self):
+        for path in sorted(BANK.glob("*.*")):
+            if path.suffix == ".md":
+                continue
+            told = TOLD.get(path.name, [])
+            ending = ".prw" if path.suffix in (".prw", ".whl") else ".prr"
+            for name in ("a.csv", "a" + ending):
+                kind = ["--kind", "wheel" if ending == ".prw" else "rail"]
+                first = self.run_program("profile", str(path), *told, "-o", name)
+                self.assertEqual(first.returncode, 0, first.stderr)
+                second = self.run_program("profile", name, *kind, "-o", "b.csv")
+                self.assertEqual(second.returncode, 0, second.stderr)
+                if name == "a.csv":
+                    points = self.points("a.csv")
+                self.assertEqual(self.points("b.csv"), points, path.name)
+
+    def points(self, name):
+        return [(float(row["y_mm"]), float(row["z_mm"])) for row in self.read(name)]
+
+    def test_the_benchmark_profiles_are_the_analytic_ones(self):
+        def forces(wheel, rail):
+            self.write("c.nml", profile_case(
+                contact="load_N = 8e4", wheel=wheel, rail=rail, motion="creepage = 'formula'",
+                extra="&sweep\n shifts_mm = -4, 0, 3\n/\n"))
+            return self.good("sweep", "c.nml")
+
+        analytic = forces("profile = 's1002'", "profile = 'uic60', cant = 0.025")
+        measured = forces(f"profile = '{BANK / 'MBench_S1002_v3.prw'}'",
+                          f"profile = '{BANK / 'MBench_UIC60_v3.prr'}'")
+        for one, other in zip(analytic, measured):
+            self.assertAlmostEqual(float(one["pmax_MPa"]) / float(other["pmax_MPa"]), 1.0,
+                                   delta=2e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
