@@ -218,6 +218,19 @@ int faststrip_hertz(double e_wheel, double e_rail, double nu_wheel, double nu_ra
 /* Kalker's coefficients C11, C22, C23, C33 for any a/b; nu is the combined Poisson's ratio. */
 int faststrip_kalker(double a_over_b, double nu, double coefficients[4]);
 
+/* The gap of a wheel on a rail, both given by points along the curve, y to the field side, z down,
+ * mm, of the wheel from the tape circle. What cannot be touched, overhanging and upright sides, is
+ * left out. setup: distance of the flange backs, flange back to tape circle, rolling radius, gauge,
+ * its depth below the crown, tangent of the cant by which the rail is turned, shift of the wheelset
+ * to the right, spacing of the gap and its largest height (mm but for the cant; 1360, 70, 460,
+ * 1435, 14, 0, 0, 0.05, 0.6 for standard gauge). *n becomes the points of the gap, with 110 those
+ * that capacity lacks. contact becomes the contact angle (rad), the rolling radius there, y on the
+ * wheel and on the rail (mm), and how many points of the wheel and of the rail were left out. */
+int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wheel, int n_rail,
+                          const double *y_rail, const double *z_rail, const double setup[9],
+                          int capacity, int *n, double *y, double *h, double *inv2r,
+                          double *inclination, double contact[6]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,8 +1,8 @@
 !> `faststrip profile`: reads profiles of every format, describes, curates, draws and converts them.
 module faststrip_command_profile
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error
-    use faststrip_base_text, only: integer_text, lower_case
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_comment, close_csv
     use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
                                        length_unit, body_wheel, body_rail
@@ -11,7 +11,7 @@ module faststrip_command_profile
                                           profile_at
     use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
     use faststrip_command_console, only: fail, fail_on_error, note, usage_error, put_origin, &
-                                         version_text, exit_bad_input
+                                         version_text, printable, exit_bad_input
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word, refuse_value
     use faststrip_command_profile_curation, only: curation_t, curation_options, take_curation, &
@@ -38,7 +38,7 @@ module faststrip_command_profile
         option_t('--ignore-smoothing', '', 'pass over the smoothing a file asks for')]
 
     ! Points of a standard profile.
-    integer, parameter :: nominal_points = 2001
+    integer, parameter :: nominal_points = 601
 
 contains
 
@@ -253,7 +253,7 @@ contains
         call put_origin(writer)
         do i = 1, size(measures)
             if (len(measures(i)%words) > 0) &
-                call put_comment(writer, measures(i)%path // ': ' // measures(i)%words)
+                call put_comment(writer, printable(measures(i)%path // ': ' // measures(i)%words))
         end do
         call put_measures_header(writer)
         do i = 1, size(measures)
@@ -271,9 +271,10 @@ contains
         type(status_t) :: status
 
         comments(1)%text = version_text()
-        comments(2)%text = 'from ' // measures%path // ' (' // trim(measures%points%format) // ')'
+        comments(2)%text = printable('from ' // measures%path // ' (' // &
+                                     trim(measures%points%format) // ')')
         comments(3)%text = 'y to the field side, z down, mm'
-        comments(4)%text = measures%words
+        comments(4)%text = printable(measures%words)
         call check_profile_name(path, measures%points%kind, status)
         if (is_error(status)) call usage_error(trim(status%message), 'profile')
         call write_profile(path, measures%points%y, measures%points%z, measures%points%kind, &

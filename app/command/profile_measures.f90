@@ -1,16 +1,15 @@
 !> What `faststrip profile` tells of one file.
 module faststrip_command_profile_measures
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, status_word
-    use faststrip_base_text, only: integer_text
     use faststrip_geometry_arc_spline, only: find_kinks
     use faststrip_geometry_flange, only: flange_t, measure_flange
-    use faststrip_geometry_profile, only: profile_t, make_curve_profile, profile_at
+    use faststrip_geometry_profile, only: profile_t, make_curve_profile
     use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
     use faststrip_geometry_wear, only: rail_wear_t
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_files_profile, only: profile_file_t
+    use faststrip_command_console, only: printable
     implicit none
     private
 
@@ -121,7 +120,7 @@ contains
 
         integer :: i
 
-        call put_cell(writer, measures%path)
+        call put_cell(writer, printable(measures%path))
         if (is_error(measures%status)) then
             call put_cell(writer, trim(measures%points%format))
             call put_cell(writer, kind_word(measures%points%kind))
@@ -129,11 +128,11 @@ contains
                 call put_cell(writer, '')
             end do
             call put_cell(writer, trim(status_word(measures%status%code)))
-            call put_cell(writer, trim(measures%status%message))
+            call put_cell(writer, printable(trim(measures%status%message)))
         else
             call put_known(writer, measures)
             call put_cell(writer, trim(status_word(measures%status%code)))
-            call put_cell(writer, measures%words)
+            call put_cell(writer, printable(measures%words))
         end if
         call end_row(writer)
     end subroutine put_measures

@@ -25,18 +25,23 @@ from ._contact import (
     library_version,
 )
 from ._library import FaststripError, LibraryNotFound
+from ._profile import Gap, Profile, ProgramNotFound, profile_gap
 
 __all__ = [
     "Contact",
     "Elements",
     "FaststripError",
+    "Gap",
     "LibraryNotFound",
     "Material",
+    "Profile",
+    "ProgramNotFound",
     "Result",
     "Strips",
     "fastsim",
     "hertz",
     "kalker",
     "library_version",
+    "profile_gap",
 ]
 __version__ = "0.1.0"

@@ -134,6 +134,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "fastsim": [*[number] * 11, c_int, c_int, POINTER(number)],
         "hertz": [*[number] * 7, POINTER(number)],
         "kalker": [number, number, POINTER(number)],
+        "profile_gap": [c_int, *[c_void_p] * 2, c_int, *[c_void_p] * 3, c_int, POINTER(c_int),
+                        *[c_void_p] * 5],
     }
     for name, types in arguments.items():
         try:

@@ -23,7 +23,11 @@ module faststrip
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          make_points_profile, profile_at, standard_cant
+                                          make_points_profile, make_curve_profile, profile_at, &
+                                          standard_cant
+    use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_flange, only: flange_t, measure_flange
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contact, find_rigid_contacts, &
                                                 find_wheelset_contacts => find_rigid_contacts, &

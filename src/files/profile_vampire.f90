@@ -57,16 +57,18 @@ contains
             call take_length(path, lines, 3, 'treaddatum', profile, datum, status)
             if (.not. is_error(status)) &
                 call take_length(path, lines, 4, 'flangeback', profile, distance, status)
-            from_middle = 0.5_wp*distance + datum
-            profile%flange_back = -datum
         else
             call take_length(path, lines, 3, 'gaugepoint', profile, datum, status)
             if (.not. is_error(status)) &
                 call take_length(path, lines, 4, 'gauge', profile, distance, status)
-            from_middle = 0.5_wp*distance
             profile%z_sense = -1
         end if
         if (is_error(status)) return
+        from_middle = 0.5_wp*distance
+        if (profile%kind == body_wheel) then
+            from_middle = from_middle + datum
+            profile%flange_back = -datum
+        end if
         do i = header_lines + 1, size(lines)
             line = without_comment(lines(i)%text, '"!%')
             if (len(line) == 0) cycle

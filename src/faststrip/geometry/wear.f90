@@ -18,7 +18,7 @@ module faststrip_geometry_wear
     real(wp), parameter :: farthest = 20.0_wp
     ! Tuned [steps; mm]: Gauss-Newton steps of the alignment at most, and where they end. Origin:
     ! chosen; some ten are taken.
-    integer, parameter :: most_steps = 100
+    integer, parameter :: most_steps = 40
     real(wp), parameter :: settled = 1.0e-9_wp
     ! Where the field side begins, from the middle of the head, over its half width.
     ! Tuned [1]. Origin: wheels wear R300 and R80 of a 60E1 up to there.
@@ -193,27 +193,28 @@ contains
         real(wp), intent(out) :: nearest(2), normal(2)
         logical, intent(out) :: is_near
 
-        real(wp) :: chord(2), t, distance, least, place(2)
+        real(wp) :: chord(2), t, length, distance, least, place(2) ! squares of lengths
         integer :: i
 
-        least = farthest
+        least = farthest**2
         is_near = .false.
         nearest = 0.0_wp
         normal = 0.0_wp
         do i = 1, size(y) - 1
             chord = [y(i + 1) - y(i), z(i + 1) - z(i)]
-            if (.not. norm2(chord) > 0.0_wp) cycle
-            t = dot_product(point - [y(i), z(i)], chord)/dot_product(chord, chord)
+            length = dot_product(chord, chord)
+            if (.not. length > 0.0_wp) cycle
+            t = dot_product(point - [y(i), z(i)], chord)/length
             ! Beyond the ends of the curve nothing is near.
             if (i == 1 .and. t < 0.0_wp .or. i == size(y) - 1 .and. t > 1.0_wp) cycle
             t = min(max(t, 0.0_wp), 1.0_wp)
             place = [y(i), z(i)] + t*chord
-            distance = norm2(point - place)
+            distance = dot_product(point - place, point - place)
             if (distance >= least) cycle
             least = distance
             is_near = .true.
             nearest = place
-            normal = [-chord(2), chord(1)]/norm2(chord)
+            normal = [-chord(2), chord(1)]/sqrt(length)
         end do
     end subroutine near
 end module faststrip_geometry_wear

@@ -15,6 +15,7 @@ module faststrip_interop_c
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
+    use faststrip_interop_profile_points, only: gap_of_points, n_setup, n_contact
     implicit none
     private
 
@@ -22,6 +23,7 @@ module faststrip_interop_c
     public :: faststrip_new, faststrip_free, faststrip_copy, faststrip_set_gap, faststrip_solve
     public :: faststrip_get_strips, faststrip_get_elements, faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
+    public :: faststrip_profile_gap
 
     character(len=*), parameter :: version = '0.1.0'
 
@@ -309,6 +311,38 @@ contains
         call classic_kalker(a_over_b, nu, numbers_at(coefficients, 4), status)
         code = status%code
     end function faststrip_kalker
+
+    !> The gap of a wheel on a rail, both given by points.
+    integer(c_int) function faststrip_profile_gap(n_wheel, y_wheel, z_wheel, n_rail, y_rail, &
+                                                  z_rail, setup, capacity, n, y, h, inv2r, &
+                                                  inclination, contact) bind(c) result(code)
+        integer(c_int), value :: n_wheel, n_rail        !! numbers of points
+        type(c_ptr), value :: y_wheel, z_wheel          !! `n_wheel` numbers each, mm
+        type(c_ptr), value :: y_rail, z_rail            !! `n_rail` numbers each, mm
+        type(c_ptr), value :: setup                     !! nine numbers
+        integer(c_int), value :: capacity               !! length of the arrays of the gap
+        type(c_ptr), value :: n                         !! points of the gap, written
+        type(c_ptr), value :: y, h, inv2r, inclination  !! mm, mm, 1/mm, rad, written
+        type(c_ptr), value :: contact                   !! six numbers, written
+
+        type(status_t) :: status
+        integer(c_int), pointer :: number
+
+        code = st_bad_argument
+        if (min(n_wheel, n_rail, capacity) < 0) return
+        if (.not. (c_associated(y_wheel) .and. c_associated(z_wheel) .and. c_associated(y_rail) &
+                   .and. c_associated(z_rail) .and. c_associated(setup) .and. c_associated(n) &
+                   .and. c_associated(y) .and. c_associated(h) .and. c_associated(inv2r) &
+                   .and. c_associated(inclination) .and. c_associated(contact))) return
+        call c_f_pointer(n, number)
+        call gap_of_points(numbers_at(y_wheel, n_wheel), numbers_at(z_wheel, n_wheel), &
+                           numbers_at(y_rail, n_rail), numbers_at(z_rail, n_rail), &
+                           numbers_at(setup, n_setup), numbers_at(y, capacity), &
+                           numbers_at(h, capacity), numbers_at(inv2r, capacity), &
+                           numbers_at(inclination, capacity), number, &
+                           numbers_at(contact, n_contact), status)
+        code = status%code
+    end function faststrip_profile_gap
 
     !> A workspace for a case; 0, and an error, if there cannot be one.
     subroutine make_workspace(case, max_points, number, status)

@@ -52,11 +52,12 @@ module faststrip_interop_f77
                                       read_result, read_force_errors, strip_count, read_strips, &
                                       read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
+    use faststrip_interop_profile_points, only: gap_of_points, n_setup, n_contact
     implicit none
     private
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
-    public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast
+    public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast, fsprof
 
     ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
     ! whether it is known and the strips across.
@@ -131,6 +132,35 @@ contains
         pmax = figures(4)
         info = status%code
     end subroutine fsherz
+
+    !> CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, LGAP, NGAP, Y, H, AX, TURN, CONT, INFO)
+    !>
+    !> The gap of a wheel on a rail, both given by points along the curve, y to the field side, z
+    !> down, of the wheel from the tape circle. SETUP: distance of the flange backs, flange back to
+    !> tape circle, rolling radius, gauge, its depth below the crown, tangent of the cant, shift to
+    !> the right, spacing and height of the gap. CONT: contact angle, rolling radius, y on the wheel
+    !> and on the rail, points left out of the wheel and of the rail. INFO 110: LGAP below NGAP.
+    subroutine fsprof(n_wheel, y_wheel, z_wheel, n_rail, y_rail, z_rail, setup, capacity, n, y, h, &
+                      inv2r, inclination, contact, info) bind(c, name='fsprof_')
+        integer(c_int), intent(in) :: n_wheel                         !! number of points
+        real(c_double), intent(in) :: y_wheel(n_wheel), z_wheel(n_wheel) !! mm
+        integer(c_int), intent(in) :: n_rail                          !! number of points
+        real(c_double), intent(in) :: y_rail(n_rail), z_rail(n_rail)  !! mm
+        real(c_double), intent(in) :: setup(n_setup)                  !! as above
+        integer(c_int), intent(in) :: capacity                        !! of the arrays of the gap
+        integer(c_int), intent(out) :: n                              !! points of the gap
+        real(c_double), intent(inout) :: y(capacity), h(capacity)     !! mm
+        real(c_double), intent(inout) :: inv2r(capacity)              !! 1/mm
+        real(c_double), intent(inout) :: inclination(capacity)        !! rad
+        real(c_double), intent(out) :: contact(n_contact)             !! as above
+        integer(c_int), intent(out) :: info                           !! status
+
+        type(status_t) :: status
+
+        call gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, y, h, inv2r, inclination, n, &
+                           contact, status)
+        info = status%code
+    end subroutine fsprof
 
     !> CALL FSDFLT(IOPT, PAR)
     !>

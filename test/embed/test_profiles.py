@@ -1,0 +1,93 @@
+"""Profiles from hosts: files through Python, points through C and fixed-form Fortran."""
+
+import math
+import os
+import unittest
+
+from installed import HostTest
+
+F77 = """\
+      PROGRAM TRY
+      INTEGER NW, NR, NGAP, INFO, I
+      PARAMETER (NW = 161, NR = 121)
+      DOUBLE PRECISION YW(NW), ZW(NW), YR(NR), ZR(NR), SETUP(9), A
+      DOUBLE PRECISION Y(2000), H(2000), AX(2000), TURN(2000), CONT(6)
+      DATA SETUP /1360D0,70D0,460D0,1435D0,14D0,0D0,0D0,.05D0,.6D0/
+      DO 10 I = 1, NW
+         YW(I) = -40D0 + .5D0*(I - 1)
+   10    ZW(I) = -YW(I)**2/2000D0
+      DO 20 I = 1, NR
+         A = 1.5D0*(I - 61)/60D0
+         YR(I) = 36D0*SIN(A)
+   20    ZR(I) = 36D0 - 36D0*COS(A)
+      CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, 2000, NGAP, Y, H, AX,
+     &            TURN, CONT, INFO)
+      PRINT *, INFO, NGAP, CONT(2), CONT(4)
+      CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, 3, NGAP, Y, H, AX,
+     &            TURN, CONT, INFO)
+      PRINT *, INFO, NGAP
+      SETUP(3) = -1D0
+      CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, 2000, NGAP, Y, H, AX,
+     &            TURN, CONT, INFO)
+      PRINT *, INFO
+      END
+"""
+
+
+class Points(HostTest):
+    def test_fixed_form_fortran_takes_points(self):
+        done = self.compiled_f77(F77)
+        rows = [line.split() for line in done.splitlines()]
+        self.assertEqual(rows[0][0], "0")
+        self.assertAlmostEqual(float(rows[0][2]), 460.0, delta=0.5)
+        self.assertEqual(rows[1], ["110", rows[0][1]])
+        self.assertEqual(rows[2], ["100"])
+
+    def compiled_f77(self, text):
+        self.write("try.f", text)
+        return self.shell("gfortran -std=legacy try.f -o try $(pkg-config --libs faststrip)\n./try")
+
+
+class Python(HostTest):
+    def setUp(self):
+        os.environ["FASTSTRIP_PREFIX"] = str(self.installed.prefix)
+        self.addCleanup(os.environ.pop, "FASTSTRIP_PREFIX", None)
+        self.write("r.txt", "".join(
+            f"{36 * math.sin(a / 100)} {36 - 36 * math.cos(a / 100)}\n" for a in range(-150, 151)))
+        self.write("w.prw", "header.begin\ntype = 1\nheader.end\nspline.begin\npoint.begin\n"
+                   + "".join(f"{y / 4} {-(y / 4) ** 2 / 2000}\n" for y in range(-160, 161))
+                   + "point.end\nspline.end\n")
+
+    def test_files_become_profiles_and_gaps(self):
+        faststrip = self.import_package()
+        os.environ["FASTSTRIP_PREFIX"] = str(self.installed.prefix)
+        wheel = faststrip.Profile.read(self.folder / "w.prw")
+        rail = faststrip.Profile.read(self.folder / "r.txt", kind="rail", shift_z=1)
+        self.assertEqual((wheel.kind, wheel.format, rail.kind), ("wheel", "simpack", "rail"))
+        self.assertAlmostEqual(rail.z.min(), 1.0, delta=1e-12)
+        self.assertIsNone(wheel.sd)
+        gap = faststrip.profile_gap(wheel, rail, shift=1.0)
+        finer = faststrip.profile_gap(wheel, rail, shift=1.0, step=0.001)
+        self.assertAlmostEqual(gap.y_rail, finer.y_rail, delta=1e-12)
+        self.assertGreater(len(finer.y), 4000)
+        contact = faststrip.Contact()
+        contact.set_gap(*gap[:3], gap.inclination)
+        self.assertGreater(contact.solve(load=1e5, creepage=(0, 0, 0), mu=0.3).pmax, 1000.0)
+        for call, text in (
+                (lambda: faststrip.Profile.read("none.txt"), "no such file: none.txt"),
+                (lambda: faststrip.profile_gap(rail, wheel), "wheel must be a Profile of a wheel"),
+                (lambda: faststrip.profile_gap(wheel, rail, radius=-1.0), "bad_argument"),
+                (lambda: faststrip.Profile([1.0, 2.0], [1.0]), "y and z must be two arrays")):
+            with self.assertRaises(faststrip.FaststripError) as caught:
+                call()
+            self.assertIn(text, str(caught.exception))
+
+    def test_the_program_is_said_to_be_missing(self):
+        faststrip = self.import_package()
+        os.environ["FASTSTRIP_PREFIX"] = str(self.folder)
+        with self.assertRaisesRegex(faststrip.ProgramNotFound, "FASTSTRIP_PROGRAM"):
+            faststrip.Profile.read(self.folder / "w.prw")
+
+
+if __name__ == "__main__":
+    unittest.main()
