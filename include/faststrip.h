@@ -47,6 +47,7 @@ enum faststrip_status {
     FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
     FASTSTRIP_UNDER_RESOLVED = 8, /* an estimated error is above its limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
+    FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
     FASTSTRIP_NOT_FINITE = 101,

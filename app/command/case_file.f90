@@ -40,7 +40,8 @@ module faststrip_command_case_file
         'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
         'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
         'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
-        'target', 'budget_us', 'max_elements', 'resolution_limit', 'force_limit']
+        'target', 'budget_us', 'max_elements', 'resolution_limit', 'force_limit', &
+        'yield_MPa']
     character(len=name_length), parameter :: sweep_names(*) = [character(len=name_length) :: &
         'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
 
@@ -233,11 +234,12 @@ contains
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
-            error_target, tolerance, budget_us, resolution_limit, force_limit
+            error_target, tolerance, budget_us, resolution_limit, force_limit, &
+            yield_mpa
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, norm_start, tolerance, target, budget_us, max_elements, &
-            resolution_limit, force_limit
+            resolution_limit, force_limit, yield_mpa
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -259,6 +261,7 @@ contains
         target = target_names(case%numerics%wanted%target)
         resolution_limit = case%resolution_limit
         force_limit = case%force_limit
+        yield_mpa = case%numerics%yield_mpa
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%numerics%smoothing_um
@@ -280,6 +283,7 @@ contains
         numbers%fastsim_nx = fastsim_nx
         numbers%fastsim_ny = fastsim_ny
         numbers%smoothing_um = smoothing_um
+        numbers%yield_mpa = yield_mpa
         numbers%element_dx = element_dx_mm
         numbers%element_dy = element_dy_mm
         numbers%error_target = error_target

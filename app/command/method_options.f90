@@ -18,7 +18,7 @@ module faststrip_command_method_options
     character(len=*), parameter :: newline = new_line('a')
 
     !> For the table of a subcommand; the names are told by `method_notes`.
-    type(option_t), parameter :: method_options(17) = [ &
+    type(option_t), parameter :: method_options(18) = [ &
         option_t('--normal', 'NAME', 'normal method, one of the above (default strip)'), &
         option_t('--tangential', 'NAME', &
                  'tangential method, one of the above (default faststrip)'), &
@@ -34,6 +34,7 @@ module faststrip_command_method_options
         option_t('--resolution-limit', 'E', 'status under_resolved above this est_err_...' &
                  // ' (default 0.1)'), &
         option_t('--force-limit', 'E', 'the same of est_err_Fx, _Fy, _Mz (default 0.1)'), &
+        option_t('--yield-MPa', 'MPA', 'status beyond_yield where pmax is above (default none)'), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
@@ -110,6 +111,7 @@ contains
         case%resolution_limit = option_number(command, '--resolution-limit', &
                                                  case%resolution_limit, above=0)
         case%force_limit = option_number(command, '--force-limit', case%force_limit, above=0)
+        numerics%yield_mpa = option_number(command, '--yield-MPa', numerics%yield_mpa, least=0)
         numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

@@ -31,6 +31,7 @@ module faststrip_command_methods
 
     !> Methods and resolutions: those of the core, and what norm, tang and auto need besides.
     type, extends(contact_methods_t) :: numerics_t
+        real(wp) :: yield_mpa = 0.0_wp   !! pmax above is beyond_yield, MPa; 0: no limit
         real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
         real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
         real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
@@ -64,6 +65,7 @@ contains
         call check_real('element_dx_mm', numerics%element_dx, .false.)
         call check_real('element_dy_mm', numerics%element_dy, .false.)
         call check_real('error_target', numerics%error_target, .true.)
+        call check_real('yield_MPa', numerics%yield_mpa, .true.)
         call check_real('smoothing_um', numerics%smoothing_um, .true.)
         call check_real('tolerance', numerics%wanted%tolerance, numerics%wanted%budget_us > 0.0_wp)
         call check_real('budget_us', numerics%wanted%budget_us, .true.)

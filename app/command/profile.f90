@@ -56,9 +56,9 @@ contains
         command%about = &
             'Read wheel and rail profiles: MiniProf (.whl, .ban, .mpt), SIMPACK (.prw, .prr),' // &
             new_line('a') // 'VAMPIRE (.whe, .rai), GENSYS (.wheel), two-column text, CSV. Rows' &
-            // new_line('a') // 'of a CSV describe them: y to the field side, z down, mm. Nothing ' &
-            // 'is' // new_line('a') // 'repaired unasked; what is asked for is done in the order ' &
-            // 'below.' // new_line('a')
+            // new_line('a') // 'of a CSV describe them: y to the field side, z down, mm.' // &
+            new_line('a') // 'Nothing is repaired unasked; what is asked for is done in the' // &
+            new_line('a') // 'order below.' // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the profile there: .csv, .prw or .prr', writes=.true.), &
             option_t('--table', 'FILE', 'write the CSV of descriptions there (default stdout)', &

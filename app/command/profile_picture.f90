@@ -80,7 +80,8 @@ contains
 
         allocate (s(size(nominal%y)), source=0.0_wp)
         do i = 2, size(s)
-            s(i) = s(i - 1) + hypot(nominal%y(i) - nominal%y(i - 1), nominal%z(i) - nominal%z(i - 1))
+            s(i) = s(i - 1) + hypot(nominal%y(i) - nominal%y(i - 1), &
+                                    nominal%z(i) - nominal%z(i - 1))
         end do
         depth = pack(nominal%depth, nominal%is_known)
         if (size(depth) == 0) depth = [0.0_wp]

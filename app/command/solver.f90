@@ -2,12 +2,14 @@
 module faststrip_command_solver
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error
+    use faststrip_base_status, only: status_t, clear_status, is_error, number_text, &
+                                     st_beyond_yield
     use faststrip_base_material, only: check_material
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: reserve_gap_curve, set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
+    use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_auto
     use faststrip_contact_solve, only: reserve_contact_field
@@ -59,6 +61,18 @@ contains
         type(outcome_t), intent(out) :: outcome     !! figures
         type(status_t), intent(out) :: status       !! an error, or a named limitation
 
+        call solve_methods(solver, case, outcome, status)
+        if (.not. is_error(status)) &
+            call name_yield(solver%numerics%yield_mpa, outcome%normal%pmax, status)
+    end subroutine solve
+
+    !> The same without the limit of the user.
+    subroutine solve_methods(solver, case, outcome, status)
+        type(solver_t), intent(inout) :: solver     !! made beforehand
+        class(contact_case_t), intent(in) :: case   !! what to solve; its methods do not count
+        type(outcome_t), intent(out) :: outcome     !! figures
+        type(status_t), intent(out) :: status       !! an error, or a named limitation
+
         outcome%choice = ''
         call take_contact(solver, case, outcome, status)
         if (is_error(status)) return
@@ -74,7 +88,18 @@ contains
         if (is_error(status)) return
         call solve_forces(solver, outcome, status)
         if (.not. is_error(status)) call estimate_figures(solver, outcome, status)
-    end subroutine solve
+    end subroutine solve_methods
+
+    !> Name a largest pressure above the limit that the user has set.
+    subroutine name_yield(limit, pmax, status)
+        real(wp), intent(in) :: limit          ! MPa; 0: none
+        real(wp), intent(in) :: pmax           ! MPa
+        type(status_t), intent(inout) :: status
+
+        if (.not. limit > 0.0_wp .or. pmax <= limit) return
+        call add_limitation(status, st_beyond_yield, 'pmax of ' // trim(number_text(pmax)) // &
+                            ' MPa is above the limit of ' // trim(number_text(limit)) // ' MPa')
+    end subroutine name_yield
 
     !> Check the contact, smooth its gap if that is asked for, and make it a curve once for all
     !> methods, which counts as normal time.

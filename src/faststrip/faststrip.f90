@@ -10,7 +10,8 @@ module faststrip
                                      first_error, st_fallback_used, st_edge_of_data, &
                                      st_fewer_strips, st_overlap_left, st_flat_along_x, &
                                      st_conformal, st_target_missed, st_under_resolved, &
-                                     st_more_strips, st_no_finite_patch, st_bad_argument, &
+                                     st_more_strips, st_beyond_yield, st_no_finite_patch, &
+                                     st_bad_argument, &
                                      st_not_finite, st_not_increasing, st_too_few_points, &
                                      st_bad_material, st_bad_load, st_no_contact, &
                                      st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &

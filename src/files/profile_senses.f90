@@ -72,12 +72,12 @@ contains
             end do
         end associate
         if (.not. (length >= shortest .and. length <= longest)) then
-            call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long ' // &
-                                  '(--unit says in what unit a file is)', &
+            call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long' // &
+                                  ' (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (n_back > max(few, int(most_turned_back*n))) then
-            call set_place_status(status, st_file_format, 'points must stand in order along the ' // &
-                                  'profile, it turns back ' // integer_text(n_back) // ' times', &
+            call set_place_status(status, st_file_format, 'points must stand in order along the' // &
+                                  ' profile, it turns back ' // integer_text(n_back) // ' times', &
                                   '', path, 0)
         end if
     end subroutine check_extent

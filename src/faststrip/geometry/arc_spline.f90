@@ -31,7 +31,7 @@ module faststrip_geometry_arc_spline
     ! Bounds of dy/ds over the mean of its interval: y stays increasing.
     ! Given: Fritsch and Carlson (1980): up to three times is monotone.
     real(wp), parameter :: steepest = 3.0_wp
-    ! Tuned [1]. Origin: safeguard: slopes stay finite.
+    ! Tuned [1]: The lower of them. Origin: safeguard: slopes stay finite.
     real(wp), parameter :: flattest = 1.0e-3_wp
 
     ! Tuned [steps]: Most steps to a place. Origin: capacity; halvings of an interval to rounding.

@@ -183,7 +183,7 @@ contains
         weight(2:n - 1) = 0.5_wp*(s(3:) - s(:n - 2))
         if (holds_first) weight(1) = held*weight(1)
         if (holds_last) weight(n) = held*weight(n)
-        mu = (wavelength/(2.0_wp*pi))**6
+        mu = (wavelength/(2.0_wp*pi))**(2*band)
         system = 0.0_wp
         system(band + 1, :) = weight
         change = 0.0_wp

@@ -49,8 +49,8 @@ module faststrip_geometry_profile
         type(rail_head_t) :: head          !! used by `uic60` and `60e1`
         type(sampled_profile_t) :: sampled !! used by `points`
         type(arc_spline_t) :: curve        !! used by `curve`
-        real(wp) :: z_below = -huge(1.0_wp) !! how deep an overhang that was clipped at y_first
-                                           !! reaches, mm; no overhang: -huge
+        logical :: is_clipped = .false.    !! was an overhang clipped at y_first?
+        real(wp) :: z_below = 0.0_wp       !! how deep it reaches, mm
     end type profile_t
 
 contains
@@ -188,7 +188,8 @@ contains
         profile%kind = profile_curve
         profile%y_first = profile%curve%y(1)
         profile%y_last = profile%curve%y(size(part%point))
-        if (part%n_clipped(1) > 0) profile%z_below = part%deepest(1)
+        profile%is_clipped = part%n_clipped(1) > 0
+        profile%z_below = part%deepest(1)
     end subroutine make_curve_profile
 
     !> The profile and its first two derivatives.

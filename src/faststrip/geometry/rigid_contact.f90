@@ -307,7 +307,7 @@ contains
             call profile_at(rail, rail%y_first + real(i, wp)*step, z, dz, d2z, status)
             if (z - top >= depth) exit
         end do
-        if (i < 0 .and. rail%z_below - top >= depth) then
+        if (i < 0 .and. rail%is_clipped .and. rail%z_below - top >= depth) then
             ! The gauge face overhangs: its innermost place is where it was clipped.
             y_gauge = rail%y_first
             return

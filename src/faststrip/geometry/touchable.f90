@@ -24,6 +24,7 @@ module faststrip_geometry_touchable
     integer, parameter :: body_rail = 2
 
     !> Length of `touchable_words`, characters.
+    !> Given: a line of a message.
     integer, parameter :: words_length = 200
 
     !> The part of a curve that can be touched.

@@ -16,9 +16,9 @@ module faststrip_geometry_wear
     ! Wear is looked for as far as this on both sides of the nominal curve.
     ! Tuned [mm]. Origin: rails and flanges are taken out of use earlier.
     real(wp), parameter :: farthest = 20.0_wp
-    ! Tuned [steps; mm]: Gauss-Newton steps of the alignment at most, and where they end. Origin:
-    ! chosen; some ten are taken.
+    ! Tuned [steps]: Gauss-Newton steps of the alignment at most. Origin: chosen; ten are taken.
     integer, parameter :: most_steps = 40
+    ! Tuned [mm]: steps that end it. Origin: chosen; well below any wear.
     real(wp), parameter :: settled = 1.0e-9_wp
     ! Where the field side begins, from the middle of the head, over its half width.
     ! Tuned [1]. Origin: wheels wear R300 and R80 of a 60E1 up to there.
@@ -134,8 +134,8 @@ contains
     subroutine align_by_field_side(nominal_y, nominal_z, y, z, motion, status)
         real(wp), intent(in) :: nominal_y(:), nominal_z(:)  !! mm
         real(wp), intent(inout) :: y(:), z(:)               !! moved, mm
-        real(wp), intent(out) :: motion(3)     !! along y and z, mm; the turn from y to z about the origin, rad,
-                                               !! which comes first, is the last of the three
+        real(wp), intent(out) :: motion(3)     !! along y and z, mm; and, done before, the turn
+                                               !! from y to z about the origin, rad
         type(status_t), intent(out) :: status  !! `st_out_of_range`: no common field side;
                                                !! `st_no_convergence`
 

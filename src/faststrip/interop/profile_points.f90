@@ -83,8 +83,8 @@ contains
             if (is_error(status)) return
             n = size(gap%y)
             if (n > min(size(y), size(h), size(inv2r), size(inclination))) then
-                call set_status(status, st_workspace_too_small, 'the gap has more points than the ' &
-                                //'arrays')
+                call set_status(status, st_workspace_too_small, 'the gap has more points than ' &
+                                //'the arrays')
                 return
             end if
             y(:n) = gap%y
