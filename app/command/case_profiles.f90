@@ -96,8 +96,8 @@ contains
         name = trim(profile)
         select case (profile)
         case (''); call refuse(content, group, 'profile', 'must be given', '')
-        case ('s1002')
-            call make_wheel_profile('s1002', shape, status)
+        case ('s1002', 'cone20', 'cone40')
+            call make_wheel_profile(trim(profile), shape, status)
             call fail_on_error(status)
         case default
             call need_finite(content, group, 'tape_circle_mm', tape_circle_mm)
@@ -155,7 +155,7 @@ contains
         if (.not. required) return
         ! A drawn profile stands upright; a measured one is taken as it stands.
         if (.not. sets(content, group, 'cant')) &
-            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ']))
+            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ', '54e1 ']))
         call need_finite(content, group, 'cant', cant)
         call need_positive(content, group, 'gauge_mm', gauge_mm)
         call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
@@ -163,7 +163,7 @@ contains
         name = trim(profile)
         select case (profile)
         case (''); call refuse(content, group, 'profile', 'must be given', '')
-        case ('uic60', '60e1')
+        case ('uic60', '60e1', '54e1')
             call make_rail_profile(trim(profile), cant, shape, status)
             if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
         case default

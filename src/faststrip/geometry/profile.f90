@@ -7,7 +7,8 @@ module faststrip_geometry_profile
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_rail_uic60, only: rail_head_t, make_rail_head, rail_head_at, &
-                                             uic60_transition, en60e1_transition
+                                             uic60_transition, en60e1_transition, &
+                                             en54e1_transition, half_width_54
     use faststrip_geometry_arc_spline, only: arc_spline_t, make_arc_spline, arc_spline_at
     use faststrip_geometry_touchable, only: touchable_t, find_touchable, body_wheel, body_rail
     use faststrip_geometry_sampled, only: sampled_profile_t, make_sampled_profile, &
@@ -22,7 +23,7 @@ module faststrip_geometry_profile
     public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
     public :: make_curve_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
-    public :: profile_curve
+    public :: profile_curve, profile_54e1, profile_cone
     public :: standard_cant
 
     ! Given: numbers of kinds.
@@ -32,10 +33,18 @@ module faststrip_geometry_profile
     integer, parameter :: profile_60e1 = 3
     integer, parameter :: profile_points = 4
     integer, parameter :: profile_curve = 5
+    integer, parameter :: profile_54e1 = 6
+    integer, parameter :: profile_cone = 7
 
     !> Rail cant 1:40.
     !> Given: 1:40.
     real(wp), parameter :: standard_cant = 0.025_wp
+
+    ! Treads of cones, from the flange root to the field side.
+    ! Given: width of the tread of S1002, mm.
+    real(wp), parameter :: cone_first = -35.0_wp, cone_last = 60.0_wp
+    ! Given: the two cones of EN 13715.
+    real(wp), parameter :: cone20 = 0.05_wp, cone40 = 0.025_wp
 
     ! Points beyond this are not in mm.
     ! Tuned [mm]. Origin: safeguard.
@@ -46,7 +55,8 @@ module faststrip_geometry_profile
         integer :: kind = profile_none     !! which profile: one of the `profile_` kinds
         real(wp) :: y_first = 0.0_wp       !! first y of the definition, mm
         real(wp) :: y_last = 0.0_wp        !! last y of the definition, mm
-        type(rail_head_t) :: head          !! used by `uic60` and `60e1`
+        type(rail_head_t) :: head          !! used by `uic60`, `60e1`, `54e1`
+        real(wp) :: cone = 0.0_wp          !! used by `cone`: rise to the field side
         type(sampled_profile_t) :: sampled !! used by `points`
         type(arc_spline_t) :: curve        !! used by `curve`
         logical :: is_clipped = .false.    !! was an overhang clipped at y_first?
@@ -57,24 +67,31 @@ contains
 
     !> An analytic wheel profile by name.
     pure subroutine make_wheel_profile(name, profile, status)
-        character(len=*), intent(in) :: name      !! `s1002`
+        character(len=*), intent(in) :: name      !! `s1002`; `cone20`, `cone40`: 1:20, 1:40
         type(profile_t), intent(out) :: profile   !! the profile
         type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name
 
         call clear_status(status)
-        if (name /= 's1002') then
+        select case (name)
+        case ('s1002')
+            profile%kind = profile_s1002
+            profile%y_first = s1002_first
+            profile%y_last = s1002_last
+        case ('cone20', 'cone40')
+            profile%kind = profile_cone
+            profile%cone = merge(cone20, cone40, name == 'cone20')
+            profile%y_first = cone_first
+            profile%y_last = cone_last
+        case default
             call set_status(status, st_bad_argument, &
-                            'the wheel profile must be s1002, got ' // name)
-            return
-        end if
-        profile%kind = profile_s1002
-        profile%y_first = s1002_first
-        profile%y_last = s1002_last
+                            'the wheel profile must be s1002, cone20 or cone40, got ' // name)
+        end select
     end subroutine make_wheel_profile
 
     !> An analytic rail profile by name.
     pure subroutine make_rail_profile(name, cant, profile, status)
-        character(len=*), intent(in) :: name      !! `uic60` (Manchester) or `60e1` (EN 13674-1)
+        character(len=*), intent(in) :: name      !! `uic60` (Manchester), `60e1`, `54e1` (EN
+                                                  !! 13674-1)
         real(wp), intent(in) :: cant              !! tangent of the cant, within +-0.1
         type(profile_t), intent(out) :: profile   !! the canted profile
         type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name or cant
@@ -87,9 +104,12 @@ contains
         case ('60e1')
             profile%kind = profile_60e1
             call make_rail_head(en60e1_transition, cant, profile%head, status)
+        case ('54e1')
+            profile%kind = profile_54e1
+            call make_rail_head(en54e1_transition, cant, profile%head, status, half_width_54)
         case default
             call set_status(status, st_bad_argument, &
-                            'the rail profile must be uic60 or 60e1, got ' // name)
+                            'the rail profile must be uic60, 60e1 or 54e1, got ' // name)
         end select
         if (is_error(status)) then
             profile%kind = profile_none
@@ -205,8 +225,10 @@ contains
         select case (profile%kind)
         case (profile_s1002)
             call s1002_at(y, z, dz, d2z, status)
-        case (profile_uic60, profile_60e1)
+        case (profile_uic60, profile_60e1, profile_54e1)
             call rail_head_at(profile%head, y, z, dz, d2z, status)
+        case (profile_cone)
+            call cone_at(profile, y, z, dz, d2z, status)
         case (profile_points)
             call sampled_profile_at(profile%sampled, y, z, dz, d2z, status)
         case (profile_curve)
@@ -218,4 +240,28 @@ contains
             call set_status(status, st_out_of_range, 'there is no profile')
         end select
     end subroutine profile_at
+
+    !> A straight tread that rises to the field side.
+    pure subroutine cone_at(profile, y, z, dz, d2z, status)
+        type(profile_t), intent(in) :: profile
+        real(wp), intent(in) :: y
+        real(wp), intent(out) :: z, dz, d2z
+        type(status_t), intent(out) :: status
+
+        logical :: inside
+
+        call clear_status(status)
+        z = 0.0_wp
+        dz = 0.0_wp
+        d2z = 0.0_wp
+        inside = ieee_is_finite(y)
+        if (inside) inside = y >= profile%y_first .and. y <= profile%y_last
+        if (inside) then
+            z = -profile%cone*y
+            dz = -profile%cone
+        else
+            call set_status(status, st_out_of_range, 'y must be on the cone, got ' // &
+                            trim(number_text(y)) // ' mm')
+        end if
+    end subroutine cone_at
 end module faststrip_geometry_profile

@@ -1,5 +1,5 @@
-!> The rail head UIC60 / 60E1: arcs R300, R80, R13 and a flank 1:20, each tangent to the next,
-!> symmetric, 72 mm wide where the flank begins; canted by a rotation.
+!> The rail heads UIC60, 60E1 and 54E1: arcs R300, R80, R13 and a flank 1:20, each tangent to the next,
+!> symmetric, 72 mm wide (54E1: 70 mm) where the flank begins; canted by a rotation.
 !>
 !> One number is free, the transition between R300 and R80, and two are in use (see
 !> `uic60_transition` and `en60e1_transition`): the heads they give differ by up to 0.04 mm,
@@ -13,7 +13,8 @@ module faststrip_geometry_rail_uic60
     private
 
     public :: rail_head_t, make_rail_head, rail_head_at
-    public :: uic60_transition, en60e1_transition
+    public :: uic60_transition, en60e1_transition, en54e1_transition
+    public :: half_width_54
 
     !> Half of 21.000 mm: the `uic60` of the Manchester benchmark and multibody programs, mm.
     !> Given: dimensions, as said with it.
@@ -23,12 +24,21 @@ module faststrip_geometry_rail_uic60
     !> Given: dimensions, as said with it.
     real(wp), parameter :: en60e1_transition = 10.228_wp
 
+    !> Half of 20.024 mm: the `54e1` of EN 13674-1, 70 mm wide, mm. By tangency R80 then ends at a
+    !> width of 49.727 mm, as the standard has it.
+    !> Given: dimensions, as said with it.
+    real(wp), parameter :: en54e1_transition = 10.012_wp
+
+    !> Half-widths where the flanks of `uic60` and `60e1` and that of `54e1` begin, mm.
+    !> Given: dimensions of the heads.
+    real(wp), parameter :: half_width_60 = 36.0_wp, half_width_54 = 35.0_wp
+
     ! Given: dimensions of the head: R300, R80, R13.
     real(wp), parameter :: radius(3) = [300.0_wp, 80.0_wp, 13.0_wp]
 
-    ! Half-width where the flank begins and where the head ends (74.3 mm wide), mm.
+    ! How much wider the half of the head is where it ends (74.3 mm of 60E1), mm.
     ! Given: dimensions of the head; the flank is 20:1.
-    real(wp), parameter :: flank_half_width = 36.0_wp, end_half_width = 37.15_wp
+    real(wp), parameter :: flank_widening = 1.15_wp
     ! Given: dimensions of the head.
     real(wp), parameter :: flank_slope = 20.0_wp
 
@@ -46,6 +56,7 @@ module faststrip_geometry_rail_uic60
     !> canted frame is turned by the cant and has its origin at the highest point.
     type :: rail_head_t
         real(wp) :: cant = 0.0_wp     !! tangent of the angle by which the top leans inwards
+        real(wp) :: half_width = half_width_60 !! where the flank begins, own frame, mm
         real(wp) :: y1 = 0.0_wp       !! transition R300/R80, own frame, mm
         real(wp) :: z1 = 0.0_wp       !! its depth, mm
         real(wp) :: y2 = 0.0_wp       !! transition R80/R13, own frame, mm
@@ -69,11 +80,12 @@ contains
     !>
     !> From a cant of 1:20 on the gauge face is vertical or undercut and no longer a function of
     !> y: the head then ends there, on R13.
-    pure subroutine make_rail_head(transition, cant, head, status)
+    pure subroutine make_rail_head(transition, cant, head, status, half_width)
         real(wp), intent(in) :: transition      !! y1, between 1 and 20, mm
         real(wp), intent(in) :: cant            !! tangent, e.g. 1/40; within +-0.1
         type(rail_head_t), intent(out) :: head  !! the head
         type(status_t), intent(out) :: status   !! `st_bad_argument`
+        real(wp), intent(in), optional :: half_width !! where the flank begins, mm; 60E1's
         logical :: valid
 
         call clear_status(status)
@@ -94,6 +106,7 @@ contains
         end if
 
         head%cant = cant
+        if (present(half_width)) head%half_width = half_width
         call join_arcs(transition, head)
         call turn_head(head)
     end subroutine make_rail_head
@@ -113,7 +126,7 @@ contains
         head%centre_y(2) = head%y1 - radius(2)*sin(angle_1)
         head%centre_z(2) = head%z1 + radius(2)*cos(angle_1)
         angle_flank = atan(flank_slope)
-        head%centre_y(3) = flank_half_width - radius(3)*sin(angle_flank)
+        head%centre_y(3) = head%half_width - radius(3)*sin(angle_flank)
         angle_2 = asin((head%centre_y(3) - head%centre_y(2))/(radius(2) - radius(3)))
         head%y2 = head%centre_y(2) + radius(2)*sin(angle_2)
         head%z2 = head%centre_z(2) - radius(2)*cos(angle_2)
@@ -175,12 +188,12 @@ contains
             real(wp), intent(out) :: y, z, slope, y_last
             real(wp) :: outward, depth, z_last
 
-            call rotate(side*flank_half_width, head%z_flank, crown_y, crown_z, y, z)
+            call rotate(side*head%half_width, head%z_flank, crown_y, crown_z, y, z)
             outward = cos(cant_angle)/flank_slope + side*sin(cant_angle)
             if (outward > vertical_margin) then
                 slope = side*(cos(cant_angle) - side*sin(cant_angle)/flank_slope)/outward
-                depth = head%z_flank + flank_slope*(end_half_width - flank_half_width)
-                call rotate(side*end_half_width, depth, crown_y, crown_z, y_last, z_last)
+                depth = head%z_flank + flank_slope*flank_widening
+                call rotate(side*(head%half_width + flank_widening), depth, crown_y, crown_z, y_last, z_last)
             else
                 slope = 0.0_wp
                 y_last = head%arc_y(merge(1, 5, side < 0.0_wp)) &
