@@ -10,7 +10,7 @@ module faststrip_command_case_profiles
     use faststrip_geometry_touchable, only: touchable_t, touchable_words
     use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t, &
                                        length_unit, body_wheel, body_rail
-    use faststrip_command_console, only: fail_on_error, note, printable
+    use faststrip_command_console, only: fail_on_error, printable
     use faststrip_command_files, only: take_input
     use faststrip_command_methods, only: word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, find_group, sets, refuse
@@ -234,7 +234,6 @@ contains
         words = trim(points%notes) // words
         if (len(words) == 0) return
         words = printable(file // ': ' // words)
-        call note(words)
     end subroutine read_points
 
     !> A path that is relative to the folder of another file.

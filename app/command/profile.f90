@@ -9,6 +9,8 @@ module faststrip_command_profile
     use faststrip_files_profile_writer, only: write_profile, check_profile_name
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           profile_at
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_curation, only: resample
     use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
     use faststrip_command_console, only: fail, fail_on_error, note, usage_error, put_origin, &
                                          version_text, printable, exit_bad_input
@@ -37,8 +39,9 @@ module faststrip_command_profile
         option_t('--any-count', '', 'take a number of points that the header denies'), &
         option_t('--ignore-smoothing', '', 'pass over the smoothing a file asks for')]
 
-    ! Points of a standard profile.
-    integer, parameter :: nominal_points = 601
+    ! Points of a standard profile along y, and their distance along the arc, mm.
+    integer, parameter :: nominal_points = 4001
+    real(wp), parameter :: nominal_step = 0.2_wp
 
 contains
 
@@ -231,6 +234,7 @@ contains
             nominal%z = points%z
             return
         end if
+        ! Many points along y, then as many as are needed along the arc.
         allocate (nominal%y(nominal_points), nominal%z(nominal_points), source=0.0_wp)
         do i = 1, nominal_points
             y = profile%y_first + (profile%y_last - profile%y_first)*(i - 1)/(nominal_points - 1)
@@ -238,6 +242,8 @@ contains
             nominal%y(i) = y
             nominal%z(i) = z
         end do
+        call resample(nominal%y, nominal%z, nominal_step, standard_kink_angle, status)
+        call fail_on_error(status)
     end subroutine take_nominal
 
     subroutine write_table(path, measures)

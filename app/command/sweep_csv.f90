@@ -2,7 +2,7 @@
 module faststrip_command_sweep_csv
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
-    use faststrip_command_console, only: put_origin
+    use faststrip_command_console, only: put_origin, note
     use faststrip_command_case_file, only: case_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
                                          tangential_method_name
@@ -31,11 +31,22 @@ contains
             call put_comment(writer, 'gap ' // case%gap_file)
         else
             call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
-            if (len(case%wheel_words) > 0) call put_comment(writer, case%wheel_words)
-            if (len(case%rail_words) > 0) call put_comment(writer, case%rail_words)
+            call tell(case%wheel_words)
+            call tell(case%rail_words)
         end if
         call put_notes(writer, case%numerics%smoothing_um)
         call put_header(writer, [case_columns, result_columns])
+
+    contains
+
+        !> What was noticed of a profile, to the reader of the CSV and to who sits there.
+        subroutine tell(words)
+            character(len=*), intent(in) :: words
+
+            if (len(words) == 0) return
+            call put_comment(writer, words)
+            call note(words)
+        end subroutine tell
     end subroutine put_sweep_header
 
     !> One contact by one choice of methods.

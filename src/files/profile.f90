@@ -58,7 +58,10 @@ contains
         profile%kind = kind_of_name(path)
         select case (format_of(path, lines))
         case (is_simpack)
+            ! The file itself says what it is.
+            profile%kind = 0
             call read_simpack(path, lines, options, profile, status)
+            if (profile%kind == 0) profile%kind = kind_of_name(path)
         case (is_miniprof)
             call read_miniprof(path, lines, options, profile, status)
         case (is_vampire)

@@ -26,6 +26,8 @@ module faststrip_files_profile_senses
     ! Points that turn by more than this turn back; more of them than this have no order.
     real(wp), parameter :: turned_back = 5.0_wp/6.0_wp*pi, most_turned_back = 0.05_wp
     integer, parameter :: few = 5
+    ! A curve that turns back by more has a point that does not belong there, mm.
+    real(wp), parameter :: longest_fold = 2.0_wp
 
 contains
 
@@ -67,8 +69,14 @@ contains
                 if (abs(atan2((y(i) - y(i - 1))*(z(i + 1) - z(i)) &
                               - (z(i) - z(i - 1))*(y(i + 1) - y(i)), &
                               (y(i) - y(i - 1))*(y(i + 1) - y(i)) &
-                              + (z(i) - z(i - 1))*(z(i + 1) - z(i)))) > turned_back) &
-                    n_back = n_back + 1
+                              + (z(i) - z(i - 1))*(z(i + 1) - z(i)))) <= turned_back) cycle
+                n_back = n_back + 1
+                chord = max(chord, hypot(y(i + 1) - y(i), z(i + 1) - z(i)))
+                if (chord <= longest_fold) cycle
+                call set_place_status(status, st_file_format, 'points must stand in order along' &
+                                      // ' the profile, it turns back by ' // &
+                                      trim(number_text(chord)) // ' mm', '', path, profile%line(i))
+                return
             end do
         end associate
         if (.not. (length >= shortest .and. length <= longest)) then

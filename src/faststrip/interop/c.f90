@@ -15,7 +15,8 @@ module faststrip_interop_c
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
-    use faststrip_interop_profile_points, only: gap_of_points, n_setup, n_contact
+    use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
+    use faststrip_geometry_gap, only: gap_t
     implicit none
     private
 
@@ -326,6 +327,7 @@ contains
         type(c_ptr), value :: contact                   !! six numbers, written
 
         type(status_t) :: status
+        type(gap_t) :: gap
         integer(c_int), pointer :: number
 
         code = st_bad_argument
@@ -337,10 +339,10 @@ contains
         call c_f_pointer(n, number)
         call gap_of_points(numbers_at(y_wheel, n_wheel), numbers_at(z_wheel, n_wheel), &
                            numbers_at(y_rail, n_rail), numbers_at(z_rail, n_rail), &
-                           numbers_at(setup, n_setup), numbers_at(y, capacity), &
-                           numbers_at(h, capacity), numbers_at(inv2r, capacity), &
-                           numbers_at(inclination, capacity), number, &
-                           numbers_at(contact, n_contact), status)
+                           numbers_at(setup, n_setup), gap, numbers_at(contact, n_contact), status)
+        call copy_gap(gap, numbers_at(y, capacity), numbers_at(h, capacity), &
+                      numbers_at(inv2r, capacity), numbers_at(inclination, capacity), number, &
+                      status)
         code = status%code
     end function faststrip_profile_gap
 

@@ -52,7 +52,8 @@ module faststrip_interop_f77
                                       read_result, read_force_errors, strip_count, read_strips, &
                                       read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
-    use faststrip_interop_profile_points, only: gap_of_points, n_setup, n_contact
+    use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
+    use faststrip_geometry_gap, only: gap_t
     implicit none
     private
 
@@ -156,9 +157,10 @@ contains
         integer(c_int), intent(out) :: info                           !! status
 
         type(status_t) :: status
+        type(gap_t) :: gap
 
-        call gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, y, h, inv2r, inclination, n, &
-                           contact, status)
+        call gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status)
+        call copy_gap(gap, y, h, inv2r, inclination, n, status)
         info = status%code
     end subroutine fsprof
 
