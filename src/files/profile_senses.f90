@@ -75,7 +75,8 @@ contains
                 if (chord <= longest_fold) cycle
                 call set_place_status(status, st_file_format, 'points must stand in order along' &
                                       // ' the profile, it turns back by ' // &
-                                      trim(number_text(chord)) // ' mm', '', path, profile%line(i))
+                                      trim(number_text(chord)) // ' mm', '', path, &
+                                      profile%line(i))
                 return
             end do
         end associate
@@ -84,9 +85,9 @@ contains
                                   ' (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (n_back > max(few, int(most_turned_back*n))) then
-            call set_place_status(status, st_file_format, 'points must stand in order along the' // &
-                                  ' profile, it turns back ' // integer_text(n_back) // ' times', &
-                                  '', path, 0)
+            call set_place_status(status, st_file_format, 'points must stand in order along' // &
+                                  ' the profile, it turns back ' // integer_text(n_back) // &
+                                  ' times', '', path, 0)
         end if
     end subroutine check_extent
 

@@ -1,4 +1,4 @@
-!> The rail heads UIC60, 60E1 and 54E1: arcs R300, R80, R13 and a flank 1:20, each tangent to the next,
+!> The rail heads UIC60, 60E1, 54E1: arcs R300, R80, R13 and a flank 1:20, each tangent to the next,
 !> symmetric, 72 mm wide (54E1: 70 mm) where the flank begins; canted by a rotation.
 !>
 !> One number is free, the transition between R300 and R80, and two are in use (see
@@ -193,7 +193,8 @@ contains
             if (outward > vertical_margin) then
                 slope = side*(cos(cant_angle) - side*sin(cant_angle)/flank_slope)/outward
                 depth = head%z_flank + flank_slope*flank_widening
-                call rotate(side*(head%half_width + flank_widening), depth, crown_y, crown_z, y_last, z_last)
+                call rotate(side*(head%half_width + flank_widening), depth, crown_y, crown_z, &
+                            y_last, z_last)
             else
                 slope = 0.0_wp
                 y_last = head%arc_y(merge(1, 5, side < 0.0_wp)) &

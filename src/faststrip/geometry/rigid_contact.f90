@@ -315,7 +315,7 @@ contains
         if (i < 0) then
             call set_status(status, st_out_of_range, 'the rail profile does not reach the ' // &
                             trim(number_text(depth)) // &
-                            ' mm below its crown where the gauge is measured')
+                            ' mm below its crown where the gauge is measured (gauge_depth_mm)')
             return
         end if
         low = rail%y_first + real(i, wp)*step
