@@ -50,8 +50,8 @@ contains
         type(profile_file_t), intent(in) :: profile
         type(status_t), intent(inout) :: status
 
-        real(wp) :: length, chord
-        integer :: i, n, n_back
+        real(wp) :: length, chord, next
+        integer :: i, n, n_back, at
 
         n = size(profile%y)
         if (n < min_points) then
@@ -71,12 +71,15 @@ contains
                               (y(i) - y(i - 1))*(y(i + 1) - y(i)) &
                               + (z(i) - z(i - 1))*(z(i + 1) - z(i)))) <= turned_back) cycle
                 n_back = n_back + 1
-                chord = max(chord, hypot(y(i + 1) - y(i), z(i + 1) - z(i)))
+                ! The far end of the longer chord is the point that does not belong.
+                next = hypot(y(i + 1) - y(i), z(i + 1) - z(i))
+                at = merge(i + 1, i, next > chord)
+                chord = max(chord, next)
                 if (chord <= longest_fold) cycle
                 call set_place_status(status, st_file_format, 'points must stand in order along' &
                                       // ' the profile, it turns back by ' // &
                                       trim(number_text(chord)) // ' mm', '', path, &
-                                      profile%line(i))
+                                      profile%line(at))
                 return
             end do
         end associate

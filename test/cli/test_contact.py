@@ -444,6 +444,19 @@ class GapFile(ProgramTest):
         limit = repr(0.5 * float(row["est_err_pmax"]))
         self.assertEqual(self.solved(*words, limit)["status"], "under_resolved")
 
+    def test_a_pressure_beyond_yield_is_named(self):
+        row = self.contact()
+        pmax = float(row["pmax_MPa"])
+        self.write("case.nml", gap_case())
+        self.assertEqual(self.good("contact", "case.nml", "--yield-MPa", 1.01 * pmax)[0]["status"],
+                         "ok")
+        done = self.run_program("contact", "case.nml", "--yield-MPa", 0.99 * pmax)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(",beyond_yield,", done.stdout)
+        self.assertRegex(done.stderr, r"pmax of \S+ MPa is above the limit of \S+ MPa")
+        self.write("case.nml", gap_case(extra=f"&numerics\n yield_MPa = {0.99 * pmax}\n/\n"))
+        self.assertIn(",beyond_yield,", self.run_program("contact", "case.nml").stdout)
+
     def test_resolution_limit_that_is_none(self):
         for name in ("resolution", "force"):
             self.write("case.nml", gap_case())
