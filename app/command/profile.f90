@@ -82,14 +82,12 @@ contains
         n_failed = 0
         do i = 1, n
             call describe(command%arguments(i)%text, options, curation, measures(i))
+            if (given(command, '--nominal') .and. .not. is_error(measures(i)%status)) &
+                call compare(command, measures(i), nominal)
             if (is_error(measures(i)%status)) then
                 n_failed = n_failed + 1
                 call note(trim(measures(i)%status%message))
                 cycle
-            end if
-            if (given(command, '--nominal')) then
-                call compare(command, measures(i), nominal)
-                if (is_error(measures(i)%status)) n_failed = n_failed + 1
             end if
             if (len(measures(i)%words) > 0) &
                 call note(measures(i)%path // ': ' // measures(i)%words)
@@ -176,7 +174,6 @@ contains
             if (is_error(measures%status)) then
                 measures%status%message = trim(measures%status%message) // ' (' // measures%path &
                                           // ')'
-                call note(trim(measures%status%message))
                 return
             end if
         end if
