@@ -1,7 +1,7 @@
 !> `faststrip profile`: reads profiles of every format, describes, curates, draws and converts them.
 module faststrip_command_profile
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_comment, close_csv
     use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
@@ -165,6 +165,11 @@ contains
         character(len=:), allocatable :: how
 
         how = option_word(command, '--align', 'field', [character(len=5) :: 'field', 'none'])
+        if (measures%points%kind == 0) then
+            call set_status(measures%status, st_bad_argument, 'the kind of a profile must be ' // &
+                            'known for --nominal (--kind says it) (' // measures%path // ')')
+            return
+        end if
         call take_nominal(option_text(command, '--nominal', ''), measures%points%kind, nominal)
         y = measures%points%y
         z = measures%points%z

@@ -116,6 +116,10 @@ class Profiles(ProgramTest):
         self.assertEqual(done.returncode, 2)
 
     def test_wear_against_a_nominal_rail(self):
+        self.write("x.txt", rail_text())
+        done = self.run_program("profile", "x.txt", "--nominal", "uic60")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--kind", done.stderr)
         self.good_points("uic60", "r.csv", cant="0")
         rows = self.read("r.csv")
         lines = [f"{float(r['y_mm'])} {float(r['z_mm']) + 0.7 * (float(r['y_mm']) < 3.0)}"
