@@ -39,9 +39,10 @@ module faststrip_command_method_options
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
         option_t('--target', 'NAME', &
-                 'auto: of forces (default), over mu N, pmax, penetration, area or power'), &
+                 'auto: of forces (default), over mu N, pmax, penetration,' // newline &
+                 // 'area or power'), &
         option_t('--budget-us', 'US', 'auto: the best in that time; goes before the default' &
-                 // ' tolerance')]
+                 // newline // 'tolerance')]
 
 contains
 

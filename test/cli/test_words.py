@@ -52,7 +52,7 @@ class Words(ProgramTest):
             (("--normal", "strap"), "--normal must be strip, hertz, equal_area, equal_moments, norm"
                                     " or auto, got 'strap'"),
             (("--normal", "strip" + 30 * " " + "x"), "--normal must be "),
-            (("--target", ""), "--target must be forces, pmax or penetration, got ''"),
+            (("--target", ""), "--target must be forces, pmax, penetration, area or power, got ''"),
         ):
             self.refused(2, "contact", "case.nml", *words, says=[says])
         self.refused(2, "table", "--format", "xml", says=["--format must be", "'xml'"])
