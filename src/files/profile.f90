@@ -11,11 +11,12 @@ module faststrip_files_profile
     use faststrip_base_text, only: trim_blanks, lower_case, integer_text, set_place_status
     use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t, key_t, line_t, &
-                                              read_lines, add_note, without_comment, split_key
+                                              read_lines, add_note, without_comment, split_key, &
+                                              length_unit
     use faststrip_files_profile_simpack, only: read_simpack
     use faststrip_files_profile_miniprof, only: read_miniprof, is_miniprof_key
     use faststrip_files_profile_vampire, only: read_vampire
-    use faststrip_files_profile_text, only: read_text_profile, length_unit
+    use faststrip_files_profile_text, only: read_text_profile
     use faststrip_files_profile_senses, only: check_shape
     implicit none
     private
@@ -24,6 +25,9 @@ module faststrip_files_profile
     public :: body_wheel, body_rail
 
     character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
+    ! The same of UTF-16.
+    character(len=*), parameter :: wide_mark = char(255) // char(254), &
+                                   wide_mark_2 = char(254) // char(255)
 
     ! Formats.
     integer, parameter :: is_text = 0, is_simpack = 1, is_miniprof = 2, is_vampire = 3, &
@@ -53,6 +57,14 @@ contains
         if (size(lines) > 0) then
             if (index(lines(1)%text, byte_order_mark) == 1) &
                 lines(1)%text = lines(1)%text(len(byte_order_mark) + 1:)
+        end if
+        if (size(lines) > 0) then
+            if (index(lines(1)%text, wide_mark) == 1 .or. index(lines(1)%text, wide_mark_2) == 1) &
+                then
+                call set_place_status(status, st_file_format, 'a profile must be text of one ' // &
+                                      'byte a character, this one is UTF-16', '', path, 1)
+                return
+            end if
         end if
         deallocate (profile%y, profile%z, profile%line, profile%keys)
         profile%kind = kind_of_name(path)
@@ -84,7 +96,7 @@ contains
         if (.not. is_error(status)) call check_kind(path, options, profile, status)
         if (.not. is_error(status)) then
             call take_frame(options, profile)
-            call check_shape(path, profile, profile%kind, status)
+            call check_shape(path, profile, options, status)
         end if
         if (.not. is_error(status)) return
         profile%n = 0

@@ -25,6 +25,9 @@ module faststrip_files_profile_miniprof
 
     !> Flange back to tape circle, mm.
     real(wp), parameter :: standard_tape_circle = 70.0_wp
+    ! Where a header may say that it is, and what counts as the same, mm.
+    real(wp), parameter :: least_taper_line = 40.0_wp, most_taper_line = 120.0_wp, &
+                           same_taper_line = 0.01_wp
 
     ! Columns of a line of points at most.
     integer, parameter :: most_columns = 8
@@ -86,7 +89,8 @@ contains
 
         has_sections = .false.
         do i = 1, min(size(lines), 3)
-            if (index(lower_case(lines(i)%text), '[fileinfo]') == 1) has_sections = .true.
+            if (index(lower_case(trim_blanks(lines(i)%text)), '[fileinfo]') == 1) &
+                has_sections = .true.
         end do
     end function has_sections
 
@@ -173,7 +177,7 @@ contains
                     call set_place_status(status, st_file_format, &
                                           'keys must stand above the points', line, path, i)
                 else
-                    call take_key(key, value, path, i, profile, header, status)
+                    call take_key(key, value, path, i, options, profile, header, status)
                 end if
             end if
             if (is_error(status)) return
@@ -194,7 +198,7 @@ contains
 
         is_old_header = .false.
         if (size(lines) == 0) return
-        line = lower_case(lines(1)%text)
+        line = lower_case(trim_blanks(lines(1)%text))
         is_old_header = index(line, '=') == 0 .and. &
             (index(line, 'miniprof') > 0 .or. index(line, '#mini') == 1)
     end function is_old_header
@@ -226,14 +230,16 @@ contains
         if (.not. is_comment) line = trim_blanks(line(2:n - 1))
     end subroutine take_quotes
 
-    subroutine take_key(key, text, path, number, profile, header, status)
+    subroutine take_key(key, text, path, number, options, profile, header, status)
         character(len=*), intent(in) :: key, text, path
         integer, intent(in) :: number
+        type(profile_options_t), intent(in) :: options
         type(profile_file_t), intent(inout) :: profile
         type(header_t), intent(inout) :: header
         type(status_t), intent(inout) :: status
 
         character(len=:), allocatable :: range
+        real(wp) :: taper_line
         logical :: valid
 
         call add_key(profile, key, text)
@@ -241,7 +247,7 @@ contains
         select case (lower_case(key))
         case ('columndef')
             range = 'column letters with commas between them, X and Y among them'
-            call take_columns(text, header, valid)
+            call take_columns(without_blanks(text), header, valid)
         case ('xypoints')
             range = 'a whole number'
             if (len(text) == 0) return
@@ -255,12 +261,31 @@ contains
             else
                 call parse_real(text, header%offset_y, valid)
             end if
+        case ('wheeldiametertaperline')
+            ! Where the tape circle is; what cannot be a place on a wheel means something else.
+            call parse_real(text, taper_line, valid)
+            valid = .not. valid .or. options%has_tape_circle .or. taper_line < least_taper_line &
+                .or. taper_line > most_taper_line &
+                .or. abs(taper_line - standard_tape_circle) < same_taper_line
+            range = '70, or --tape-circle must say where the tape circle is'
         case default
             return
         end select
         if (.not. valid) call set_place_status(status, st_file_format, key // ' must be ' // &
                                                range, "'" // text // "'", path, number)
     end subroutine take_key
+
+    pure function without_blanks(text) result(packed)
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: packed
+
+        integer :: i
+
+        packed = ''
+        do i = 1, len(text)
+            if (text(i:i) /= ' ' .and. text(i:i) /= achar(9)) packed = packed // text(i:i)
+        end do
+    end function without_blanks
 
     !> The columns of X and Y.
     pure subroutine take_columns(text, header, valid)

@@ -11,7 +11,7 @@ module faststrip_files_profile_points
 
     public :: profile_file_t, profile_options_t, key_t, line_t
     public :: read_lines, append_point, add_key, add_note, without_comment, split_words
-    public :: split_key, parse_words, is_number_line
+    public :: split_key, parse_words, is_number_line, unquoted, length_unit
     public :: sense_of_format, largest_coordinate
 
     !> A sense or a choice that is left to the format.
@@ -58,6 +58,7 @@ module faststrip_files_profile_points
         integer :: z_sense = 1                   !! of the file: +1 down
         logical :: is_reversed = .false.         !! did the file run from large y to small y?
         real(wp) :: unit_mm = 1.0_wp             !! mm to a unit of the file
+        logical :: has_unit = .true.             !! does the file or its format tell the unit?
         real(wp) :: tape_circle = 0.0_wp         !! y of it in the file, mm, to the field side
         real(wp) :: flange_back = -70.0_wp       !! y of the reference of a wheel's back, mm
         integer :: n_sections = 1                !! of the file
@@ -68,9 +69,22 @@ module faststrip_files_profile_points
     end type profile_file_t
 
     character(len=*), parameter :: blanks = ' ' // achar(9)
+    character(len=*), parameter :: digits = '0123456789'
     character(len=*), parameter :: separators = ' ,;' // achar(9)
 
 contains
+
+    !> mm to a unit of length by its name; 0: there is no such unit.
+    pure real(wp) function length_unit(name)
+        character(len=*), intent(in) :: name !! `mm`, `m` or `in`
+
+        select case (name)
+        case ('mm'); length_unit = 1.0_wp
+        case ('m'); length_unit = 1000.0_wp
+        case ('in', 'inch'); length_unit = 25.4_wp
+        case default; length_unit = 0.0_wp
+        end select
+    end function length_unit
 
     !> All lines of a file.
     subroutine read_lines(path, lines, status)
@@ -202,8 +216,8 @@ contains
 
     !> Text without the quotes around it.
     pure function unquoted(text) result(inner)
-        character(len=*), intent(in) :: text
-        character(len=:), allocatable :: inner
+        character(len=*), intent(in) :: text   !! any
+        character(len=:), allocatable :: inner !! without blanks around it, either
 
         integer :: n
 
@@ -295,6 +309,15 @@ contains
 
         values = 0.0_wp
         call split_words(line, first, last, n)
+        if (has_decimal_commas(line)) then
+            call set_place_status(status, st_file_format, 'a coordinate must have a point for ' // &
+                                  'its decimals, not a comma', line, path, number)
+            return
+        end if
+        ! One separator may stand behind the last number.
+        if (n > least .and. n <= size(values)) then
+            if (last(n) < first(n)) n = n - 1
+        end if
         if (n < least .or. n > most) then
             what = integer_text(least)
             if (most > least) what = what // ' to ' // integer_text(most)
@@ -313,6 +336,24 @@ contains
             end if
         end do
     end subroutine parse_words
+
+    !> Are there commas between digits in a line without a point whose words something else
+    !> separates, too?
+    pure logical function has_decimal_commas(line)
+        character(len=*), intent(in) :: line
+
+        integer :: i
+
+        has_decimal_commas = .false.
+        if (index(line, ',') == 0 .or. index(line, '.') > 0) return
+        do i = 2, len(line) - 1
+            if (line(i:i) /= ',') cycle
+            if (scan(line(i - 1:i - 1), digits) == 0 .or. scan(line(i + 1:i + 1), digits) == 0) &
+                cycle
+            has_decimal_commas = scan(line, blanks // ';') > 0
+            return
+        end do
+    end function has_decimal_commas
 
     !> Does a line begin with a number?
     pure logical function is_number_line(line)

@@ -6,7 +6,7 @@ module faststrip_files_profile_senses
                                      st_too_few_points
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_geometry_touchable, only: body_wheel, body_rail
-    use faststrip_files_profile_points, only: profile_file_t
+    use faststrip_files_profile_points, only: profile_file_t, profile_options_t
     implicit none
     private
 
@@ -17,10 +17,16 @@ module faststrip_files_profile_senses
 
     ! Lengths of profiles, along the points: shorter or longer ones are not in mm.
     real(wp), parameter :: shortest = 1.0_wp, longest = 3000.0_wp
+    ! The same where nothing tells the unit: those of inches or centimetres are shorter.
+    real(wp), parameter :: shortest_without_unit = 30.0_wp
     ! A flange, or the face of a rim, is as high.
     real(wp), parameter :: flange_height = 15.0_wp
     ! A curve that comes back from its highest place by as much has a tip there.
     real(wp), parameter :: tip_height = 2.0_wp
+    ! A tread is flatter and wider than a rounding of a rim.
+    real(wp), parameter :: tread_slope = 0.3_wp, tread_width = 20.0_wp
+    ! A head sags by less than this, mm.
+    real(wp), parameter :: sag = 0.2_wp
     ! An end steeper than this is a side; its direction is that of a stretch of this length.
     real(wp), parameter :: side_slope = 1.0_wp, side_length = 2.0_wp
     ! Points that turn by more than this turn back; more of them than this have no order.
@@ -32,22 +38,23 @@ module faststrip_files_profile_senses
 contains
 
     !> Check the points of a profile, in its final frame.
-    subroutine check_shape(path, profile, kind, status)
+    subroutine check_shape(path, profile, options, status)
         character(len=*), intent(in) :: path           !! name of the file
         type(profile_file_t), intent(in) :: profile    !! final
-        integer, intent(in) :: kind                    !! `body_wheel`, `body_rail`; 0: not known
+        type(profile_options_t), intent(in) :: options !! what the user says
         type(status_t), intent(out) :: status          !! `st_too_few_points`, `st_file_format`
 
         call clear_status(status)
-        call check_extent(path, profile, status)
+        call check_extent(path, profile, options%unit_mm > 0.0_wp, status)
         if (status%code /= 0) return
-        if (kind == body_wheel) call check_wheel(path, profile%y, profile%z, status)
-        if (kind == body_rail) call check_rail(path, profile%y, profile%z, status)
+        if (profile%kind == body_wheel) call check_wheel(path, profile%y, profile%z, status)
+        if (profile%kind == body_rail) call check_rail(path, profile, options%z_sense /= 0, status)
     end subroutine check_shape
 
-    subroutine check_extent(path, profile, status)
+    subroutine check_extent(path, profile, has_unit, status)
         character(len=*), intent(in) :: path
         type(profile_file_t), intent(in) :: profile
+        logical, intent(in) :: has_unit
         type(status_t), intent(inout) :: status
 
         real(wp) :: length, chord, next
@@ -83,7 +90,12 @@ contains
                 return
             end do
         end associate
-        if (.not. (length >= shortest .and. length <= longest)) then
+        if (profile%kind > 0 .and. .not. (has_unit .or. profile%has_unit) .and. &
+            length < shortest_without_unit) then
+            call set_place_status(status, st_file_format, 'a profile in no unit must be 30 mm ' // &
+                                  'long or more (--unit says in what unit a file is)', &
+                                  trim(number_text(length)) // ' mm', path, 0)
+        else if (.not. (length >= shortest .and. length <= longest)) then
             call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long' // &
                                   ' (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
@@ -117,6 +129,7 @@ contains
         field = first_height(z, at, 1)
         ! Both sides may go up, of a roller, or down, of a wheel with two flanges.
         is_wrong = field > 0 .and. gauge <= 0
+        if (field < 0 .and. gauge <= 0) is_wrong = has_tread_above(y, z, at)
         if (gauge < 0 .and. field == 0) is_wrong = returns(z, at)
         if (is_wrong) then
             offset = y(maxloc(z, dim=1))
@@ -162,6 +175,28 @@ contains
         end do
     end function first_height
 
+    !> Is there beyond the steep side of a flange a flat stretch, the tread, on the field side of a
+    !> point?
+    pure logical function has_tread_above(y, z, at)
+        real(wp), intent(in) :: y(:), z(:)
+        integer, intent(in) :: at
+
+        integer :: i, first
+
+        has_tread_above = .false.
+        first = at
+        do i = at + 1, size(y)
+            if (z(at) - z(first) < flange_height .or. &
+                abs(z(i) - z(first)) > tread_slope*abs(y(i) - y(first))) then
+                ! The longest stretch that begins where the one before ended.
+                first = i
+            else if (y(i) - y(first) > tread_width) then
+                has_tread_above = .true.
+                return
+            end if
+        end do
+    end function has_tread_above
+
     !> Does the curve below a point turn down again from its highest place, as from a tip?
     pure logical function returns(z, at)
         real(wp), intent(in) :: z(:)
@@ -173,33 +208,56 @@ contains
         returns = maxval(z(:highest)) - z(highest) > tip_height
     end function returns
 
-    !> The ends of a rail go down where they are steep.
-    subroutine check_rail(path, y, z, status)
+    !> The ends of a rail go down where they are steep. In bare columns its middle is above the line
+    !> through its ends, too, if the user does not say which way z points.
+    subroutine check_rail(path, profile, is_sure, status)
         character(len=*), intent(in) :: path
-        real(wp), intent(in) :: y(:), z(:)
+        type(profile_file_t), intent(in) :: profile
+        logical, intent(in) :: is_sure
         type(status_t), intent(inout) :: status
 
-        if (.not. (goes_up(1) .or. goes_up(size(y)))) return
-        call set_place_status(status, st_file_format, 'the sides of a rail must go down: this ' // &
-                              'one lies upside down (--z-positive-to says how it lies)', '', path, &
-                              0)
+        associate (y => profile%y, z => profile%z)
+            if (goes_up(y, z, 1) .or. goes_up(y, z, size(y))) then
+                call refuse()
+            else if (.not. (is_sure .or. profile%has_unit)) then
+                if (sags(y, z)) call refuse()
+            end if
+        end associate
 
     contains
 
-        !> Does the curve go up steeply towards one of its ends?
-        pure logical function goes_up(end_point)
-            integer, intent(in) :: end_point
-
-            integer :: i, side
-
-            side = merge(1, -1, end_point == 1)
-            i = end_point + side
-            do while (i > 1 .and. i < size(y))
-                if (hypot(y(i) - y(end_point), z(i) - z(end_point)) >= side_length) exit
-                i = i + side
-            end do
-            i = min(max(i, 1), size(y))
-            goes_up = z(i) - z(end_point) > side_slope*abs(y(i) - y(end_point))
-        end function goes_up
+        subroutine refuse()
+            call set_place_status(status, st_file_format, 'the sides of a rail must go down: ' // &
+                                  'this one lies upside down (--z-positive-to says how it lies)', &
+                                  '', path, 0)
+        end subroutine refuse
     end subroutine check_rail
+
+    !> Is the middle of a curve below the line through its ends?
+    pure logical function sags(y, z)
+        real(wp), intent(in) :: y(:), z(:)
+
+        integer :: middle, n
+
+        n = size(y)
+        middle = minloc(abs(y - 0.5_wp*(y(1) + y(n))), dim=1)
+        sags = z(middle) > 0.5_wp*(z(1) + z(n)) + sag
+    end function sags
+
+    !> Does the curve go up steeply towards one of its ends?
+    pure logical function goes_up(y, z, end_point)
+        real(wp), intent(in) :: y(:), z(:)
+        integer, intent(in) :: end_point
+
+        integer :: i, side
+
+        side = merge(1, -1, end_point == 1)
+        i = end_point + side
+        do while (i > 1 .and. i < size(y))
+            if (hypot(y(i) - y(end_point), z(i) - z(end_point)) >= side_length) exit
+            i = i + side
+        end do
+        i = min(max(i, 1), size(y))
+        goes_up = z(i) - z(end_point) > side_slope*abs(y(i) - y(end_point))
+    end function goes_up
 end module faststrip_files_profile_senses

@@ -6,13 +6,13 @@
 !> inversion, units. `!` and `%` begin comments. Layout: the comments SIMPACK writes into its
 !> files, and the public readers of CONTACT (github.com/eve70a/CONTACT).
 module faststrip_files_profile_simpack
-    use faststrip_base_kinds, only: wp
+    use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format
     use faststrip_base_text, only: parse_real, integer_text, lower_case, set_place_status
     use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t, line_t, &
                                               append_point, add_key, add_note, without_comment, &
-                                              split_key, parse_words
+                                              split_key, parse_words, unquoted, length_unit
     implicit none
     private
 
@@ -30,6 +30,10 @@ module faststrip_files_profile_simpack
         real(wp) :: z_max = 0.0_wp
         real(wp) :: per_metre = 1000.0_wp
         real(wp) :: per_radian = 1.0_wp
+        logical :: has_per_metre = .false.        ! does the file give the factor?
+        logical :: has_per_radian = .false.
+        real(wp) :: unit_mm = 0.0_wp              ! by its name; 0: not said
+        real(wp) :: unit_per_radian = 0.0_wp
         logical :: mirror_y = .false.
         logical :: mirror_z = .false.
     end type changes_t
@@ -38,6 +42,10 @@ module faststrip_files_profile_simpack
     integer, parameter :: in_none = 0, in_header = 1, in_spline = 2
 
     real(wp), parameter :: largest = 1.0e9_wp, smallest_factor = 1.0e-6_wp
+    ! Factors of units that differ by less, relatively, are the same.
+    real(wp), parameter :: unit_difference = 1.0e-2_wp
+    ! In a metre.
+    real(wp), parameter :: millimetres = 1000.0_wp
 
 contains
 
@@ -93,6 +101,7 @@ contains
         if (in_points .or. .not. has_points) then
             call refuse('no list between point.begin and point.end', '')
         else
+            call take_units(changes, profile)
             call apply_changes(changes, profile)
         end if
 
@@ -148,8 +157,24 @@ contains
         case ('units.len.f', 'units.ang.f')
             range = '1e-6 to 1e9'
             valid = valid .and. value >= smallest_factor
-            if (key == 'units.len.f') changes%per_metre = value
-            if (key == 'units.ang.f') changes%per_radian = value
+            if (key == 'units.len.f') then
+                changes%per_metre = value
+                changes%has_per_metre = .true.
+            else
+                changes%per_radian = value
+                changes%has_per_radian = .true.
+            end if
+        case ('units.len')
+            range = 'mm, m or in'
+            changes%unit_mm = length_unit(lower_case(unquoted(text)))
+            valid = changes%unit_mm > 0.0_wp .or. len(unquoted(text)) == 0
+        case ('units.ang')
+            range = 'rad or deg'
+            select case (lower_case(unquoted(text)))
+            case ('rad'); changes%unit_per_radian = 1.0_wp
+            case ('deg'); changes%unit_per_radian = 180.0_wp/pi
+            end select
+            valid = changes%unit_per_radian > 0.0_wp .or. len(unquoted(text)) == 0
         case ('approx.smooth')
             if (valid .and. abs(value) > 0.0_wp .and. options%ignore_smoothing) then
                 call add_note(profile, 'approx.smooth of the file passed over')
@@ -166,6 +191,30 @@ contains
                               "'" // text // "'", path, number)
     end subroutine take_key
 
+    !> The factors of the units: a factor of the file, else the one of a unit's name. Where both
+    !> are there and differ it is said.
+    subroutine take_units(changes, profile)
+        type(changes_t), intent(inout) :: changes
+        type(profile_file_t), intent(inout) :: profile
+
+        if (changes%unit_mm > 0.0_wp) then
+            if (.not. changes%has_per_metre) then
+                changes%per_metre = millimetres/changes%unit_mm
+            else if (abs(changes%per_metre*changes%unit_mm - millimetres) > &
+                     unit_difference*millimetres) then
+                call add_note(profile, 'units.len.f taken, units.len of the file is another unit')
+            end if
+        end if
+        if (changes%unit_per_radian > 0.0_wp) then
+            if (.not. changes%has_per_radian) then
+                changes%per_radian = changes%unit_per_radian
+            else if (abs(changes%per_radian - changes%unit_per_radian) > &
+                     unit_difference*changes%unit_per_radian) then
+                call add_note(profile, 'units.ang.f taken, units.ang of the file is another unit')
+            end if
+        end if
+    end subroutine take_units
+
     !> What the file wants done with its points, in the order of the format.
     subroutine apply_changes(changes, profile)
         type(changes_t), intent(in) :: changes
@@ -175,7 +224,7 @@ contains
         integer :: i, n, n_close, n_outside
 
         turn = changes%rotation/changes%per_radian
-        profile%unit_mm = 1000.0_wp/changes%per_metre
+        profile%unit_mm = millimetres/changes%per_metre
         profile%y_sense = merge(-1, 1, changes%mirror_y)
         profile%z_sense = merge(-1, 1, changes%mirror_z)
         before = 0.0_wp

@@ -1,9 +1,10 @@
 !> Profiles of two columns: plain text, CSV with names of columns, and the wheels of GENSYS.
 !>
 !> Numbers are separated by blanks, tabulators, a comma or a semicolon; `#`, `!` and `%` begin
-!> comments. One line of names may come before the points: with it the columns of y and z are those
-!> whose names begin so, and `y_mm`, `y_m`, `y_in` tell the unit. GENSYS (gensys.se, users manual
-!> of KPF): y to the middle of the track, z down, the origin of a wheel at its tape circle.
+!> comments, double quotes are passed over. One line of names may come before the points: with it
+!> the columns of y and z are those whose names begin so, and `y_mm`, `y[m]`, `y_in` tell the unit.
+!> GENSYS (gensys.se, users manual of KPF): y to the middle of the track, z down, the origin of a
+!> wheel at its tape circle.
 module faststrip_files_profile_text
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format
@@ -11,28 +12,16 @@ module faststrip_files_profile_text
     use faststrip_geometry_touchable, only: body_wheel
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t, line_t, &
                                               append_point, without_comment, split_words, &
-                                              parse_words
+                                              parse_words, length_unit
     implicit none
     private
 
-    public :: read_text_profile, length_unit
+    public :: read_text_profile
 
     ! Columns of a line at most.
     integer, parameter :: most_columns = 16
 
 contains
-
-    !> mm to a unit of length by its name; 0: there is no such unit.
-    pure real(wp) function length_unit(name)
-        character(len=*), intent(in) :: name !! `mm`, `m` or `in`
-
-        select case (name)
-        case ('mm'); length_unit = 1.0_wp
-        case ('m'); length_unit = 1000.0_wp
-        case ('in'); length_unit = 25.4_wp
-        case default; length_unit = 0.0_wp
-        end select
-    end function length_unit
 
     !> Read the lines of a file, as they stand.
     subroutine read_text_profile(path, lines, is_gensys, options, profile, status)
@@ -50,6 +39,8 @@ contains
 
         call clear_status(status)
         profile%format = 'text'
+        line = ''
+        profile%has_unit = is_gensys
         if (is_gensys) then
             profile%format = 'gensys'
             profile%kind = body_wheel
@@ -60,7 +51,7 @@ contains
         n_columns = 2
         named = .false.
         do i = 1, size(lines)
-            line = without_comment(lines(i)%text, '#!%')
+            line = without_comment(without_quotes(lines(i)%text), '#!%')
             if (len(line) == 0) cycle
             if (profile%n == 0 .and. .not. named) then
                 named = is_name_line(line)
@@ -72,7 +63,13 @@ contains
                 end if
             end if
             call parse_words(line, n_columns, n_columns, path, i, values, n, status)
-            if (is_error(status)) return
+            if (is_error(status)) then
+                if (.not. named .and. profile%n == 0 .and. n > 2) &
+                    call set_place_status(status, st_file_format, 'a point must be two numbers, ' &
+                                          // 'or a line above must name the columns, y and z ' // &
+                                          'among them', line, path, i)
+                return
+            end if
             call append_point(profile, values(column_y), values(column_z), i)
         end do
     end subroutine read_text_profile
@@ -120,6 +117,7 @@ contains
                                   path, number)
         else if (unit(1) > 0.0_wp) then
             profile%unit_mm = unit(1)
+            profile%has_unit = .true.
             if (options%unit_mm > 0.0_wp .and. abs(options%unit_mm - unit(1)) > 0.0_wp) &
                 call set_place_status(status, st_file_format, 'the unit asked for must be that ' &
                                       // 'of the names of the columns', line, path, number)
@@ -131,14 +129,31 @@ contains
         character(len=*), intent(in) :: word, coordinate
 
         is_name_of = word == coordinate
-        if (len(word) > 1) is_name_of = word(1:2) == coordinate // '_'
+        if (len(word) > 1) is_name_of = word(1:1) == coordinate .and. scan(word(2:2), '_[(') == 1
     end function is_name_of
 
     pure real(wp) function unit_of(word)
         character(len=*), intent(in) :: word
 
-        unit_of = length_unit(word(index(word, '_', back=.true.) + 1:))
+        integer :: last
+
+        last = len(word)
+        if (scan(word(last:), '])') == 1) last = last - 1
+        unit_of = length_unit(word(scan(word(:last), '_[(', back=.true.) + 1:last))
     end function unit_of
+
+    !> Quotes around words are passed over.
+    pure function without_quotes(text) result(bare)
+        character(len=*), intent(in) :: text
+        character(len=len(text)) :: bare
+
+        integer :: i
+
+        bare = text
+        do i = 1, len(text)
+            if (text(i:i) == '"') bare(i:i) = ' '
+        end do
+    end function without_quotes
 
     !> Two or more words that start with a letter, and none of them a special number.
     pure logical function is_name_line(line)

@@ -1,6 +1,7 @@
 """faststrip profile: what it reads, says, draws and writes."""
 
 import math
+import re
 import subprocess
 import sys
 import unittest
@@ -19,6 +20,33 @@ TOLD = {
     "worn_high_mileage.prw": ["--tape-circle", "73"],
     "SNX00500.mpt": ["--section", "2"],
 }
+
+POINT = re.compile(r'\s*"?\s*[-+]?[\d.]')
+
+
+def by_line(of_points, of_words=str):
+    """A change of the lines of points, and of the others."""
+    return lambda text: "\n".join(
+        of_points(line) if POINT.match(line) and "=" not in line else of_words(line)
+        for line in text.split("\n"))
+
+
+# What editors, spreadsheets and other programs do to files, and what cannot be read then.
+CHANGES = {
+    "CRLF": lambda text: text.replace("\n", "\r\n"),
+    "mark": lambda text: "\xef\xbb\xbf" + text,
+    "no end": lambda text: text.rstrip("\n"),
+    "blank lines": lambda text: text + "\n  \n\t\n",
+    "upper case": by_line(str, str.upper),
+    "lower case": by_line(str, str.lower),
+    "comma behind": by_line(lambda line: line.rstrip() + ","),
+    "commas": by_line(lambda line: re.sub(r"[ \t]+", ",", line.strip())),
+    "comments": by_line(lambda line: line.rstrip() + " ! caf\xe9"),
+    "signs": by_line(lambda line: re.sub(r"(^|[ \t])(\d)", r"\1+\2", line)),
+    "decimal commas": by_line(lambda line: line.replace(".", ",")),
+    "UTF-16": lambda text: text.encode("utf-16").decode("latin-1"),
+}
+REFUSED = {"decimal commas": "a point for its decimals", "UTF-16": "UTF-16"}
 
 
 def wheel_text(n=261, scale=1.0):
@@ -190,6 +218,26 @@ class Bank(ProgramTest):
             self.assertIn(TOLD[path.name][0], done.stderr)
             done = self.run_program("profile", str(path), *TOLD[path.name])
             self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_what_programs_do_to_files_changes_no_profile(self):
+        for path in sorted(BANK.glob("*.*")):
+            if path.suffix == ".md":
+                continue
+            told = TOLD.get(path.name, [])
+            text = path.read_bytes().decode("latin-1").replace("\r\n", "\n")
+            given = self.run_program("profile", str(path), *told, "-o", "a.csv")
+            self.assertEqual(given.returncode, 0, given.stderr)
+            points = self.points("a.csv")
+            for name, change in CHANGES.items():
+                (self.folder / path.name).write_bytes(change(text).encode("latin-1"))
+                done = self.run_program("profile", path.name, *told, "-o", "b.csv")
+                if name in REFUSED:
+                    self.assertEqual(done.returncode, 1, (path.name, name))
+                    self.assertIn(REFUSED[name], done.stderr)
+                    self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                else:
+                    self.assertEqual(done.returncode, 0, (path.name, name, done.stderr))
+                    self.assertEqual(self.points("b.csv"), points, (path.name, name))
 
     def test_flange_figures_are_those_of_the_headers(self):
         for path in sorted(BANK.glob("*.whl")):
