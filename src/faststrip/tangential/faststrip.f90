@@ -273,12 +273,14 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: loads(first:last), force(2), change(2), bound
+        real(wp) :: force(2), change(2), load, bound
+        integer :: k
 
-        associate (width => strips%y_right(first:last) - strips%y_left(first:last))
-            loads = strip_load(strips%p0(first:last), strips%half_length(first:last), width)
-        end associate
-        bound = mu*sum(loads)
+        load = 0.0_wp
+        do k = first, last
+            load = load + load_of(strips, k)
+        end do
+        bound = mu*load
         if (bound <= smallest_force) return
         associate (result => sums%result)
             force = [result%fx - before%result%fx, result%fy - before%result%fy]
@@ -293,10 +295,22 @@ contains
                          before%stuck + sums%covered - before%covered)
         if (present(field)) call correct_field(change, first_element, field)
         if (.not. present(per_strip)) return
-        loads = loads*mu/bound
-        per_strip%fx(first:last) = per_strip%fx(first:last) + change(1)*loads
-        per_strip%fy(first:last) = per_strip%fy(first:last) + change(2)*loads
+        do k = first, last
+            associate (share => load_of(strips, k)*mu/bound)
+                per_strip%fx(k) = per_strip%fx(k) + change(1)*share
+                per_strip%fy(k) = per_strip%fy(k) + change(2)*share
+            end associate
+        end do
     end subroutine correct
+
+    !> Load of a strip, N.
+    pure real(wp) function load_of(strips, k)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k
+
+        load_of = strip_load(strips%p0(k), strips%half_length(k), &
+                             strips%y_right(k) - strips%y_left(k))
+    end function load_of
 
     !> Add forces to the elements of a patch in proportion to their loads; where they slide, the
     !> slip turns with the traction.

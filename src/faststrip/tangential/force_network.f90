@@ -5,7 +5,7 @@ module faststrip_tangential_force_network
     use faststrip_tangential_patch_shape, only: patch_shape_t, n_even
     use faststrip_tangential_force_weights, only: &
         n_ellipse_inputs, n_shape_inputs, even_scale, odd_scale, largest_log_ratio, &
-        largest_shape, least_poisson, largest_poisson
+        largest_shape, least_poisson, largest_poisson, hidden, error_hidden
     implicit none
     private
 
@@ -149,12 +149,13 @@ contains
         real(wp), intent(in) :: x(inputs)                                  !! what it is told
         real(wp), intent(out) :: c(outputs)                                !! what it says
 
-        real(wp), dimension(units) :: one, two
+        ! Not of `units`: such arrays would be allocated.
+        real(wp), dimension(max(hidden, error_hidden)) :: one, two
 
         call add_layer(units, inputs, first, first_bias, x, one)
-        one = one/sqrt(1.0_wp + one**2)
+        one(:units) = one(:units)/sqrt(1.0_wp + one(:units)**2)
         call add_layer(units, units, second, second_bias, one, two)
-        two = two/sqrt(1.0_wp + two**2)
+        two(:units) = two(:units)/sqrt(1.0_wp + two(:units)**2)
         call add_layer(outputs, units, third, third_bias, two, c)
     end subroutine evaluate_network
 
