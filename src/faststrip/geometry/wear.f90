@@ -40,7 +40,7 @@ contains
     pure subroutine wear_depths(nominal_y, nominal_z, y, z, side, depth, is_known)
         real(wp), intent(in) :: nominal_y(:), nominal_z(:)  !! mm
         real(wp), intent(in) :: y(:), z(:)                  !! the measured curve, mm
-        real(wp), intent(in) :: side         !! 1: material below the curve (rail); -1: above
+        real(wp), intent(in) :: side         !! 1, material below the curve (rail); -1, above
         real(wp), intent(out) :: depth(:)    !! into the material, mm, one a nominal point
         logical, intent(out) :: is_known(:)  !! does the normal meet the measured curve?
 
