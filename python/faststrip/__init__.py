@@ -10,7 +10,7 @@ forces act on the rail.
 >>> contact.set_gap(y, 0.002 * y**2, 1.0 / 920.0)
 >>> result = contact.solve(load=1e5, creepage=(1e-3, 0.0, 0.0), mu=0.3)
 >>> round(result.penetration, 3), round(result.fx / 1e3, 1)
-(0.108, -12.2)
+(0.108, -12.1)
 """
 
 from ._contact import (
