@@ -45,9 +45,9 @@ COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
 
-def gap_lines(n=61):
+def gap_lines(n=61, height=lambda y: y * y / 600.0):
     return ["y_mm,h_mm,inv2R_per_mm"] + [
-        f"{y!r},{y * y / 600.0!r},{1.0 / 920.0!r}" for y in (0.5 * (i - n // 2) for i in range(n))]
+        f"{y!r},{height(y)!r},{1.0 / 920.0!r}" for y in (0.5 * (i - n // 2) for i in range(n))]
 
 
 def text_of(lines):
@@ -495,6 +495,10 @@ def endless_work(rng, i):
              ["--normal", "auto", "--target", "pmax", "--tolerance", "1e-12", "--max-elements",
               "100000"],
              ["--normal", "hertz", "--tangential", "tang", "--element-dx", "1e-9"]][i % 5]
+    if "auto" in words:
+        # No ellipse, which would be exact: a solution that says by how much it misses.
+        return Try("endless work", ["contact", "case.nml", *words], codes=(0,), files={
+            "gap.csv": text_of(gap_lines(height=lambda y: abs(y) ** 1.5 / 100.0))})
     return Try("endless work", ["contact", "case.nml", *words], codes=(1, 3))
 
 
