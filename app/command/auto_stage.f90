@@ -12,7 +12,7 @@ module faststrip_command_auto_stage
                                          normal_norm, tangential_none
     use faststrip_contact_target, only: unknown_error
     use faststrip_contact_wanted, only: wanted_t, others_t, others_across, others_time, &
-                                        needs_forces, margin, target_area
+                                        needs_forces, margin, target_area, target_pmax
     use faststrip_kalker_tangential, only: are_alike
     use faststrip_command_methods, only: numerics_t
     implicit none
@@ -34,6 +34,10 @@ module faststrip_command_auto_stage
         others_t(one_us=10.0_wp, one=2.6_wp, order=1.8_wp)]
     ! Elements across the patch at least, and how many more the next try has at least and at most.
     real(wp), parameter :: least_across = 8.0_wp, least_growth = 1.4_wp, largest_growth = 3.0_wp
+    ! Elements across where the largest grid is not expected to do: their estimate tells.
+    real(wp), parameter :: telling_across = 30.0_wp
+    ! A finer grid is not tried where the finest would be expected to miss by more than this factor.
+    real(wp), parameter :: largest_miss = 2.0_wp
     ! What is left of a budget, of which so much is planned for a grid of which no time is known.
     real(wp), parameter :: share_of_budget = 0.6_wp
     ! Elements of a grid over those in its patches.
@@ -54,12 +58,14 @@ module faststrip_command_auto_stage
 
 contains
 
-    !> What is asked of the core.
+    !> What is asked of the core: of pmax, where neither a target nor forces are asked for.
     pure type(wanted_t) function wanted_of(numerics, case) result(wanted)
         type(numerics_t), intent(in) :: numerics !! normal method auto
         type(contact_case_t), intent(in) :: case !! its material
 
         wanted = numerics%wanted
+        if (.not. numerics%target_is_given .and. numerics%tangential == tangential_none) &
+            wanted%target = target_pmax
         if (wanted%budget_us > 0.0_wp .and. .not. numerics%tolerance_is_given) &
             wanted%tolerance = 0.0_wp
         if (needs_forces(wanted%target) .and. .not. are_alike(case%material)) return
@@ -97,7 +103,7 @@ contains
                                                    real(coarse%methods%strips_per_patch, wp), &
                                                    coarse%estimate))
         end associate
-        across = min(across, step%most_across)
+        if (across > step%most_across) across = min(telling_across, step%most_across)
         if (wanted%budget_us > 0.0_wp) then
             across = min(across, sqrt(share_of_budget*max(wanted%budget_us - spent_us, 0.0_wp) &
                                       /wanted%others%one_us))
@@ -115,9 +121,12 @@ contains
         type(grid_step_t), intent(in) :: last !! with its estimate
         real(wp), intent(in) :: spent_us      !! all time so far, us
 
-        real(wp) :: growth
+        real(wp) :: growth, reach
 
         if (last%estimate >= unknown_error .or. last%number >= most_grids) return
+        reach = min(last%most_across/last%across, largest_growth**(most_grids - last%number))
+        if (wanted%tolerance > 0.0_wp .and. wanted%budget_us <= 0.0_wp .and. &
+            last%estimate > largest_miss*wanted%tolerance*reach**wanted%others%order) return
         growth = min(last%most_across/last%across, largest_growth)
         if (wanted%tolerance > 0.0_wp) &
             growth = min(growth, max(least_growth, (last%estimate/(margin*wanted%tolerance)) &

@@ -291,6 +291,7 @@ contains
         numbers%wanted%tolerance = tolerance
         numbers%wanted%budget_us = budget_us
         numbers%tolerance_is_given = sets(content, group, 'tolerance')
+        numbers%target_is_given = sets(content, group, 'target')
         numbers%max_elements = max_elements
         numbers%wanted%target = target_number(target)
         if (numbers%wanted%target == 0) call refuse(content, group, 'target', 'must be ' &

@@ -39,8 +39,8 @@ module faststrip_command_method_options
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
         option_t('--target', 'NAME', &
-                 'auto: of forces (default), over mu N, pmax, penetration,' // newline &
-                 // 'area or power'), &
+                 'auto: of forces (default), over mu N, pmax (default with' // newline &
+                 // '--tangential none), penetration, area or power'), &
         option_t('--budget-us', 'US', 'auto: the best in that time; goes before the default' &
                  // newline // 'tolerance')]
 
@@ -101,6 +101,7 @@ contains
         if (given(command, '--tolerance')) numerics%tolerance_is_given = .true.
         numerics%wanted%target = target_number(option_word( &
             command, '--target', trim(target_names(numerics%wanted%target)), target_names))
+        if (given(command, '--target')) numerics%target_is_given = .true.
         numerics%wanted%budget_us = option_number(command, '--budget-us', &
                                                   numerics%wanted%budget_us, above=0)
         numerics%element_dx = option_number(command, '--element-dx', numerics%element_dx, &

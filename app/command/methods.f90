@@ -40,6 +40,7 @@ module faststrip_command_methods
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
         type(wanted_t) :: wanted = wanted_t() !! of auto: target, tolerance, budget
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
+        logical :: target_is_given = .false. !! else it is pmax where no forces are asked for
     end type numerics_t
 
 contains

@@ -175,6 +175,14 @@ class Auto(ProgramTest):
                 self.assertLessEqual(step[1], 30, row["choice"])
         self.assertIn("norm", row["choice"])
 
+    def test_what_no_grid_meets_is_told_soon(self):
+        row = self.missed(self.smooth_case(), "--tolerance", "1e-9")
+        across = [step[1] for step in steps_of(row) if step[0] == "norm"]
+        self.assertEqual(across, [30], row["choice"])
+        # What the estimate leaves within reach is tried.
+        row = self.auto(self.smooth_case(), "--tolerance", "1e-3")
+        self.assertGreater(steps_of(row)[-1][1], 30, row["choice"])
+
     def test_a_budget_is_another_way_to_ask(self):
         case = self.smooth_case()
         done = self.run_program("contact", case, "--normal", "auto", "--budget-us", "1",
@@ -208,8 +216,20 @@ class Auto(ProgramTest):
             self.refused(1, "contact", "case.nml", says=(says, bad.split()[-1]))
         self.refused(2, "contact", CASES / "freight_25t.nml", "--tolerance", "-1",
                      says=("tolerance", "-1"))
-        self.refused(1, "contact", CASES / "freight_25t.nml", "--normal", "auto", "--tangential",
-                     "none", says=("forces", "none"))
+        none = (CASES / "freight_25t.nml", "--tangential", "none")
+        self.refused(1, "contact", *none, "--normal", "auto", "--target", "forces",
+                     says=("forces", "none"))
+        self.write("case.nml", gap_case(extra="&numerics\n normal = 'auto'\n target = 'forces'\n"
+                                              " tangential = 'none'\n/\n"))
+        self.refused(1, "contact", "case.nml", says=("forces", "none"))
+        # Nobody asked for forces.
+        row = self.auto(*none)
+        figures = [name for name in row if not name.endswith("_us") and name != "choice"]
+        pmax = self.auto(*none, "--target", "pmax")
+        self.assertEqual([row[name] for name in figures], [pmax[name] for name in figures])
+        self.assertLess(float(row["est_err_pmax"]), 0.02)
+        self.assertEqual(row["Fx_N"], "")
+        self.assertIn("faststrip", self.auto(none[0])["choice"].split(";")[0])
 
     def test_contacts_of_a_batch_do_not_know_of_each_other(self):
         self.write("gap.csv", gap_text(lambda y: 2e-3 * y * y))

@@ -110,8 +110,10 @@ contains
                 if (entry%across < 2) &
                     call refuse('across', 'a whole number from 2 on', further('across'))
             end if
-            if (further('target') /= '') &
+            if (further('target') /= '') then
                 entry%numerics%wanted%target = target_number(further('target'))
+                entry%numerics%target_is_given = .true.
+            end if
             if (entry%numerics%wanted%target == 0) &
                 call refuse('target', one_of(target_names), further('target'))
             if (further('tolerance') == '') return
