@@ -8,6 +8,7 @@ module faststrip_command_contact
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
+    use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_command_result_csv, only: put_strips, put_field
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
@@ -29,6 +30,7 @@ contains
         type(prepared_case_t) :: prepared
         type(solver_t) :: solver
         type(outcome_t) :: outcome
+        type(point_spacing_t) :: spacing
         type(csv_writer_t) :: writer(size(outputs))
         type(status_t) :: status
 
@@ -71,6 +73,8 @@ contains
         if (concerns_gap(status) .and. len(case%gap_file) > 0) &
             call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
+        call judge_spacing(case, prepared, spacing)
+        call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
         call open_outputs(command, writer)
         call put_sweep_header(writer(1), case)

@@ -12,6 +12,7 @@ module faststrip_command_sweep
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
+    use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -34,6 +35,7 @@ contains
         type(solver_t) :: solver(size(pairs, 2) + 1)
         type(numerics_t) :: numerics
         type(outcome_t) :: outcome
+        type(point_spacing_t) :: spacing
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
         integer :: i, m, n_failed, n_solvers
@@ -81,10 +83,13 @@ contains
         do i = 1, size(case%shifts)
             call progress('shifts', i, size(case%shifts))
             call prepare_case(case, case%shifts(i), prepared, placed)
+            spacing = point_spacing_t()
+            if (.not. is_error(placed)) call judge_spacing(case, prepared, spacing)
             do m = 1, n_solvers
                 status = placed
                 if (.not. is_error(placed)) &
                     call solve(solver(m), prepared, outcome, status)
+                if (.not. is_error(status)) call name_spacing(spacing, status)
                 call put_sweep_row(writer, case, solver(m)%numerics, prepared, outcome, status)
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1

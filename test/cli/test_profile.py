@@ -184,6 +184,24 @@ class Profiles(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("--unit", done.stderr)
 
+    def test_a_contact_that_hangs_on_single_points_is_named(self):
+        words = "the points of the profiles do not resolve the contact: with every second one "
+        lines = rail_text().splitlines()
+        # Where S1002 touches it.
+        at = min(range(len(lines)), key=lambda i: abs(float(lines[i].split()[0]) + 2.0))
+        y, z = lines[at].split()
+        for depth, status in ((0.0, "ok"), (0.01, "under_resolved")):
+            lines[at] = f"{y} {float(z) + depth:.6f}"
+            self.write("r.txt", "\n".join(lines) + "\n")
+            self.write("c.nml", profile_case(contact="load_N = 8e4", rail="profile = 'r.txt'",
+                                             motion="cksi = 1e-3",
+                                             extra="&sweep\n shifts_mm = 0\n/\n"))
+            done = self.run_program("contact", "c.nml")
+            self.assertEqual(rows_of(done.stdout)[0]["status"], status, done.stderr)
+            self.assertEqual(words in done.stderr, depth > 0.0, done.stderr)
+            rows = self.good("sweep", "c.nml")
+            self.assertEqual(rows[0]["status"], status)
+
     def test_usage(self):
         self.write("w.txt", wheel_text())
         for words in (["w.txt", "w.txt", "-o", "x.csv"], ["w.txt", "--keep", "3"],

@@ -9,7 +9,8 @@ module faststrip_geometry_profile
     use faststrip_geometry_rail_uic60, only: rail_head_t, make_rail_head, rail_head_at, &
                                              uic60_transition, en60e1_transition, &
                                              en54e1_transition, half_width_54
-    use faststrip_geometry_arc_spline, only: arc_spline_t, make_arc_spline, arc_spline_at
+    use faststrip_geometry_arc_spline, only: arc_spline_t, make_arc_spline, arc_spline_at, &
+                                             standard_kink_angle
     use faststrip_geometry_touchable, only: touchable_t, find_touchable, body_wheel, body_rail
     use faststrip_geometry_sampled, only: sampled_profile_t, make_sampled_profile, &
                                           sampled_profile_at
@@ -21,7 +22,7 @@ module faststrip_geometry_profile
     private
 
     public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
-    public :: make_curve_profile
+    public :: make_curve_profile, thin_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: profile_curve, profile_54e1, profile_cone
     public :: standard_cant
@@ -45,6 +46,10 @@ module faststrip_geometry_profile
     real(wp), parameter :: cone_first = -35.0_wp, cone_last = 60.0_wp
     ! Given: the two cones of EN 13715.
     real(wp), parameter :: cone20 = 0.05_wp, cone40 = 0.025_wp
+
+    ! Of every second point a smooth curve turns by twice as much.
+    ! Given: two turns in one.
+    real(wp), parameter :: turn_of_two = 2.0_wp
 
     ! Points beyond this are not in mm.
     ! Tuned [mm]. Origin: safeguard.
@@ -211,6 +216,31 @@ contains
         profile%is_clipped = part%n_clipped(1) > 0
         profile%z_below = part%deepest(1)
     end subroutine make_curve_profile
+
+    !> A profile through every second point of another one's curve, and through both its ends: how
+    !> much hangs on single points. Profiles of other kinds stay as they are.
+    subroutine thin_profile(profile, first, thinned, status)
+        type(profile_t), intent(in) :: profile   !! made by `make_curve_profile`, or another
+        integer, intent(in) :: first             !! the first point after the end, 1 or 2: the
+                                                 !! second or the third, and every second from there
+        type(profile_t), intent(out) :: thinned  !! from the same first to the same last y
+        type(status_t), intent(out) :: status    !! `st_bad_argument`; `st_too_few_points`, and
+                                                 !! others of `make_curve_profile`
+
+        integer :: i, n
+
+        thinned = profile
+        call clear_status(status)
+        if (first < 1 .or. first > 2) then
+            call set_status(status, st_bad_argument, 'first must be 1 or 2')
+        else if (profile%kind == profile_curve) then
+            n = size(profile%curve%y)
+            associate (kept => [1, (i, i=first + 1, n - 1, 2), n])
+                call make_arc_spline(profile%curve%y(kept), profile%curve%z(kept), &
+                                     turn_of_two*standard_kink_angle, thinned%curve, status)
+            end associate
+        end if
+    end subroutine thin_profile
 
     !> The profile and its first two derivatives.
     pure subroutine profile_at(profile, y, z, dz, d2z, status)

@@ -1,0 +1,113 @@
+!> Do the points of two profiles resolve their contact? It is solved again, by strips and FASTSTRIP,
+!> with every second point of the profiles that came from files, twice: from the first and from the
+!> second on. Where pressures or forces change by more than a limit they hang on single points, as
+!> at a kink, a dent or noise in the contact.
+module faststrip_command_point_spacing
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, number_text, st_under_resolved
+    use faststrip_geometry_profile, only: thin_profile, profile_curve
+    use faststrip_normal_limitations, only: add_limitation
+    use faststrip_contact_methods, only: normal_strip, tangential_faststrip
+    use faststrip_command_case_file, only: case_t
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    implicit none
+    private
+
+    public :: point_spacing_t, judge_spacing, name_spacing
+
+    ! Changes that are named: of pmax, and of forces over mu N.
+    real(wp), parameter :: pmax_limit = 0.05_wp, force_limit = 0.01_wp
+
+    real(wp), parameter :: percent = 100.0_wp
+
+    !> What every second point changes.
+    type :: point_spacing_t
+        logical :: is_known = .false.    !! are there points, and a contact?
+        logical :: is_solved = .true.    !! has the contact a solution without them?
+        real(wp) :: pmax = 0.0_wp        !! largest relative change of pmax
+        real(wp) :: forces = 0.0_wp      !! largest change of the forces over mu N
+    end type point_spacing_t
+
+contains
+
+    !> Solve a contact again with every second point of its profiles.
+    subroutine judge_spacing(case, prepared, spacing)
+        type(case_t), intent(in) :: case               !! with profiles, or a gap file
+        type(prepared_case_t), intent(in) :: prepared  !! one contact of it
+        type(point_spacing_t), intent(out) :: spacing  !! not known for standard profiles and gaps
+
+        type(case_t) :: thinned
+        type(prepared_case_t) :: contact
+        type(solver_t) :: solver
+        type(numerics_t) :: numerics
+        type(outcome_t) :: given, outcome
+        type(status_t) :: status
+        integer :: first
+
+        if (len(case%gap_file) > 0) return
+        if (all([case%wheel%kind, case%rail%kind] /= profile_curve)) return
+        numerics = case%numerics
+        numerics%normal = normal_strip
+        numerics%tangential = tangential_faststrip
+        call make_solver(numerics, .false., solver, status)
+        if (.not. is_error(status)) call solve(solver, prepared, given, status)
+        if (.not. is_error(status)) then
+            spacing%is_known = .true.
+            thinned = case
+            do first = 1, 2
+                call thin_profile(case%wheel, first, thinned%wheel, status)
+                if (.not. is_error(status)) &
+                    call thin_profile(case%rail, first, thinned%rail, status)
+                if (.not. is_error(status)) &
+                    call prepare_case(thinned, prepared%shift, contact, status)
+                if (.not. is_error(status)) call solve(solver, contact, outcome, status)
+                if (is_error(status)) then
+                    spacing%is_solved = .false.
+                else
+                    call compare(prepared, given, outcome, spacing)
+                end if
+            end do
+        end if
+        call release_solver(solver)
+    end subroutine judge_spacing
+
+    subroutine compare(prepared, given, outcome, spacing)
+        type(prepared_case_t), intent(in) :: prepared
+        type(outcome_t), intent(in) :: given, outcome
+        type(point_spacing_t), intent(inout) :: spacing
+
+        real(wp) :: change
+
+        spacing%pmax = max(spacing%pmax, abs(outcome%normal%pmax - given%normal%pmax) &
+                           /given%normal%pmax)
+        change = hypot(outcome%tangential%fx - given%tangential%fx, &
+                       outcome%tangential%fy - given%tangential%fy) &
+                 /(prepared%mu*given%normal%load)
+        if (ieee_is_finite(change)) spacing%forces = max(spacing%forces, change)
+    end subroutine compare
+
+    !> Add to a status that the points do not resolve the contact.
+    subroutine name_spacing(spacing, status)
+        type(point_spacing_t), intent(in) :: spacing !! of the contact
+        type(status_t), intent(inout) :: status      !! limitations so far, no error
+
+        character(len=:), allocatable :: words
+
+        if (.not. spacing%is_known) return
+        words = ''
+        if (.not. spacing%is_solved) then
+            words = 'there is no solution'
+        else if (spacing%pmax > pmax_limit) then
+            words = 'pmax changes by ' // trim(number_text(percent*spacing%pmax)) // ' %'
+        else if (spacing%forces > force_limit) then
+            words = 'the forces change by ' // trim(number_text(percent*spacing%forces)) // &
+                    ' % of mu N'
+        end if
+        if (len(words) > 0) &
+            call add_limitation(status, st_under_resolved, 'the points of the profiles do not ' // &
+                                'resolve the contact: with every second one ' // words)
+    end subroutine name_spacing
+end module faststrip_command_point_spacing
