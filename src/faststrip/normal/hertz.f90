@@ -12,9 +12,10 @@ module faststrip_normal_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     count_text, st_bad_argument, st_bad_load, st_bad_material, &
-                                     st_no_contact, st_no_convergence, st_no_hertz_ellipse, &
-                                     st_not_finite, st_out_of_range, st_workspace_too_small
+                                     count_text, add_words, message_length, st_bad_argument, &
+                                     st_bad_load, st_bad_material, st_no_contact, &
+                                     st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
+                                     st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: demand_t
@@ -148,15 +149,27 @@ contains
             call set_status(status, st_bad_load, 'load must be above 0, got ' // &
                             trim(number_text(load)) // ' N')
         else if (inv2r_x <= 0.0_wp) then
-            call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
-                            'curvature along x must be above 0, got ' // &
-                            trim(number_text(inv2r_x)) // ' 1/mm')
+            call refuse_curvature('x', inv2r_x, status)
         else if (inv2r_y <= 0.0_wp) then
-            call set_status(status, st_no_hertz_ellipse, 'no Hertz ellipse: half the relative ' // &
-                            'curvature along y must be above 0, got ' // &
-                            trim(number_text(inv2r_y)) // ' 1/mm')
+            call refuse_curvature('y', inv2r_y, status)
         end if
     end subroutine check_arguments
+
+    !> Say which curvature is not above 0. For auto that is no error: without allocation.
+    pure subroutine refuse_curvature(along, inv2r, status)
+        character(len=1), intent(in) :: along
+        real(wp), intent(in) :: inv2r
+        type(status_t), intent(inout) :: status
+
+        character(len=message_length) :: words
+
+        words = 'no Hertz ellipse: half the relative curvature along'
+        call add_words(words, ' ' // along)
+        call add_words(words, ' must be above 0, got')
+        call add_words(words, ' ' // number_text(inv2r))
+        call add_words(words, ' 1/mm')
+        call set_status(status, st_no_hertz_ellipse, words)
+    end subroutine refuse_curvature
 
     !> Complete elliptic integrals of modulus m = 1 - g^2 by the arithmetic-geometric mean, without
     !> the cancellation of K - E near the circle: `K - E = K sum 2^(n-1) c_n^2` with `c_0^2 = m`

@@ -91,6 +91,10 @@ module faststrip_tangential_faststrip
     !> Tuned [points]. Origin: as many as strips.
     integer, parameter :: default_points = 15
 
+    ! Strips of a patch with a neck up to which nothing is allocated.
+    ! Tuned [strips]. Origin: capacity: a quarter of the stack of a call.
+    integer, parameter :: most_on_stack = 128
+
 contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
@@ -334,7 +338,8 @@ contains
         end do
     end subroutine correct_field
 
-    !> March the strips of a patch with a neck, each by the mean of the laws of its sub-patches.
+    !> March the strips of a patch with a neck; of more strips than the stack has room for, what is
+    !> known of each is allocated.
     pure subroutine march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &
                                       missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
@@ -348,11 +353,60 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
+        real(wp), dimension(most_on_stack) :: openness, share
+        type(patch_law_t) :: mean(most_on_stack)
+
+        if (last - first < most_on_stack) then
+            call find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+                                openness, share, mean, status)
+            if (.not. is_error(status)) call march_by_means(strips, first, last, rolling, mean, &
+                                                            sums, field, per_strip)
+        else
+            call march_many(strips, first, last, material, rolling, is_corrected, sums, missing, &
+                            status, field, per_strip)
+        end if
+    end subroutine march_sub_patches
+
+    !> The same of so many strips.
+    pure subroutine march_many(strips, first, last, material, rolling, is_corrected, sums, &
+                               missing, status, field, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(material_t), intent(in) :: material
+        type(rolling_t), intent(in) :: rolling
+        logical, intent(in) :: is_corrected
+        type(march_sums_t), intent(inout) :: sums
+        real(wp), intent(inout) :: missing(4)
+        type(status_t), intent(inout) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
         real(wp), dimension(first:last) :: openness, share
+        type(patch_law_t) :: mean(first:last)
+
+        call find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+                            openness, share, mean, status)
+        if (.not. is_error(status)) call march_by_means(strips, first, last, rolling, mean, sums, &
+                                                        field, per_strip)
+    end subroutine march_many
+
+    !> Of each strip of a patch with a neck the mean of the laws of its sub-patches.
+    pure subroutine find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+                                   openness, share, mean, status)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(material_t), intent(in) :: material
+        type(rolling_t), intent(in) :: rolling
+        logical, intent(in) :: is_corrected
+        real(wp), intent(inout) :: missing(4) !! gets what the march misses; N, N, N mm, mm^2
+        real(wp), dimension(first:last), intent(out) :: openness, share !! work
+        type(patch_law_t), intent(inout) :: mean(first:last)            !! empty before
+        type(status_t), intent(inout) :: status
+
         type(patch_ellipse_t) :: ellipse
-        type(patch_law_t) :: mean(first:last), law
+        type(patch_law_t) :: law
         real(wp) :: level, weight, linear(3)
-        integer :: i, begin, from, to
+        integer :: begin, i, from, to
 
         call find_openness(strips%half_length(first:last), openness)
         level = all_parted
@@ -378,6 +432,20 @@ contains
             end do
             level = next_level(openness, level)
         end do
+    end subroutine find_mean_laws
+
+    !> March the strips of a patch with a neck, each by its law.
+    pure subroutine march_by_means(strips, first, last, rolling, mean, sums, field, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(rolling_t), intent(in) :: rolling
+        type(patch_law_t), intent(in) :: mean(first:last)
+        type(march_sums_t), intent(inout) :: sums
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        integer :: begin, i
+
         begin = first
         do i = first + 1, last + 1
             if (i <= last) then
@@ -387,7 +455,7 @@ contains
                               field, per_strip)
             begin = i
         end do
-    end subroutine march_sub_patches
+    end subroutine march_by_means
 
     !> Scale the slip of a patch so that its elements give the patch's friction power; by a factor
     !> of two at most, for where next to nothing slides the heat is in no element.
