@@ -13,9 +13,10 @@
  * told (100) in every function, however often, and its memory is not touched. Outside of workspaces
  * the library remembers which of them are in use, and nothing else. faststrip_new and
  * faststrip_copy allocate, faststrip_free frees, nothing else does (but faststrip_check_case, which
- * tries, and the words of an error, made with a little memory of the Fortran run-time library). A
- * call needs less than 64 kB of stack. No function stops, prints, reads or writes a file, changes
- * the locale, or leaves floating-point flags, traps or rounding other than it found them.
+ * tries, the words of an error, made with a little memory of the Fortran run-time library, and the
+ * forces of a patch with a neck of more than 128 strips). A call needs less than 64 kB of stack. No
+ * function stops, prints, reads or writes a file, changes the locale, or leaves floating-point
+ * flags, traps or rounding other than it found them.
  *
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
@@ -44,7 +45,7 @@ enum faststrip_status {
     FASTSTRIP_OVERLAP_LEFT = 4,  /* a rough gap's valleys overlap beside the patches */
     FASTSTRIP_FLAT_ALONG_X = 5,  /* inv2r near zero in the contact, raised to be solved */
     FASTSTRIP_CONFORMAL = 6,     /* inclination changes much within it: half-space doubtful */
-    FASTSTRIP_TARGET_MISSED = 7, /* no method is expected to be as good as the tolerance asks */
+    FASTSTRIP_TARGET_MISSED = 7, /* auto: strips are not as good as the tolerance asks */
     FASTSTRIP_UNDER_RESOLVED = 8, /* an estimated error is above its limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
@@ -88,6 +89,15 @@ enum faststrip_tangential {
 };
 /* END methods */
 
+/* What FASTSTRIP_NORMAL_AUTO is to know as well as the tolerance asks. */
+enum faststrip_target {
+    FASTSTRIP_TARGET_FORCES = 1,      /* the worst of est_err_fx, est_err_fy, est_err_mz */
+    FASTSTRIP_TARGET_PMAX = 2,        /* est_err_pmax */
+    FASTSTRIP_TARGET_PENETRATION = 3, /* est_err_penetration */
+    FASTSTRIP_TARGET_AREA = 4,        /* est_err_area */
+    FASTSTRIP_TARGET_POWER = 5        /* friction power, relative */
+};
+
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {
     size_t size;          /* of this struct as the caller knows it; set by faststrip_default_case */
@@ -114,6 +124,9 @@ typedef struct faststrip_case {
     double resolution_limit; /* FASTSTRIP_UNDER_RESOLVED: est_err_penetration, est_err_pmax or
                               * est_err_area is above this; > 0 */
     double force_limit;   /* the same for est_err_fx, est_err_fy, est_err_mz; > 0 */
+    int target;           /* enum faststrip_target; this and the two below: FASTSTRIP_NORMAL_AUTO */
+    double tolerance;     /* largest estimated error of the target; 0: the least in the budget */
+    double budget_us;     /* time for it, us; 0: as long as it takes */
 } faststrip_case;
 
 /* Figures of one contact. */
@@ -148,6 +161,11 @@ typedef struct faststrip_result {
     double est_err_fx;     /* estimated error of fx over mu load, not negative */
     double est_err_fy;     /* estimated error of fy over mu load, not negative */
     double est_err_mz;     /* estimated error of mz over mu load sqrt(area/pi), not negative */
+    int n_steps;           /* steps that FASTSTRIP_NORMAL_AUTO took, of other methods 0 */
+    int best_step;         /* the one whose solution this is, from 1 on; 0: none */
+    int target_is_known;   /* 1: est_err_target is known; 0: zero */
+    int target_is_met;     /* 1: est_err_target is within the tolerance */
+    double est_err_target; /* estimated error of the target, not negative */
 } faststrip_result;
 
 typedef struct faststrip_workspace faststrip_workspace;
@@ -188,7 +206,14 @@ int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
                       const double *inv2r, const double *inclination);
 
-/* Solve one contact on the gap of the workspace. */
+/* Solve one contact on the gap of the workspace.
+ *
+ * With FASTSTRIP_NORMAL_AUTO, of faststrip_new too, cheap steps come first and finer ones where
+ * their estimated errors ask for them, until that of the target is within the tolerance or the
+ * budget is spent; with FASTSTRIP_TARGET_MISSED the result is the best there is. strips_per_patch
+ * and estimate do not count then; where the target needs forces, FASTSTRIP serves with as many
+ * points as it takes, whatever tangential, which must not be none, and points_per_strip are. The
+ * limits count only where the tolerance is 0. */
 int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,
                     faststrip_result *result);
 
@@ -203,6 +228,13 @@ int faststrip_get_strips(faststrip_workspace *workspace, int capacity, int *n, d
 int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n, double *x,
                            double *y, double *area, double *pn, double *px, double *py,
                            double *sx, double *sy, int *state);
+
+/* The steps of the last contact, if by FASTSTRIP_NORMAL_AUTO: methods, strips across the widest
+ * patch, points along a strip, estimated error of the target (-1: not known), time in us of the
+ * pressures and of the forces with their estimates. */
+int faststrip_get_steps(faststrip_workspace *workspace, int capacity, int *n, int *normal,
+                        int *tangential, int *strips, int *points, double *estimate,
+                        double *normal_us, double *tangential_us);
 
 /* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear
  * modulus, MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces

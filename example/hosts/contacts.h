@@ -20,8 +20,8 @@ static double next(uint64_t *state)
     return (double)(*state >> 11) / 9007199254740992.0;
 }
 
-/* Ellipses, lopsided patches, kinks, two patches; some of them rough; by load or penetration; all
- * methods. */
+/* Ellipses, lopsided patches, kinks, two patches, necks; some of them rough; by load or
+ * penetration; all methods; some as well as is wanted. */
 static void make_example(uint64_t number, example *e)
 {
     uint64_t state = number * 2654435761u + 12345u, noise = number;
@@ -42,6 +42,7 @@ static void make_example(uint64_t number, example *e)
         if (kind == 1 && d > 0.0) e->h[i] = other * d * d;
         if (kind == 2) e->h[i] += slope * fabs(d);
         if (kind == 3) e->h[i] = 0.02 * curvature * (d * d - 40.0) * (d * d - 40.0);
+        if (number % 11 == 10) e->h[i] = 1e-4 * (d * d - 9.0) * (d * d - 9.0);
         if (number % 7 == 6) e->h[i] += 2e-3 * next(&noise);
     }
     faststrip_default_case(&e->contact, sizeof e->contact);
@@ -56,6 +57,13 @@ static void make_example(uint64_t number, example *e)
     e->contact.ceta = 4e-3 * next(&state) - 2e-3;
     e->contact.cphi = 1e-3 * next(&state) - 5e-4;
     e->contact.mu = 0.1 + 0.5 * next(&state);
+    if (number % 9 == 8) {
+        e->contact.normal = FASTSTRIP_NORMAL_AUTO;
+        e->contact.target = 1 + (int)(number % 5);
+        if (e->contact.tangential == FASTSTRIP_TANGENTIAL_NONE)
+            e->contact.target = FASTSTRIP_TARGET_PMAX;
+        e->contact.tolerance = 0.002 * exp(4.0 * next(&state));
+    }
 }
 
 /* A workspace that serves every example. */
@@ -65,6 +73,7 @@ static faststrip_workspace *make_workspace(void)
     faststrip_case contact;
 
     faststrip_default_case(&contact, sizeof contact);
+    contact.normal = FASTSTRIP_NORMAL_AUTO;
     contact.with_elements = 1;
     contact.fastsim_nx = contact.fastsim_ny = 11;
     return faststrip_new(&contact, POINTS, &workspace) == 0 ? workspace : NULL;
@@ -79,7 +88,8 @@ static uint64_t bits_of(int status, const faststrip_result *result)
                               result->est_err_penetration, result->est_err_pmax,
                               result->est_err_area, result->residual_inside,
                               result->overlap_outside, result->est_err_fx,
-                              result->est_err_fy, result->est_err_mz};
+                              result->est_err_fy, result->est_err_mz, result->est_err_target,
+                              result->n_steps, result->best_step, result->target_is_met};
     uint64_t bits = (uint64_t)status, word;
     size_t i;
 

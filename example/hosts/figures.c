@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 6000, POINTS = 400 };
+enum { MOST = 20000, STEPS = 20, POINTS = 400 };
 
 static const struct { const char *name; int number; } methods[] = {
     {"strip", FASTSTRIP_NORMAL_STRIP},
     {"hertz", FASTSTRIP_NORMAL_HERTZ},
     {"equal_area", FASTSTRIP_NORMAL_EQUAL_AREA},
     {"equal_moments", FASTSTRIP_NORMAL_EQUAL_MOMENTS},
+    {"auto", FASTSTRIP_NORMAL_AUTO},
     {"none", FASTSTRIP_TANGENTIAL_NONE},
     {"faststrip", FASTSTRIP_TANGENTIAL_FASTSTRIP},
     {"fastsim", FASTSTRIP_TANGENTIAL_FASTSIM},
@@ -21,6 +22,7 @@ static const struct { const char *name; int number; } methods[] = {
     {"linear", FASTSTRIP_TANGENTIAL_LINEAR},
     {"she", FASTSTRIP_TANGENTIAL_SHE},
     {"polach", FASTSTRIP_TANGENTIAL_POLACH},
+    {"faststrip-plain", FASTSTRIP_TANGENTIAL_FASTSTRIP_PLAIN},
 };
 
 static int contact;
@@ -85,6 +87,29 @@ static void show_arrays(faststrip_workspace *workspace, int step)
     }
 }
 
+static void show_steps(faststrip_workspace *workspace, const faststrip_result *r, int step)
+{
+    int normal[STEPS], tangential[STEPS], strips[STEPS], points[STEPS], n, i;
+    double estimate[STEPS], normal_us[STEPS], tangential_us[STEPS];
+
+    put("n_steps", step, 0, r->n_steps);
+    put("best_step", step, 0, r->best_step);
+    put("target_is_known", step, 0, r->target_is_known);
+    put("target_is_met", step, 0, r->target_is_met);
+    put("est_err_target", step, 0, r->est_err_target);
+    if (faststrip_get_steps(workspace, STEPS, &n, normal, tangential, strips, points, estimate,
+                            normal_us, tangential_us) != 0 || n != r->n_steps) exit(13);
+    for (i = 0; i < n; i++) {
+        put("step_normal", step, i + 1, normal[i]);
+        put("step_tangential", step, i + 1, tangential[i]);
+        put("step_strips", step, i + 1, strips[i]);
+        put("step_points", step, i + 1, points[i]);
+        put("step_estimate", step, i + 1, estimate[i]);
+        if (!(normal_us[i] > 0.0 && normal_us[i] < 1e8)) exit(14);
+        if (!(tangential_us[i] >= 0.0 && tangential_us[i] < 1e8)) exit(15);
+    }
+}
+
 static void solve(faststrip_workspace *workspace, faststrip_case *c, const double *demand, int step)
 {
     faststrip_result r;
@@ -130,6 +155,7 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("est_err_fx", step, 0, r.est_err_fx);
     put("est_err_fy", step, 0, r.est_err_fy);
     put("est_err_mz", step, 0, r.est_err_mz);
+    show_steps(workspace, &r, step);
     show_arrays(workspace, step);
     put("result_n_strips", step, 0, r.n_strips);
 }
@@ -196,6 +222,9 @@ static void defaults(void)
     put("default_estimate", 0, 0, c.estimate);
     put("default_resolution_limit", 0, 0, c.resolution_limit);
     put("default_force_limit", 0, 0, c.force_limit);
+    put("default_target", 0, 0, c.target);
+    put("default_tolerance", 0, 0, c.tolerance);
+    put("default_budget_us", 0, 0, c.budget_us);
 }
 
 int main(void)
@@ -229,6 +258,8 @@ int main(void)
         has_inclination = whole();
         c.estimate = whole();
         c.resolution_limit = c.force_limit = number();
+        c.target = whole();
+        c.tolerance = number();
         n = whole();
         for (i = 0; i < 20; i++) demand[i / 10][i % 10] = number();
         for (i = 0; i < n; i++) {

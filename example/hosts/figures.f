@@ -1,13 +1,13 @@
 C     The same figures by the F77 face; see figures.f90. Contacts with a
-C     turn are left out, which this face does not take, and limits that
-C     FSLIMT refuses.
+C     turn are left out, which this face does not take, and limits and
+C     tolerances that FSLIMT and FSWANT refuse.
       PROGRAM FIGURE
       INTEGER MPTS, MOST
-      PARAMETER (MPTS = 400, MOST = 6000)
+      PARAMETER (MPTS = 400, MOST = 20000)
       INTEGER NC, IC, IOPT(9), IW(8), IW2(8), NORM, NTAN, NS, NP, NX,
-     &  NY, IBYL, IEL, ITURN, IEST, N, I, INFO
+     &  NY, IBYL, IEL, ITURN, IEST, ITARG, N, I, INFO
       DOUBLE PRECISION D(20), Y(MPTS), H(MPTS), A(MPTS), T, PAR(9),
-     &  X(11), F(4), RLIM
+     &  X(11), F(4), RLIM, TOL
       CHARACTER*20 SNORM, STAN, TEXT
       CALL FSDFLT(IOPT, PAR)
       CALL PUT('default_normal', 0, 0, 0, DBLE(IOPT(1)))
@@ -35,12 +35,13 @@ C     FSLIMT refuses.
       READ (*, *) NC
       DO 40 IC = 1, NC
         READ (*, *) SNORM, STAN, NORM, NTAN, NS, NP, NX, NY, IBYL, IEL,
-     &    ITURN, IEST, RLIM, N
+     &    ITURN, IEST, RLIM, ITARG, TOL, N
         READ (*, *) D
         DO 20 I = 1, N
           READ (*, *) Y(I), H(I), A(I), T
    20   CONTINUE
         IF (ITURN .EQ. 1 .OR. RLIM .LE. 0.0D0) GO TO 40
+        IF (TOL .LE. 0.0D0) GO TO 40
         IOPT(1) = NORM
         IOPT(2) = NTAN
         IOPT(3) = NS
@@ -58,6 +59,11 @@ C       By default errors are estimated, and named above 0.1.
         IF (IEST .EQ. 0 .OR. RLIM .NE. 0.1D0) THEN
           CALL FSLIMT(IW, IEST, RLIM, INFO)
           IF (INFO .NE. 0) STOP 8
+        END IF
+C       By default forces are wanted, with 0.02.
+        IF (ITARG .NE. 1 .OR. TOL .NE. 0.02D0) THEN
+          CALL FSWANT(IW, ITARG, TOL, 0.0D0, INFO)
+          IF (INFO .NE. 0) STOP 11
         END IF
         CALL SOLVE(IW, IOPT, D(1), IC, 1, N, Y, H, A)
         CALL FSCOPY(IW, IW2, INFO)
@@ -150,12 +156,37 @@ C     The first step by FSCONT, the others by FSSOLV.
       CALL PUT('est_err_fy', IC, IS, 0, FERR(2))
       CALL PUT('est_err_mz', IC, IS, 0, FERR(3))
       CALL PUT('forces_are_estimated', IC, IS, 0, FERR(4))
+      CALL STEPS(IW, IC, IS)
       CALL ARRAYS(IW, IC, IS)
       CALL PUT('result_n_strips', IC, IS, 0, RES(14))
       END
+      SUBROUTINE STEPS(IW, IC, IS)
+      INTEGER MSTP
+      PARAMETER (MSTP = 20)
+      INTEGER IW(8), IC, IS, N, K(MSTP, 4), INFO, I
+      DOUBLE PRECISION A(MSTP, 3), TAKN(5)
+      CALL FSTAKN(IW, TAKN, INFO)
+      IF (INFO .NE. 0) STOP 12
+      CALL PUT('n_steps', IC, IS, 0, TAKN(1))
+      CALL PUT('best_step', IC, IS, 0, TAKN(2))
+      CALL PUT('est_err_target', IC, IS, 0, TAKN(3))
+      CALL PUT('target_is_known', IC, IS, 0, TAKN(4))
+      CALL PUT('target_is_met', IC, IS, 0, TAKN(5))
+      CALL FSSTEP(IW, MSTP, N, K(1, 1), K(1, 2), K(1, 3), K(1, 4),
+     &  A(1, 1), A(1, 2), A(1, 3), INFO)
+      IF (INFO .NE. 0) STOP 13
+      DO 10 I = 1, N
+        CALL PUT('step_normal', IC, IS, I, DBLE(K(I, 1)))
+        CALL PUT('step_tangential', IC, IS, I, DBLE(K(I, 2)))
+        CALL PUT('step_strips', IC, IS, I, DBLE(K(I, 3)))
+        CALL PUT('step_points', IC, IS, I, DBLE(K(I, 4)))
+        CALL PUT('step_estimate', IC, IS, I, A(I, 1))
+        IF (A(I, 2) .LE. 0D0 .OR. A(I, 3) .LT. 0D0) STOP 14
+   10 CONTINUE
+      END
       SUBROUTINE ARRAYS(IW, IC, IS)
       INTEGER MOST
-      PARAMETER (MOST = 6000)
+      PARAMETER (MOST = 20000)
       INTEGER IW(8), IC, IS, N, K(MOST), INFO, I
       DOUBLE PRECISION A(MOST, 8)
       SAVE A, K

@@ -9,6 +9,7 @@ program figures
     implicit none
 
     type(contact_case_t) :: case
+    type(wanted_t) :: wanted
     type(workspace_t) :: workspace, copy
     type(tangential_field_t) :: field, other
     type(status_t) :: status
@@ -23,7 +24,8 @@ program figures
         case = contact_case_t()
         read (*, *) normal, tangential, numbers, case%methods%strips_per_patch, &
             case%methods%points_per_strip, case%methods%fastsim_nx, case%methods%fastsim_ny, &
-            by_load, elements, has_inclination, estimate, case%resolution_limit, n
+            by_load, elements, has_inclination, estimate, case%resolution_limit, wanted%target, &
+            wanted%tolerance, n
         read (*, *) demand
         case%force_limit = case%resolution_limit
         case%methods%normal = normal_method(normal)
@@ -66,6 +68,7 @@ contains
         integer, intent(in) :: step
 
         type(contact_result_t) :: result
+        type(taken_t) :: taken
 
         associate (d => demand(:, merge(1, 2, step == 1)))
             case%material = material_t(e_wheel=d(1), e_rail=d(2), nu_wheel=d(3), nu_rail=d(4))
@@ -75,7 +78,12 @@ contains
             case%creepage = creepage_t(cksi=d(8), ceta=d(9), cphi=d(10))
         end associate
         field%n = 0
-        if (elements == 1) then
+        taken = taken_t()
+        if (case%methods%normal == normal_auto .and. elements == 1) then
+            call solve_contact_auto(workspace, case, wanted, result, taken, status, field)
+        else if (case%methods%normal == normal_auto) then
+            call solve_contact_auto(workspace, case, wanted, result, taken, status)
+        else if (elements == 1) then
             call solve_contact(workspace, case, result, status, field)
         else
             call solve_contact(workspace, case, result, status)
@@ -109,8 +117,36 @@ contains
         call put('est_err_fx', step, 0, result%force_errors%fx)
         call put('est_err_fy', step, 0, result%force_errors%fy)
         call put('est_err_mz', step, 0, result%force_errors%mz)
+        if (is_error(status)) taken = taken_t()
+        call show_steps(taken, step)
         call show_arrays(workspace, field, step)
     end subroutine solve
+
+    !> What auto did; -1 for an estimate that is not known, of all of them 0.
+    subroutine show_steps(taken, step)
+        type(taken_t), intent(in) :: taken
+        integer, intent(in) :: step
+
+        integer :: i
+        logical :: is_known
+
+        is_known = taken%estimate < unknown_error
+        call put('n_steps', step, 0, real(taken%n, wp))
+        call put('best_step', step, 0, real(taken%best, wp))
+        call put('target_is_known', step, 0, merge(1.0_wp, 0.0_wp, is_known))
+        call put('target_is_met', step, 0, merge(1.0_wp, 0.0_wp, taken%is_met))
+        call put('est_err_target', step, 0, merge(taken%estimate, 0.0_wp, is_known))
+        do i = 1, taken%n
+            associate (one => taken%steps(i))
+                call put('step_normal', step, i, real(one%methods%normal, wp))
+                call put('step_tangential', step, i, real(one%methods%tangential, wp))
+                call put('step_strips', step, i, real(one%methods%strips_per_patch, wp))
+                call put('step_points', step, i, real(one%methods%points_per_strip, wp))
+                call put('step_estimate', step, i, &
+                         merge(one%estimate, -1.0_wp, one%estimate < unknown_error))
+            end associate
+        end do
+    end subroutine show_steps
 
     subroutine show_arrays(workspace, field, step)
         type(workspace_t), intent(in) :: workspace
@@ -190,6 +226,7 @@ contains
 
     subroutine defaults()
         type(contact_case_t) :: case
+        type(wanted_t) :: wanted
 
         contact = 0
         call put('default_normal', 0, 0, real(case%methods%normal, wp))
@@ -214,6 +251,9 @@ contains
         call put('default_estimate', 0, 0, merge(1.0_wp, 0.0_wp, case%estimate))
         call put('default_resolution_limit', 0, 0, case%resolution_limit)
         call put('default_force_limit', 0, 0, case%force_limit)
+        call put('default_target', 0, 0, real(wanted%target, wp))
+        call put('default_tolerance', 0, 0, wanted%tolerance)
+        call put('default_budget_us', 0, 0, wanted%budget_us)
     end subroutine defaults
 
     subroutine words()

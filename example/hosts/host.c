@@ -47,8 +47,10 @@ int open(const char *name, int flags, ...)
 int open64(const char *name, int flags, ...) __attribute__((alias("open")));
 #endif
 
-/* Bytes of case and result before errors were estimated, and before those of the forces were. */
-enum { FIRST_CASE = 128, FIRST_RESULT = 120, SECOND_CASE = 144, SECOND_RESULT = 168 };
+/* Bytes of case and result before errors were estimated, before those of the forces were, and
+ * before auto. */
+enum { FIRST_CASE = 128, FIRST_RESULT = 120, SECOND_CASE = 144, SECOND_RESULT = 168,
+       THIRD_CASE = 152, THIRD_RESULT = 200 };
 
 static const double hostile[] = {NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, 1e-320, 1e-300, 1e300,
                                  1.7e308, 5e-324};
@@ -60,7 +62,7 @@ static example examples[EXAMPLES];
 /* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
 static long every_call(faststrip_workspace *workspace)
 {
-    double *field[12], forces[3], figures[4], c[4], array[4][400];
+    double *field[14], forces[3], figures[4], c[4], array[4][400];
     int integers[400];
     char text[FASTSTRIP_TEXT];
     faststrip_result result;
@@ -69,17 +71,20 @@ static long every_call(faststrip_workspace *workspace)
 
     for (number = 0; number < EXAMPLES; number++) {
         example e = examples[number];
-        double *all[12] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
+        double *all[14] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
                            &e.contact.nu_rail, &e.contact.mu, &e.contact.load,
                            &e.contact.penetration, &e.contact.cksi, &e.contact.ceta,
                            &e.contact.cphi, &e.contact.resolution_limit,
-                           &e.contact.force_limit};
+                           &e.contact.force_limit, &e.contact.tolerance,
+                           &e.contact.budget_us};
         memcpy(field, all, sizeof all);
         e.contact.with_elements = number % 2;
         failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
         failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
         faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
-        for (i = 0; i < 12; i++) {
+        faststrip_get_steps(workspace, 400, &n, integers, integers, integers, integers, array[0],
+                            array[1], array[2]);
+        for (i = 0; i < 14; i++) {
             double kept = *field[i];
             k = (number + i) % HOSTILE;
             *field[i] = hostile[k];
@@ -161,7 +166,7 @@ static void quiet(void)
 {
     faststrip_workspace *workspace = make_workspace();
     char line[100];
-    long before, solving = 0, solved = 0, limited = 0, rough = 0, made, files, failures;
+    long before, solving = 0, solved = 0, limited = 0, rough = 0, missed = 0, made, files, failures;
     int i, n, status;
 
     /* The linear algebra library sets itself up in its first call. */
@@ -174,6 +179,7 @@ static void quiet(void)
         solved++;
         limited += status != FASTSTRIP_OK;
         rough += status == FASTSTRIP_UNDER_RESOLVED;
+        missed += status == FASTSTRIP_TARGET_MISSED;
     }
     before = file_calls;
     failures = every_call(workspace);
@@ -188,7 +194,8 @@ static void quiet(void)
     n = snprintf(line, sizeof line, "solved %ld\nsolving %ld\nfiles %ld\nfailures %ld\n", solved,
                  solving, files, failures);
     if (write(1, line, (size_t)n) != n) exit(2);
-    n = snprintf(line, sizeof line, "limited %ld\nrough %ld\n", limited, rough);
+    n = snprintf(line, sizeof line, "limited %ld\nrough %ld\nmissed %ld\n", limited, rough,
+                 missed);
     if (write(1, line, (size_t)n) != n) exit(2);
     n = snprintf(line, sizeof line, "making %ld\nwritten %ld\n", made, file_calls);
     if (write(1, line, (size_t)n) != n) exit(2);
@@ -273,6 +280,92 @@ static void memory(void)
     faststrip_free(&other);
 }
 
+/* Is a value what it should be? */
+static int checked, wrong_lines;
+
+#define EXPECT(value, call) \
+    do { \
+        checked++; \
+        if ((int)(call) != (value)) { \
+            wrong_lines++; \
+            printf("line %d\n", __LINE__); \
+        } \
+    } while (0)
+
+/* What auto refuses, what it misses, and that its steps go with its result. */
+static void wanted_errors(faststrip_workspace *workspace)
+{
+    faststrip_workspace *plain, *copy = make_workspace();
+    example e = examples[2];
+    faststrip_case other;
+    faststrip_result result;
+    double a[400];
+    int k[400], n = -1, i;
+    char text[FASTSTRIP_TEXT];
+
+    faststrip_default_case(&other, sizeof other);
+    EXPECT(0, faststrip_new(&other, POINTS, &plain));
+    EXPECT(0, faststrip_set_gap(plain, POINTS, e.y, e.h, e.inv2r, NULL));
+    EXPECT(0, faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL));
+    e.contact.normal = FASTSTRIP_NORMAL_AUTO;
+    e.contact.tangential = FASTSTRIP_TANGENTIAL_FASTSTRIP;
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_solve(plain, &e.contact, &result));
+    EXPECT(0, faststrip_last_message(plain, text, sizeof text));
+    EXPECT(1, strstr(text, "not reserved for normal method auto") != NULL);
+    EXPECT(0, faststrip_free(&plain));
+    for (i = 0; i < 8; i++) {
+        const int targets[] = {0, 6, -1, 1, 1, 1, 1, 5};
+        const double tolerances[] = {0.02, 0.02, 0.02, -0.5, NAN, 0.02, 0.0, 0.02};
+        const double budgets[] = {0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0};
+        const char *says[] = {"1 to 5, got 0", "got 6", "got -1", "the tolerance must be",
+                              "got NaN", "the budget must be", "both are 0",
+                              "needs a tangential method"};
+
+        e.contact.target = targets[i];
+        e.contact.tolerance = tolerances[i];
+        e.contact.budget_us = budgets[i];
+        e.contact.tangential = i < 7 ? 1 : 0;
+        EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, &result));
+        EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+        EXPECT(1, strstr(text, says[i]) != NULL);
+        EXPECT(1, result.n_steps == 0 && result.load == 0.0 && result.est_err_target == 0.0);
+    }
+    e.contact.target = FASTSTRIP_TARGET_PMAX;
+    e.contact.force_limit = -1.0;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_solve(workspace, &e.contact, &result));
+    e.contact.force_limit = 0.1;
+    e.contact.tolerance = 1e-9;
+    EXPECT(FASTSTRIP_TARGET_MISSED, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(1, result.n_steps > 1 && !result.target_is_met && result.target_is_known);
+    EXPECT(1, result.est_err_target == result.est_err_pmax && result.est_err_target > 1e-9);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_steps(NULL, 9, &n, k, k, k, k, a, a, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_steps(workspace, 9, NULL, k, k, k, k, a, a, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_steps(workspace, 9, &n, k, k, k, NULL, a, a, a));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL,
+           faststrip_get_steps(workspace, 1, &n, k, k, k, k, a, a, a));
+    EXPECT(1, n == result.n_steps);
+    EXPECT(0, faststrip_copy(workspace, copy));
+    EXPECT(0, faststrip_get_steps(copy, 9, &n, k, k + 100, k + 200, k + 300, a, a + 100, a + 200));
+    EXPECT(1, n == result.n_steps && a[result.best_step - 1] == result.est_err_target);
+    EXPECT(1, k[n - 1] == FASTSTRIP_NORMAL_STRIP && k[200 + n - 1] > 15);
+    EXPECT(0, faststrip_free(&copy));
+    /* Time for an ellipse or the first strips, and for no more. */
+    e.contact.tolerance = 0.0;
+    e.contact.budget_us = 1e-3;
+    EXPECT(1, faststrip_solve(workspace, &e.contact, &result) < FASTSTRIP_FIRST_ERROR);
+    EXPECT(1, result.n_steps == 1 && result.best_step == 1 && !result.target_is_met);
+    e.contact.budget_us = 1e9;
+    EXPECT(1, faststrip_solve(workspace, &e.contact, &result) < FASTSTRIP_FIRST_ERROR);
+    EXPECT(1, result.n_steps > 1 && result.load > 0.0);
+    e.contact.normal = FASTSTRIP_NORMAL_STRIP;
+    EXPECT(1, faststrip_solve(workspace, &e.contact, &result) < FASTSTRIP_FIRST_ERROR);
+    EXPECT(1, result.n_steps == 0 && result.best_step == 0 && result.est_err_target == 0.0);
+    EXPECT(0, faststrip_get_steps(workspace, 0, &n, k, k, k, k, a, a, a));
+    EXPECT(0, n);
+}
+
 /* Every pointer null in turn, wrong sizes, no workspace: is the status what it should be? */
 static void errors(void)
 {
@@ -285,16 +378,7 @@ static void errors(void)
     double a[400], f[4];
     int k[400], n = -1, i;
     char text[FASTSTRIP_TEXT], little[4];
-    int checked = 0, wrong_lines = 0;
 
-#define EXPECT(value, call) \
-    do { \
-        checked++; \
-        if ((int)(call) != (value)) { \
-            wrong_lines++; \
-            printf("line %d\n", __LINE__); \
-        } \
-    } while (0)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_version(NULL, 10));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_version(text, 0));
     EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_version(little, sizeof little));
@@ -404,6 +488,7 @@ static void errors(void)
     EXPECT(1, n == result.n_elements);
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_get_elements(workspace, 400, &n, a, a, a, a, a, a, a, a, NULL));
+    wanted_errors(workspace);
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(workspace, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(NULL, workspace));
     EXPECT(0, faststrip_copy(workspace, workspace));
@@ -438,6 +523,7 @@ static long refused(faststrip_workspace *workspace)
     wrong += faststrip_solve(workspace, &e.contact, &result) != 100;
     wrong += faststrip_get_strips(workspace, 9, &n, a, a, a, a, k) != 100;
     wrong += faststrip_get_elements(workspace, 9, &n, a, a, a, a, a, a, a, a, k) != 100;
+    wrong += faststrip_get_steps(workspace, 9, &n, k, k, k, k, a, a, a) != 100;
     wrong += faststrip_last_message(workspace, text, sizeof text) != 100;
     wrong += faststrip_copy(workspace, alive) != 100;
     wrong += faststrip_copy(alive, workspace) != 100;
@@ -525,6 +611,33 @@ static void forked(void)
     printf("children %d\nwrong %d\n", children, wrong);
 }
 
+/* A caller whose header does not know what can be wanted of auto, and asks for it: forces, 0.02. */
+static int older_auto(faststrip_workspace *workspace, const faststrip_case *usual)
+{
+    unsigned char *exact = malloc(THIRD_CASE), *figures = malloc(THIRD_RESULT);
+    faststrip_case contact = *usual, defaults;
+    faststrip_result wanted;
+    int wrong = 0;
+
+    faststrip_default_case(&defaults, sizeof defaults);
+    contact.normal = FASTSTRIP_NORMAL_AUTO;
+    contact.target = FASTSTRIP_TARGET_AREA;
+    contact.tolerance = 0.5;
+    memcpy(exact, &contact, THIRD_CASE);
+    ((faststrip_case *)exact)->size = THIRD_CASE;
+    contact.target = defaults.target;
+    contact.tolerance = defaults.tolerance;
+    wrong += defaults.target != FASTSTRIP_TARGET_FORCES || defaults.tolerance != 0.02;
+    wrong += faststrip_solve(workspace, &contact, &wanted)
+             != faststrip_solve(workspace, (faststrip_case *)exact, (faststrip_result *)figures);
+    wrong += wanted.n_steps < 2 || wanted.est_err_target <= 0.0;
+    wanted.size = THIRD_RESULT;
+    wrong += memcmp(figures, &wanted, THIRD_RESULT) != 0;
+    free(exact);
+    free(figures);
+    return wrong;
+}
+
 /* A caller whose header knows less of a case: nothing beyond is read or written, in a case that
  * ends where its memory ends, and what it lacks is the default. So errors are estimated, here of a
  * gap that is named for them, but not written where the result has no capacity. */
@@ -544,7 +657,8 @@ static void older(void)
     faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL);
     for (size = 16; size <= whole; size += 8) {
         const size_t known = size < SECOND_CASE ? FIRST_RESULT
-                             : size < whole ? SECOND_RESULT : sizeof(faststrip_result);
+                             : size < THIRD_CASE ? SECOND_RESULT
+                             : size < whole ? THIRD_RESULT : sizeof(faststrip_result);
         unsigned char *exact = malloc(size), *capacity = malloc(whole), *figures = malloc(known);
         faststrip_case *contact = (faststrip_case *)exact, filled;
         faststrip_workspace *own;
@@ -576,6 +690,7 @@ static void older(void)
         free(capacity);
         free(figures);
     }
+    wrong += older_auto(workspace, &e.contact);
     faststrip_free(&workspace);
     printf("sizes %d\nnamed %d\nwrong %d\n", sizes, named, wrong);
 }

@@ -93,6 +93,14 @@ def above_zero(name: str, value: Any) -> float:
     return found
 
 
+def from_zero(name: str, value: Any) -> float:
+    """A finite number from 0 on, of Python or numpy."""
+    found = number(name, value)
+    if found < 0.0:
+        raise refused(name, "a number from 0 on", value)
+    return found
+
+
 def numbers(names: Sequence[str], values: Sequence[Any]) -> List[float]:
     """Finite numbers, each with a name."""
     return [value if type(value) is float and math.isfinite(value) else number(name, value)

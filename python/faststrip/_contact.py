@@ -6,7 +6,7 @@ import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_void_p
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -17,6 +17,7 @@ from ._arguments import (
     array,
     as_long_as,
     flag,
+    from_zero,
     number,
     numbers,
     refused,
@@ -63,11 +64,22 @@ TANGENTIAL = {
 }
 # END methods
 
+# What normal="auto" is to know as well as the tolerance asks.
+TARGETS = {
+    "forces": 1,        # the worst of est_err_fx, est_err_fy, est_err_mz
+    "pmax": 2,          # est_err_pmax
+    "penetration": 3,   # est_err_penetration
+    "area": 4,          # est_err_area
+    "power": 5,         # friction power, relative
+}
+
 # Limits of the library.
 MOST_STRIPS = 1000
 MOST_POINTS = 1000
 MOST_ROWS = 10000
 GAP_POINTS = 5, 1000000
+# Of auto, where neither tolerance nor budget is told.
+TOLERANCE = 0.02
 
 # From here on a call may take more than a tenth of a second on a slow machine, and is made so that
 # Ctrl-C ends it, which costs 10 to 40 us: strips of a patch, points of FASTSIM, points of a gap.
@@ -96,6 +108,24 @@ class Material:
         return 2.0 / (1.0 / wheel + 1.0 / rail)
 
 
+class Step(NamedTuple):
+    """One step of ``normal="auto"``."""
+
+    normal: str
+    tangential: str
+    strips: int
+    """strips across the widest patch"""
+    points_per_strip: int
+    estimate: Optional[float]
+    """estimated error of the target; None: not known"""
+    normal_us: float
+    """time of the pressures and their estimates, us"""
+    tangential_us: float
+    """time of the forces and their estimates, us"""
+    is_best: bool
+    """is its solution the result?"""
+
+
 @dataclass(frozen=True)
 class Result:
     """Figures of one contact; lengths in mm, forces on the rail in N."""
@@ -104,7 +134,8 @@ class Result:
     """0, or the number of a named limitation"""
     word: str
     """``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``, ``fewer_strips``,
-    ``overlap_left``, ``flat_along_x``, ``conformal``, ``under_resolved``, ``more_strips``"""
+    ``overlap_left``, ``flat_along_x``, ``conformal``, ``target_missed``, ``under_resolved``,
+    ``more_strips``"""
     load: float
     penetration: float
     area: float
@@ -145,12 +176,20 @@ class Result:
     """estimated error of fy over mu times the load"""
     est_err_mz: Optional[float]
     """estimated error of mz over mu times the load times sqrt(area/pi)"""
+    est_err_target: Optional[float] = None
+    """estimated error of what ``normal="auto"`` was to know; None where it is not known, and by
+    other methods"""
+    target_is_met: Optional[bool] = None
+    """is it within the tolerance? None without a tolerance, and by other methods"""
+    steps: Tuple[Step, ...] = field(default=(), compare=False)
+    """what ``normal="auto"`` did; results are compared without, as it has times"""
 
 
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
 OF_FORCES = 3
-_names = [field.name for field in fields(Result)]
+OF_AUTO = 3
+_names = [one.name for one in fields(Result)][:-OF_AUTO]
 _figures_of = operator.attrgetter(*_names[2:-ESTIMATES - OF_FORCES])
 _estimates_of = operator.attrgetter(*_names[-ESTIMATES - OF_FORCES:-OF_FORCES])
 _force_errors_of = operator.attrgetter(*_names[-OF_FORCES:])
@@ -181,6 +220,10 @@ class Elements(NamedTuple):
     sx: Array
     sy: Array
     state: npt.NDArray[np.int32]
+
+
+_NAMES_OF_NORMAL = {number: name for name, number in NORMAL.items()}
+_NAMES_OF_TANGENTIAL = {number: name for name, number in TANGENTIAL.items()}
 
 
 def _number_of(names: Dict[str, int], name: Any, what: str) -> int:
@@ -236,6 +279,7 @@ class Contact:
 
     normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
     each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
+    With normal ``auto`` both methods are as fine as their estimated errors ask, see `solve`.
     estimate: are errors estimated, which of strips costs about one step? A result with an estimated
     relative error of penetration, pmax or area above resolution_limit, or an estimated error of its
     forces above force_limit, is called ``under_resolved``. Use one Contact per thread; calls
@@ -285,8 +329,8 @@ class Contact:
         # What may take longer than a moment; elsewhere a thread of its own would cost too much.
         strips = case.strips_per_patch if case.normal != NORMAL["hertz"] else 1
         grid = case.fastsim_nx * case.fastsim_ny if case.tangential in BY_GRID else 0
-        self._long = (strips == 0 or strips > LONG_STRIPS or grid > LONG_GRID
-                      or max_points > LONG_GAP)
+        self._long = (case.normal == NORMAL["auto"] or strips == 0 or strips > LONG_STRIPS
+                      or grid > LONG_GRID or max_points > LONG_GAP)
 
     def _abandon(self) -> None:
         """Leave workspace and case to a call that goes on after it was interrupted."""
@@ -364,11 +408,20 @@ class Contact:
 
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
               creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0), mu: float = 0.3,
-              material: Material = Material(), warm_start: bool = False) -> Result:
+              material: Material = Material(), warm_start: bool = False,
+              target: Optional[str] = None, tolerance: Optional[float] = None,
+              budget_us: Optional[float] = None) -> Result:
         """Solve for a load (N) or a penetration (mm): one of the two.
 
         creepage is longitudinal, lateral and spin (rad/mm) about y = 0. warm_start begins with the
         last solution, if there is one. Raises FaststripError where there is no result.
+
+        Of a contact with normal ``auto``, target is one of ``TARGETS``, ``forces`` unless told
+        otherwise; tolerance is the largest estimated error of it that will do, 0.02 unless told
+        otherwise; budget_us is the time for it, us: without a tolerance it gives the least
+        estimated error in that time. The steps taken are in the result; ``target_missed`` is as
+        near as strips come. Where the target needs forces, ``faststrip`` gives them, whatever
+        tangential is, but not ``none``.
         """
         if (load is None) == (penetration is None):
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
@@ -384,13 +437,49 @@ class Contact:
             case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = _material_of(material)
             self._material = material
         case.warm_start = flag("warm_start", warm_start)
+        self._want(target, tolerance, budget_us)
         figures = Figures()
         status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
                             long=self._long)
         return Result(status, word_of(status), *_figures_of(figures),
                       *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
                       *(_force_errors_of(figures) if figures.forces_are_estimated
-                        else _NO_FORCE_ERRORS))
+                        else _NO_FORCE_ERRORS),
+                      *(self._taken(figures) if figures.n_steps else ()))
+
+    def _want(self, target: Optional[str], tolerance: Optional[float],
+              budget_us: Optional[float]) -> None:
+        """What is wanted of auto, into the case."""
+        case = self._case
+        if case.normal != NORMAL["auto"]:
+            for name, value in (("target", target), ("tolerance", tolerance),
+                                ("budget_us", budget_us)):
+                if value is not None:
+                    raise refused(name, "None unless normal is 'auto'", value)
+            return
+        case.target = TARGETS["forces"] if target is None else _number_of(TARGETS, target, "target")
+        case.budget_us = 0.0 if budget_us is None else from_zero("budget_us", budget_us)
+        if tolerance is not None:
+            case.tolerance = from_zero("tolerance", tolerance)
+        else:
+            case.tolerance = 0.0 if case.budget_us > 0.0 else TOLERANCE
+
+    def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
+        """What came of auto: estimated error of the target, is it met, the steps."""
+        n, most = c_int(), figures.n_steps
+        whole_numbers = [np.empty(most, dtype=np.int32) for _ in range(4)]
+        reals = [np.empty(most) for _ in range(3)]
+        self._call(library.faststrip_get_steps, most, ctypes.byref(n),
+                   *_addresses([*whole_numbers, *reals]))
+        steps = tuple(
+            Step(_NAMES_OF_NORMAL[normal], _NAMES_OF_TANGENTIAL[tangential], strips, points,
+                 estimate if estimate >= 0.0 else None, normal_us, tangential_us,
+                 i == figures.best_step)
+            for i, (normal, tangential, strips, points, estimate, normal_us, tangential_us)
+            in enumerate(zip(*(values.tolist() for values in (*whole_numbers, *reals))), 1))
+        estimate = figures.est_err_target if figures.target_is_known else None
+        is_met = figures.target_is_met == 1 if self._case.tolerance > 0.0 else None
+        return estimate, is_met, steps
 
     def strips(self) -> Strips:
         """The strips of the last contact."""

@@ -56,6 +56,9 @@ class Case(ctypes.Structure):
         ("estimate", c_int),
         ("resolution_limit", c_double),
         ("force_limit", c_double),
+        ("target", c_int),
+        ("tolerance", c_double),
+        ("budget_us", c_double),
     ]
 
 
@@ -74,6 +77,8 @@ class Figures(ctypes.Structure):
             "overlap_outside")),
         ("forces_are_estimated", c_int),
         *((name, c_double) for name in ("est_err_fx", "est_err_fy", "est_err_mz")),
+        *((name, c_int) for name in ("n_steps", "best_step", "target_is_known", "target_is_met")),
+        ("est_err_target", c_double),
     ]
 
 
@@ -131,6 +136,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "solve": [handle, POINTER(Case), POINTER(Figures)],
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
+        "get_steps": [handle, c_int, POINTER(c_int), *[c_void_p] * 7],
         "fastsim": [*[number] * 11, c_int, c_int, POINTER(number)],
         "hertz": [*[number] * 7, POINTER(number)],
         "kalker": [number, number, POINTER(number)],

@@ -79,6 +79,7 @@ module faststrip
                                        reserve_workspace, reserve_contact_field, &
                                        set_contact_gap, solve_contact, solve_contact_normal, &
                                        solve_contact_tangential, most_gap_points
+    use faststrip_contact_target, only: unknown_error
     use faststrip_contact_wanted, only: wanted_t, target_number, target_names, target_forces, &
                                         target_pmax, target_penetration, target_area, &
                                         target_power

@@ -44,7 +44,7 @@ module contacts
     type :: workspaces_t
         type(strip_workspace_t) :: workspace
         type(contact_strips_t) :: strips
-        type(workspace_t) :: contact
+        type(workspace_t) :: contact, wanted
     end type workspaces_t
 
 contains
@@ -80,10 +80,11 @@ contains
         call reserve_strip_workspace(here%workspace, capacity, points, status)
         call reserve_workspace(here%contact, contact_methods_t(strips_per_patch=101), points, &
                                status)
+        call reserve_workspace(here%wanted, contact_methods_t(normal=normal_auto), points, status)
     end subroutine reserve
 
     !> Solve a gap from nothing, for a penetration, and warm, then as a contact with its estimated
-    !> errors; add up the bits of all figures.
+    !> errors, and as well as is wanted; add up the bits of all figures.
     subroutine solve(here, gap, n, bits, code)
         type(workspaces_t), intent(inout) :: here
         type(gap_t), intent(in) :: gap
@@ -94,6 +95,7 @@ contains
         type(normal_result_t) :: result
         type(contact_case_t) :: case
         type(contact_result_t) :: figures
+        type(taken_t) :: taken
         type(status_t) :: status
         real(wp) :: compliance
         integer :: step, k
@@ -134,6 +136,16 @@ contains
         call add(figures%certificate%est_err_pmax)
         call add(figures%certificate%est_err_area)
         call add(figures%certificate%overlap_outside)
+        case%creepage = creepage_t(1.0e-3_wp, -5.0e-4_wp, 1.0e-4_wp)
+        case%methods%normal = normal_auto
+        call set_contact_gap(here%wanted, gap%y, gap%h, gap%inv2r, status)
+        do k = 1, size(target_names)
+            call solve_contact_auto(here%wanted, case, wanted_t(target=k), figures, taken, status)
+            code = max(code, status%code)
+            call add(taken%estimate)
+            call add(figures%normal%pmax)
+            call add(figures%tangential%fx)
+        end do
 
     contains
 
@@ -183,23 +195,13 @@ program threads
     integer, parameter :: numbers(5) = [0, 5, 15, 31, 101], rounds = 3
     type(gap_t) :: gaps(kinds)
     integer(int64) :: bits(size(numbers), size(gaps), rounds)
-    integer :: codes(size(numbers), size(gaps), rounds), job, i, kind, round
-    type(workspaces_t) :: here
+    integer :: codes(size(numbers), size(gaps), rounds), i, kind, round
 
     do kind = 1, size(gaps)
         call make(kind, gaps(kind))
     end do
-    ! Backwards, so that what a workspace did before differs from the other program's.
-    !$omp parallel private(here, i, kind, round) num_threads(2)
-    call reserve(here)
-    !$omp do schedule(dynamic, 1)
-    do job = size(bits) - 1, 0, -1
-        i = 1 + modulo(job, size(numbers))
-        kind = 1 + modulo(job/size(numbers), size(gaps))
-        round = 1 + job/(size(numbers)*size(gaps))
-        call solve(here, gaps(kind), numbers(i), bits(i, kind, round), codes(i, kind, round))
-    end do
-    !$omp end do
+    !$omp parallel num_threads(2)
+    call work()
     !$omp end parallel
     do round = 1, rounds
         do kind = 1, size(gaps)
@@ -209,6 +211,25 @@ program threads
             end do
         end do
     end do
+
+contains
+
+    !> Backwards, so that what a workspace did before differs from the other program's.
+    subroutine work()
+        ! Not a private variable of the team: its components would have no first values.
+        type(workspaces_t) :: here
+        integer :: job, i, kind, round
+
+        call reserve(here)
+        !$omp do schedule(dynamic, 1)
+        do job = size(bits) - 1, 0, -1
+            i = 1 + modulo(job, size(numbers))
+            kind = 1 + modulo(job/size(numbers), size(gaps))
+            round = 1 + job/(size(numbers)*size(gaps))
+            call solve(here, gaps(kind), numbers(i), bits(i, kind, round), codes(i, kind, round))
+        end do
+        !$omp end do
+    end subroutine work
 end program threads
 """
 

@@ -3,16 +3,21 @@ without symmetry, all creepages, every method, every field of every struct and a
 
 import math
 import random
+import sys
 import unittest
 
 from installed import HOSTS, HostTest
 
 NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
+AUTO = "auto", 6
 TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
               "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
 ESTIMATES = ("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
              "overlap_outside")
 FORCE_ESTIMATES = ("est_err_fx", "est_err_fy", "est_err_mz")
+# What came of auto, but its steps.
+TAKEN = ("n_steps", "best_step", "target_is_known", "target_is_met", "est_err_target")
+TARGETS = (None, "forces", "pmax", "penetration", "area", "power")
 FORCES_ONLY = {"linear", "she", "polach"}
 # Bodies, friction, load, penetration, creepages: no two alike, the second demand unlike the first.
 FIRST = (2.1e5, 1.43e5, 0.27, 0.335, 0.31, 7.3e4, 0.061, 1.3e-3, -7e-4, 1.7e-4)
@@ -60,19 +65,40 @@ def rough_gap():
 # Estimate errors, and the limit from which on they are named: the default, others for a rough gap.
 USUAL = (1, 0.1)
 ROUGH = (USUAL, (1, 1e9), (0, 0.1), (1, 0.02))
+# Target and tolerance of auto.
+WANTED = (1, 0.02)
 
 
 def contacts():
     """normal, tangential, strips, points, nx, ny, by load, elements, turn, estimate, limit,
-    demands, gap: the rough ones first."""
+    target, tolerance, demands, gap: the rough ones first."""
     for estimate in ROUGH:
-        yield ("strip", "faststrip", 15, 6, 7, 11, 1, 0, 0, *estimate, FIRST, SECOND, rough_gap())
+        yield ("strip", "faststrip", 15, 6, 7, 11, 1, 0, 0, *estimate, *WANTED, FIRST, SECOND,
+               rough_gap())
     for *numbers, first, second, rows in smooth_contacts():
-        yield (*numbers, *USUAL, first, second, rows)
+        yield (*numbers, *USUAL, *WANTED, first, second, rows)
     usual = gap(lopsided, -14.0, 17.0, 201)
     for normal in NORMAL:
         for estimate in ((0, 0.1), (1, 1e-9), (1, -0.1)):
-            yield (normal, "faststrip", 8, 6, 7, 11, 1, 0, 0, *estimate, FIRST, SECOND, usual)
+            yield (normal, "faststrip", 8, 6, 7, 11, 1, 0, 0, *estimate, *WANTED, FIRST, SECOND,
+                   usual)
+    yield from auto_contacts(usual)
+
+
+def auto_contacts(usual):
+    """Every target; both demands; what is missed; ellipses that are enough; other tangential
+    methods, also none, which the target of forces refuses; nothing wanted, which is refused."""
+    ellipse = gap(lambda y: 2e-3 * y * y, -14.0, 14.0, 201)
+    for tangential, by_load, elements, target, tolerance, rows in (
+            ("faststrip", 1, 0, *WANTED, usual), ("faststrip", 0, 1, 2, 3e-3, usual),
+            ("faststrip-plain", 1, 1, 3, 3e-3, usual), ("fastsim", 1, 1, 4, 5e-3, usual),
+            ("faststrip", 1, 1, 5, 0.03, usual), ("polach", 1, 0, 5, 0.04, usual),
+            ("faststrip", 1, 1, 1, 1e-5, usual), ("faststrip", 1, 0, 2, 1e-7, rough_gap()),
+            ("faststrip", 1, 1, 1, 0.05, gap(valleys, -13.0, 14.0, 181)),
+            ("faststrip", 1, 1, *WANTED, ellipse), ("none", 1, 0, 4, 0.01, usual),
+            ("none", 1, 0, *WANTED, usual), ("faststrip", 1, 0, 1, 0.0, usual)):
+        yield ("auto", tangential, 8, 6, 7, 11, by_load, elements, 0, *USUAL, target, tolerance,
+               FIRST, SECOND, rows)
 
 
 def smooth_contacts():
@@ -102,7 +128,9 @@ def input_text():
     rows = list(contacts())
     lines = [str(len(rows))]
     for normal, tangential, *numbers, first, second, points in rows:
-        lines.append(" ".join(map(str, (normal, tangential, NORMAL.index(normal) + 1,
+        numbered = {**{name: i for i, name in enumerate(NORMAL, 1)}, AUTO[0]: AUTO[1]}
+        lines.append(" ".join(map(str, (normal, tangential, numbered[normal],
+                                        11 if tangential == "faststrip-plain" else
                                         TANGENTIAL.index(tangential), *numbers, len(points)))))
         lines += [" ".join(map(repr, row)) for row in (first, second, *points)]
     for values in (*CLASSIC["fastsim"], *CLASSIC["hertz"], *CLASSIC["kalker"]):
@@ -178,6 +206,25 @@ class Figures(HostTest):
                    for contact, row in enumerate(self.contacts, 1) if row[10] < 0.0}
         self.assertEqual(refused, {"the resolution limit must be above 0, got -0.100000"})
 
+    def test_auto_meets_and_misses_by_all_kinds_of_steps(self):
+        first = {key[1]: value for key, value in self.wanted.items()
+                 if key[0] == "n_steps" and key[2] == 1 and value > 0.0}
+        auto = {i for i, row in enumerate(self.contacts, 1) if row[0] == AUTO[0]}
+        self.assertEqual(auto - set(first), {len(self.contacts) - 1, len(self.contacts)})
+        self.assertLessEqual(set(first), auto)
+        self.assertLessEqual({1.0, 2.0, 3.0}, set(first.values()))
+        self.assertEqual({self.wanted["status", i, 1, 0] for i in auto}, {0.0, 7.0, 100.0})
+        self.assertEqual({self.wanted["target_is_met", i, 1, 0] for i in first}, {0.0, 1.0})
+        self.assertEqual({self.wanted["step_normal", i, 1, self.wanted["best_step", i, 1, 0]]
+                          for i in first}, {1.0, 2.0})
+        # Where the last step is not the best, where the elements are those of another method.
+        self.assertTrue(any(self.wanted["best_step", i, 1, 0] < count
+                            for i, count in first.items()))
+        self.assertGreater(sum(self.wanted["n_elements", i, 1, 0] > 0.0 for i in first), 4)
+        self.assertEqual([self.wanted["message", len(self.contacts) - i, 1, 0] for i in (1, 0)],
+                         ["the target forces needs a tangential method, got none",
+                          "a tolerance or a budget must be given, both are 0"])
+
     def test_c(self):
         self.shell(f"gcc -O1 -Wall -Wextra -Werror '{HOSTS}/figures.c'"
                    " $(pkg-config --cflags --libs faststrip) -o by_c")
@@ -189,12 +236,13 @@ class Figures(HostTest):
                    " $(pkg-config --libs faststrip) -o by_f77")
         turning = {i for i, row in enumerate(self.contacts, 1) if row[8]}
         self.assertEqual(len(turning), 2)
-        # FSLIMT refuses at once what a limit cannot be: test_legacy.
-        refused = {i for i, row in enumerate(self.contacts, 1) if row[10] < 0.0}
+        # FSLIMT and FSWANT refuse at once what a limit and a tolerance cannot be: test_legacy.
+        refused = {i for i, row in enumerate(self.contacts, 1) if row[10] < 0.0 or row[12] <= 0.0}
         self.same(figures(self.shell("./by_f77 <contacts.txt")),
                   lambda name, contact: name in (
                       "shear_modulus", "iterations", "default_penetration", "default_estimate",
-                      "default_resolution_limit", "default_force_limit")
+                      "default_resolution_limit", "default_force_limit", "default_target",
+                      "default_tolerance", "default_budget_us")
                   or contact in turning or contact in refused)
 
     def test_python(self):
@@ -205,7 +253,7 @@ class Figures(HostTest):
         self.same(found, lambda name, contact: name.startswith("default_") or name == "word")
 
     def by_python(self, found, number, normal, tangential, strips, points, nx, ny, by_load,
-                  elements, turn, estimate, limit, first, second, rows):
+                  elements, turn, estimate, limit, target, tolerance, first, second, rows):
         faststrip = self.faststrip
         options = {"normal": normal, "tangential": tangential, "strips_per_patch": strips or "auto",
                    "points_per_strip": points, "fastsim_grid": (nx, ny),
@@ -230,12 +278,31 @@ class Figures(HostTest):
                     for i, value in enumerate(values, 1):
                         found[f"{what}_{name}", number, step, i] = value
 
+        methods = sys.modules["faststrip._contact"]
+        wanted = {"target": TARGETS[target], "tolerance": tolerance} if normal == AUTO[0] else {}
+
+        def show_steps(result, step):
+            numbers = {"n_steps": len(result.steps), "est_err_target": result.est_err_target or 0.0,
+                       "target_is_known": result.est_err_target is not None,
+                       "target_is_met": result.target_is_met or 0, "best_step": sum(
+                           i for i, one in enumerate(result.steps, 1) if one.is_best)}
+            found.update({(name, number, step, 0): value for name, value in numbers.items()})
+            for i, one in enumerate(result.steps, 1):
+                for name, value in (
+                        ("normal", methods.NORMAL[one.normal]),
+                        ("tangential", methods.TANGENTIAL[one.tangential]),
+                        ("strips", one.strips), ("points", one.points_per_strip),
+                        ("estimate", -1.0 if one.estimate is None else one.estimate)):
+                    found[f"step_{name}", number, step, i] = value
+                self.assertGreater(one.normal_us, 0.0)
+                self.assertGreaterEqual(one.tangential_us, 0.0)
+
         def solve(of, step, demand):
             e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration, *creepage = demand
             try:
                 result = of.solve(
                     **({"load": load} if by_load else {"penetration": penetration}),
-                    creepage=tuple(creepage), mu=mu, warm_start=step > 1,
+                    creepage=tuple(creepage), mu=mu, warm_start=step > 1, **wanted,
                     material=faststrip.Material(e_wheel=e_wheel, e_rail=e_rail, nu_wheel=nu_wheel,
                                                 nu_rail=nu_rail))
             except faststrip.FaststripError as problem:
@@ -245,14 +312,14 @@ class Figures(HostTest):
                 for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
                              "fy", "mz", "friction_power", "stick_fraction", "n_patches",
                              "iterations", "n_elements", "strips_across", "is_estimated",
-                             "forces_are_estimated", *ESTIMATES, *FORCE_ESTIMATES):
+                             "forces_are_estimated", *ESTIMATES, *FORCE_ESTIMATES, *TAKEN):
                     found[name, number, step, 0] = 0.0
             else:
                 self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
                 # Words of a limitation are not handed on.
                 found["message", number, step, 0] = self.wanted["message", number, step, 0]
                 for name, value in vars(result).items():
-                    if name not in ("word", "n_strips"):
+                    if name not in ("word", "n_strips", "steps", *TAKEN):
                         found[name, number, step, 0] = 0.0 if value is None else value
                 for flag, names in (("is_estimated", ESTIMATES),
                                     ("forces_are_estimated", FORCE_ESTIMATES)):
@@ -260,6 +327,7 @@ class Figures(HostTest):
                     self.assertEqual(len(known), 1)
                     found[flag, number, step, 0] = float(known.pop())
                 found["result_n_strips", number, step, 0] = result.n_strips
+                show_steps(result, step)
             show_arrays(of, step)
 
         solve(contact, 1, first)

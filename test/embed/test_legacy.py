@@ -11,9 +11,10 @@ R0, S, CONE = 460.0, 750.0, 0.05
 
 ERRORS = """\
       PROGRAM ERRORS
-      INTEGER IOPT(9), IW(8), IW2(8), N, I, INFO, K(400), BITS(2)
+      INTEGER IOPT(9), IW(8), IW2(8), IW3(8), N, I, INFO, K(400),
+     &  BITS(2)
       DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3),
-     &  ERR(7), ERR2(7), FERR(4), FERR2(4), Z, IEEE
+     &  ERR(7), ERR2(7), FERR(4), FERR2(4), TAKN(5), TAKN2(5), Z, IEEE
       CHARACTER*12 TEXT
       CHARACTER*80 LONG
       EQUIVALENCE (IEEE, BITS)
@@ -133,6 +134,78 @@ ERRORS = """\
       CALL FSCOPY(IW, IW2, INFO)
       WRITE (*, *) 'nowhere', INFO
       CALL FSFREE(IW, INFO)
+      CALL FSDFLT(IOPT, PAR)
+      PAR(6) = 1.0D3
+      PAR(7) = 1.0D-3
+      CALL FSINIT(IOPT, 6, IW3, 8, INFO)
+      IOPT(1) = 6
+      CALL FSCONT(IW3, 6, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'unmeant', INFO
+      CALL FSFREE(IW3, INFO)
+      CALL FSINIT(IOPT, 6, IW, 8, INFO)
+      CALL FSINIT(IOPT, 6, IW2, 8, INFO)
+      WRITE (*, *) 'auto', INFO
+C     Unlike sides, no ellipse.
+      H(4) = 0.2D0
+      H(5) = 0.8D0
+      H(6) = 1.8D0
+      CALL FSWANT(IW, 6, 0.1D0, 0.0D0, INFO)
+      WRITE (*, *) 'target', INFO
+      CALL FSLAST(IW, LONG)
+      WRITE (*, *) 'which', INDEX(LONG, 'must be 1 to 5, got 6')
+      CALL FSWANT(IW, 1, -0.1D0, 0.0D0, INFO)
+      WRITE (*, *) 'tolerance', INFO
+      CALL FSWANT(IW, 1, 0.1D0, IEEE, INFO)
+      WRITE (*, *) 'budget', INFO
+      CALL FSWANT(IW, 1, 0.0D0, 0.0D0, INFO)
+      WRITE (*, *) 'neither', INFO
+C     Refused, all is as it was: forces, 0.02.
+      CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'wanted', INFO
+      CALL FSTAKN(IW, TAKN, INFO)
+      CALL FSFERR(IW, FERR, INFO)
+      N = 0
+      IF (TAKN(3) .NE. MAX(FERR(1), FERR(2), FERR(3))) N = 1
+      IF (TAKN(3) .GT. 0.02D0 .OR. TAKN(5) .NE. 1D0) N = N + 2
+      WRITE (*, *) 'met', N + INFO
+      CALL FSWANT(IW, 2, 1.0D-9, 0.0D0, INFO)
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'missed', INFO
+      CALL FSTAKN(IW, TAKN, INFO)
+      CALL FSERRS(IW, ERR, INFO)
+      N = 0
+      IF (TAKN(3) .NE. ERR(2) .OR. TAKN(4) .NE. 1D0) N = 1
+      IF (TAKN(1) .LT. 2D0 .OR. TAKN(5) .NE. 0D0) N = N + 2
+      WRITE (*, *) 'pmax', N + INFO
+C     The other workspace takes over the steps and what is wanted.
+      CALL FSCOPY(IW, IW2, INFO)
+      CALL FSTAKN(IW2, TAKN2, INFO)
+      N = 0
+      DO 40 I = 1, 5
+        IF (TAKN(I) .NE. TAKN2(I)) N = N + 1
+   40 CONTINUE
+      WRITE (*, *) 'taken', N + INFO
+      CALL FSSTEP(IW2, 1, N, K, K(20), K(40), K(60), X, X(20), X(40),
+     &  INFO)
+      WRITE (*, *) 'steps', INFO + N - NINT(TAKN(1))
+      CALL FSSTEP(IW2, 9, N, K, K(20), K(40), K(60), X, X(20), X(40),
+     &  INFO)
+      I = NINT(TAKN(2))
+      WRITE (*, *) 'best', INFO + K(I)*100 + K(I + 19)
+      WRITE (*, *) 'across', K(I + 39) - NINT(ERR(7))
+      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'likewise', INFO
+      CALL FSGAP(IW2, 6, Y, H, A, INFO)
+      CALL FSTAKN(IW2, TAKN2, INFO)
+      WRITE (*, *) 'forgot', NINT(TAKN2(1) + TAKN2(3)) + INFO
+      CALL FSFREE(IW2, INFO)
+      CALL FSTAKN(IW2, TAKN2, INFO)
+      WRITE (*, *) 'lapsed', INFO
+      CALL FSWANT(IW2, 1, 0.1D0, 0.0D0, INFO)
+      WRITE (*, *) 'ended', INFO
+      CALL FSSTEP(IW2, 9, N, K, K, K, K, X, X, X, INFO)
+      WRITE (*, *) 'over', INFO + N
+      CALL FSFREE(IW, INFO)
       CALL FSTSIM(6D0, 0D0, 8D4, 4D0, 4D0, 2D0, 0D0, 0D0, 0D0, 0.3D0,
      &  1D5, 9, 9, F(1), F(2), F(3), INFO)
       WRITE (*, *) 'flat', INFO
@@ -148,6 +221,9 @@ ANSWERS = {
     "forces": 1, "part": 0, "equal": 0, "silent": 0, "lost": 100,
     "errors": 0, "known": 1000, "small": 0, "differ": 0, "zero": 100, "limit": 22, "below": 100,
     "nan": 100, "named": 39, "kept": 1, "strict": 0, "rough": 8, "alike": 8, "off": 0, "unknown": 0,
+    "unmeant": 110, "auto": 0, "target": 100, "which": 12, "tolerance": 100, "budget": 100,
+    "neither": 100, "wanted": 0, "met": 0, "missed": 7, "pmax": 0, "taken": 0, "steps": 110,
+    "best": 101, "across": 0, "likewise": 7, "forgot": 0, "lapsed": 100, "ended": 100, "over": 100,
     "anew": 0, "gone": 100, "went": 100,
     "solved": 0, "strips": 0, "few": 110, "elements": 0, "copied": 0, "again": 0, "freed": 0,
     "twice": 100, "nowhere": 100, "flat": 100, "ratio": 109, "saddle": 107,

@@ -343,6 +343,82 @@ class Contacts(HostTest):
             self.assertEqual(result.word, "ok", options)
             self.assertEqual([getattr(result, name) for name in names], [None] * 3, options)
 
+    def test_auto_is_as_good_as_is_wanted(self):
+        contact = self.contact(normal="auto", with_elements=True)
+        contact.set_gap(self.y, 2e-3 * self.y**2 + 3e-5 * self.y**3, 1.0 / 920.0)
+        creepage = (1e-3, 5e-4, 1e-4)
+        first = contact.solve(load=1e5, creepage=creepage)
+        self.assertEqual((first.word, first.target_is_met), ("ok", True))
+        worst = max(first.est_err_fx, first.est_err_fy, first.est_err_mz)
+        self.assertEqual(first.est_err_target, worst)
+        self.assertTrue(0.0 < worst <= 0.02)
+        self.assertEqual(first, contact.solve(load=1e5, creepage=creepage, target="forces",
+                                              tolerance=0.02))
+        finer = contact.solve(load=1e5, creepage=creepage, target="pmax", tolerance=2e-3)
+        self.assertEqual((finer.word, finer.est_err_target), ("ok", finer.est_err_pmax))
+        self.assertGreater(len(finer.steps), 1)
+        self.assertEqual([step.is_best for step in finer.steps].count(True), 1)
+        best = next(step for step in finer.steps if step.is_best)
+        self.assertEqual((best.normal, best.tangential, best.strips, best.estimate),
+                         ("strip", "faststrip", finer.strips_across, finer.est_err_pmax))
+        # The elements and strips are those of the step that was taken.
+        self.assertEqual(finer.n_elements, len(contact.elements().x))
+        self.assertEqual(finer.n_elements, finer.n_strips * best.points_per_strip)
+        self.assertEqual(len(contact.strips().p0), finer.n_strips)
+        # That many strips, asked for, give the same.
+        plain = self.contact(strips_per_patch=best.strips)
+        plain.set_gap(self.y, 2e-3 * self.y**2 + 3e-5 * self.y**3, 1.0 / 920.0)
+        self.assertAlmostEqual(plain.solve(load=1e5).pmax / finer.pmax, 1.0, delta=1e-6)
+
+    def test_auto_says_what_it_misses_and_keeps_a_budget(self):
+        contact = self.contact(normal="auto")
+        contact.set_gap(self.y, 2e-3 * self.y**2 + 3e-5 * self.y**3, 1.0 / 920.0)
+        missed = contact.solve(load=1e5, target="area", tolerance=1e-9)
+        self.assertEqual((missed.word, missed.target_is_met), ("target_missed", False))
+        self.assertEqual(missed.est_err_target, missed.est_err_area)
+        # In no time one step; in any time the same as without a tolerance that can be met.
+        least = contact.solve(load=1e5, target="area", budget_us=1e-3)
+        self.assertEqual((len(least.steps), least.target_is_met), (1, None))
+        most = contact.solve(load=1e5, target="area", budget_us=1e9)
+        self.assertGreater(len(most.steps), 1)
+        self.assertLess(most.est_err_target, least.est_err_target)
+        both = contact.solve(load=1e5, target="area", tolerance=1e-9, budget_us=1e-3)
+        self.assertEqual((both.word, len(both.steps)), ("target_missed", 1))
+        other = self.contact().solve(load=1e5)
+        self.assertEqual((other.est_err_target, other.target_is_met, other.steps), (None, None, ()))
+
+    def test_what_is_wanted_is_refused_by_name(self):
+        np, contact = self.numpy, self.contact(normal="auto")
+        for value in ("Forces", "", 1, [], np.array(1)):
+            self.refused("bad_argument", contact.solve, load=1e5, target=value,
+                         says="target must be one of forces, pmax, penetration, area, power, got ")
+        for name in ("tolerance", "budget_us"):
+            for value in ("1", True, 1j, [0.1], np.array([0.1]), np.ma.masked, object()):
+                self.refused("bad_argument", contact.solve, load=1e5, **{name: value},
+                             says=f"{name} must be a number")
+            self.refused("bad_argument", contact.solve, load=1e5, **{name: -0.5},
+                         says=f"{name} must be a number from 0 on, got -0.5")
+            for value in (np.nan, np.inf, 10**400):
+                self.refused("not_finite", contact.solve, load=1e5, **{name: value},
+                             says=f"{name} must be finite")
+        self.refused("bad_argument", contact.solve, load=1e5, tolerance=0, says="both are 0")
+        self.refused("bad_argument", self.contact(normal="auto", tangential="none").solve, load=1e5,
+                     says="the target forces needs a tangential method, got none")
+        for name, value in (("target", "pmax"), ("tolerance", 0.1), ("budget_us", 0.0)):
+            self.refused("bad_argument", self.contact().solve, load=1e5, **{name: value},
+                         says=f"{name} must be None unless normal is 'auto', got {value!r}")
+
+    def test_targets_are_those_of_the_library(self):
+        source = (ROOT / "src/faststrip/contact/wanted.f90").read_text(encoding="utf-8")
+        header = (ROOT / "include/faststrip.h").read_text(encoding="utf-8")
+        package = sys.modules["faststrip._contact"]
+        names = re.search(r"target_names\(5\) = \[.*?::(.*?)\]", source, re.DOTALL)[1]
+        self.assertEqual(re.findall(r"'(\w+)'", names), list(package.TARGETS))
+        for name, value in package.TARGETS.items():
+            self.assertRegex(source, rf"target_{name} = {value}\b")
+            self.assertRegex(header, rf"FASTSTRIP_TARGET_{name.upper()} = {value}\b")
+        self.assertIn(f"tolerance = {package.TOLERANCE}_wp", source)
+
     def test_limits_are_those_of_the_library(self):
         sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")
                           for name in ("contact/methods", "contact/solve", "tangential/types",

@@ -4,6 +4,7 @@ unsymmetric gap, all three creepages, friction and numbers of points that are no
 import csv
 import importlib
 import math
+import re
 import subprocess
 import unittest
 
@@ -129,6 +130,38 @@ class Values(HostTest):
                         self.close(found, line[column], name)
                 if elements:
                     self.check_elements(contact.elements(), self.table("fields.csv"))
+
+    def test_auto_takes_the_steps_of_the_program(self):
+        y, h, a = (self.numpy.array(column) for column in zip(*GAP))
+        contact = self.faststrip.Contact(normal="auto")
+        contact.set_gap(y, h, a)
+        counts = set()
+        for target, tolerance in (("forces", 0.02), ("pmax", 3e-3), ("area", 5e-3),
+                                  ("power", 0.03)):
+            with self.subTest(target):
+                subprocess.run([str(self.installed.prefix / "bin" / "faststrip"), "contact",
+                                "case.nml", "--normal", "auto", "--target", target, "--tolerance",
+                                str(tolerance), "-o", "row.csv"],
+                               cwd=self.folder, check=True, stdin=subprocess.DEVNULL)
+                row, = self.table("row.csv")
+                result = contact.solve(
+                    load=LOAD, creepage=CREEPAGE, mu=MU, target=target, tolerance=tolerance,
+                    material=self.faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL))
+                for name, column in zip(NAMES, COLUMNS):
+                    self.close(getattr(result, name), row[column], name)
+                self.assertTrue(result.target_is_met)
+                told = [re.match(r"(\w+) (\d+)(?: \+ ([\w-]+) (\d+))?: (\S+) in", words)
+                        for words in row["choice"].split("; ")]
+                self.assertEqual(len(told), len(result.steps))
+                counts.add(len(told))
+                for words, step in zip(told, result.steps):
+                    normal, strips, tangential, points, estimate = words.groups()
+                    self.assertEqual((normal, int(strips), tangential or "none"),
+                                     (step.normal, step.strips, step.tangential))
+                    if points:
+                        self.assertEqual(int(points), step.points_per_strip)
+                    self.assertAlmostEqual(float(estimate) / step.estimate, 1.0, delta=0.06)
+        self.assertEqual(counts, {2, 3})
 
     def check_elements(self, ours, lines):
         self.assertEqual(len(ours.x), len(lines))

@@ -145,13 +145,14 @@ contains
         search%began = now()
         workspace%solved_by = 0
         if (present(field)) field%n = 0
-        call check_case(workspace, case, wanted, status)
-        if (is_error(status)) return
         call hold_environment(environment)
-        if (present(curve)) then
-            call copy_gap_curve(curve, workspace%solver%curve, status)
-        else if (allocated(case%gap%y)) then
-            call set_gap_curve(workspace%solver%curve, case%gap, status)
+        call check_case(workspace, case, wanted, status)
+        if (.not. is_error(status)) then
+            if (present(curve)) then
+                call copy_gap_curve(curve, workspace%solver%curve, status)
+            else if (allocated(case%gap%y)) then
+                call set_gap_curve(workspace%solver%curve, case%gap, status)
+            end if
         end if
         if (.not. is_error(status)) then
             call begin_search(case, wanted, search)
@@ -180,6 +181,8 @@ contains
         if (.not. is_error(status)) call check_contact_methods(case%methods, status)
         if (.not. is_error(status)) &
             call check_resolution(case%resolution_limit, 'the resolution limit', status)
+        if (.not. is_error(status)) &
+            call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
         if (is_error(status)) return
         is_reserved = allocated(workspace%best_strips%p0) .and. allocated(workspace%strips%p0)
         if (is_reserved) is_reserved = size(workspace%strips%p0) >= size(workspace%best_strips%p0)

@@ -10,10 +10,11 @@ module faststrip_interop_c
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, read_result, &
-                                      read_force_errors, &
+                                      read_force_errors, read_taken, read_steps, &
                                       strip_count, read_strips, read_elements
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
+    use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_geometry_gap, only: gap_t
@@ -22,7 +23,8 @@ module faststrip_interop_c
 
     public :: faststrip_version, faststrip_message, faststrip_default_case, faststrip_check_case
     public :: faststrip_new, faststrip_free, faststrip_copy, faststrip_set_gap, faststrip_solve
-    public :: faststrip_get_strips, faststrip_get_elements, faststrip_last_message
+    public :: faststrip_get_strips, faststrip_get_elements, faststrip_get_steps
+    public :: faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
     public :: faststrip_profile_gap
 
@@ -195,10 +197,13 @@ contains
         handle%case%estimate = fields%estimate /= 0
         handle%case%resolution_limit = fields%resolution_limit
         handle%case%force_limit = fields%force_limit
+        handle%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
+                                 budget_us=fields%budget_us)
         call handle_solve(handle, wants_elements(fields%choices))
         code = handle%status%code
         call read_result(handle, figures%figures, figures%counts, figures%errors)
         call read_force_errors(handle, figures%forces_are_estimated, figures%force_errors)
+        call read_taken(handle, figures%taken, figures%target_error)
         call write_result(figures, fields%size, result)
     end function faststrip_solve
 
@@ -259,6 +264,39 @@ contains
                            numbers_at(sx, count), numbers_at(sy, count), &
                            integers_at(state, count))
     end function faststrip_get_elements
+
+    !> The steps of the last contact by auto.
+    integer(c_int) function faststrip_get_steps(workspace, capacity, n, normal, tangential, &
+                                                strips, points, estimate, normal_us, &
+                                                tangential_us) bind(c) result(code)
+        integer(c_intptr_t), value :: workspace     !! a handle
+        integer(c_int), value :: capacity           !! length of the arrays
+        type(c_ptr), value :: n                     !! number of steps, written
+        type(c_ptr), value :: normal, tangential    !! methods, written
+        type(c_ptr), value :: strips, points
+            !! strips across the widest patch, points along a strip, written
+        type(c_ptr), value :: estimate
+            !! of the target's error, -1 where it is not known, written
+        type(c_ptr), value :: normal_us, tangential_us !! times, us, written
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+        integer :: count
+
+        call find_handle(workspace, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        count = handle%taken%n
+        call check_capacity(handle, capacity, count, n, &
+                            [normal, tangential, strips, points, estimate, normal_us, &
+                             tangential_us])
+        code = handle%status%code
+        if (is_error(handle%status)) return
+        call read_steps(handle, integers_at(normal, count), integers_at(tangential, count), &
+                        integers_at(strips, count), integers_at(points, count), &
+                        numbers_at(estimate, count), numbers_at(normal_us, count), &
+                        numbers_at(tangential_us, count))
+    end function faststrip_get_steps
 
     !> FASTSIM with the caller's ellipse and creepage coefficients.
     integer(c_int) function faststrip_fastsim(a, b, g, c11, c22, c23, cksi, ceta, cphi, mu, load, &

@@ -11,8 +11,9 @@ module faststrip_interop_c_structs
                                            c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
     use faststrip_contact_solve, only: contact_case_t
+    use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      n_forces, flat_default
+                                      n_forces, n_taken, flat_default
     implicit none
     private
 
@@ -27,6 +28,9 @@ module faststrip_interop_c_structs
         integer(c_int) :: estimate
         real(c_double) :: resolution_limit
         real(c_double) :: force_limit
+        integer(c_int) :: target
+        real(c_double) :: tolerance
+        real(c_double) :: budget_us
     end type c_case_t
 
     !> `faststrip_result` of the header, likewise.
@@ -37,13 +41,16 @@ module faststrip_interop_c_structs
         real(c_double) :: errors(n_errors)   !! `est_err_penetration` to `overlap_outside`
         integer(c_int) :: forces_are_estimated
         real(c_double) :: force_errors(n_forces) !! `est_err_fx` to `est_err_mz`
+        integer(c_int) :: taken(n_taken)     !! `n_steps` to `target_is_met`
+        real(c_double) :: target_error       !! `est_err_target`
     end type c_result_t
 
     !> Bytes of case and result in every release that changed them, rising.
-    integer(c_size_t), parameter :: releases(2, 3) = reshape([ &
+    integer(c_size_t), parameter :: releases(2, 4) = reshape([ &
         128_c_size_t, 120_c_size_t, &            ! first
         144_c_size_t, 168_c_size_t, &            ! with estimated errors
-        152_c_size_t, 200_c_size_t], [2, 3])     ! with those of the forces
+        152_c_size_t, 200_c_size_t, &            ! with those of the forces
+        176_c_size_t, 224_c_size_t], [2, 4])     ! with what is wanted of auto
 
     ! Members end at multiples of this; less than two pieces are no case.
     integer(c_size_t), parameter :: piece = 8, least_case = 2*piece
@@ -132,11 +139,15 @@ contains
 
     type(c_case_t) function default_case() result(fields)
         type(contact_case_t) :: defaults
+        type(wanted_t) :: wanted
 
         fields%size = releases(1, size(releases, 2))
         call flat_default(fields%choices, fields%numbers)
         fields%estimate = merge(1, 0, defaults%estimate)
         fields%resolution_limit = defaults%resolution_limit
         fields%force_limit = defaults%force_limit
+        fields%target = wanted%target
+        fields%tolerance = wanted%tolerance
+        fields%budget_us = wanted%budget_us
     end function default_case
 end module faststrip_interop_c_structs

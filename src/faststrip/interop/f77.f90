@@ -35,22 +35,33 @@
 !> FERR(1), FERR(2) estimated error of Fx and of Fy over mu N, FERR(3) of Mz over mu N c, where c is
 !>        the radius of a circle of the contact's area
 !> FERR(4) 1: FERR(1) to FERR(3) are known; 0: they are zero, of a method without, or by FSLIMT
+!> ITARG  what auto is to know: 1 forces, 2 largest pressure, 3 penetration, 4 area, 5 power
+!> TAKN(1) steps that auto took     TAKN(2) the best of them, whose solution is the result
+!> TAKN(3) estimated error of what was wanted          TAKN(4) 1: it is known, 0: TAKN(3) is zero
+!> TAKN(5) 1: it is within the tolerance
 !> ```
 !>
 !> FSSOLV estimates errors unless FSLIMT switched that off, and says 8, under_resolved, where one of
 !> ERR(1) to ERR(3) or of FERR(1) to FERR(3) is above a limit. FSERRS and FSFERR have them.
+!>
+!> With IOPT(1) = 6, in FSINIT too, both methods are as fine as estimated errors ask, of what
+!> FSWANT says is wanted; FSTAKN and FSSTEP say what was done. IOPT(3) and IEST of FSLIMT do not
+!> count then; where ITARG is 1 or 5, nor do IOPT(4) and IOPT(2), which must not be 0: 1 serves.
+!> RLIM counts only where the tolerance is 0. INFO 7, target_missed: as near as strips come.
 module faststrip_interop_f77
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
     use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small
     use faststrip_normal_limitations, only: check_resolution
+    use faststrip_contact_methods, only: tangential_faststrip
+    use faststrip_contact_wanted, only: wanted_t, check_wanted
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      n_forces, flat_default, flat_methods, wants_elements, &
-                                      fill_case, &
-                                      read_result, read_force_errors, strip_count, read_strips, &
-                                      read_elements
+                                      n_forces, n_taken, flat_default, flat_methods, &
+                                      wants_elements, fill_case, &
+                                      read_result, read_force_errors, read_taken, read_steps, &
+                                      strip_count, read_strips, read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_geometry_gap, only: gap_t
@@ -59,11 +70,13 @@ module faststrip_interop_f77
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast, fsprof
+    public :: fswant, fstakn, fsstep
 
     ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
     ! whether it is known and the strips across.
     integer, parameter :: n_iopt = n_choices, n_par = n_numbers - 1
     integer, parameter :: n_res = n_figures + 2, n_err = n_errors + 2
+    integer, parameter :: n_takn = n_taken + 1
 
     ! A workspace array: two marks around the handle.
     integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
@@ -390,10 +403,85 @@ contains
         ferr = [errors, real(are_known, c_double)]
     end subroutine fsferr
 
+    !> CALL FSWANT(IWORK, ITARG, TOL, BUDGET, INFO)
+    !>
+    !> Set for all further calls of FSSOLV with IOPT(1) = 6 which figure is wanted, its largest
+    !> estimated error, as FERR and ERR have it, and how long it may take. FSINIT sets 1, 0.02
+    !> and 0. After an error all are as they were.
+    subroutine fswant(iwork, target, tolerance, budget_us, info) bind(c, name='fswant_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT
+        integer(c_int), intent(in) :: target         !! `ITARG`
+        real(c_double), intent(in) :: tolerance      !! 0: the least within the budget
+        real(c_double), intent(in) :: budget_us      !! us; 0: as long as it takes
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+        type(wanted_t) :: wanted
+
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        wanted = wanted_t(target=target, tolerance=tolerance, budget_us=budget_us)
+        ! FSSOLV has the tangential method and says whether it serves the target.
+        call check_wanted(wanted, tangential_faststrip, handle%status)
+        info = handle%status%code
+        if (.not. is_error(handle%status)) handle%wanted = wanted
+    end subroutine fswant
+
+    !> CALL FSTAKN(IWORK, TAKN, INFO)
+    !>
+    !> What came of the last contact by auto; zeros if there was none.
+    subroutine fstakn(iwork, takn, info) bind(c, name='fstakn_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! with a solution
+        real(c_double), intent(out) :: takn(n_takn)  !! as above
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+        integer(c_int) :: taken(n_taken)
+        real(c_double) :: estimate
+
+        takn = 0.0_c_double
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        call read_taken(handle, taken, estimate)
+        takn = [real(taken(:2), c_double), estimate, real(taken(3:), c_double)]
+    end subroutine fstakn
+
+    !> CALL FSSTEP(IWORK, M, N, INORM, ITANG, NSTRIP, NPOINT, EST, TNORM, TTANG, INFO)
+    !>
+    !> The steps of the last contact by auto.
+    subroutine fsstep(iwork, capacity, n, normal, tangential, strips, points, estimate, &
+                      normal_us, tangential_us, info) bind(c, name='fsstep_')
+        integer(c_int), intent(in) :: iwork(n_iwork)      !! with a solution
+        integer(c_int), intent(in) :: capacity            !! length of the arrays
+        integer(c_int), intent(out) :: n                  !! number of steps
+        integer(c_int), intent(inout) :: normal(*)        !! method, as IOPT(1)
+        integer(c_int), intent(inout) :: tangential(*)    !! method, as IOPT(2)
+        integer(c_int), intent(inout) :: strips(*)        !! strips across the widest patch
+        integer(c_int), intent(inout) :: points(*)        !! points along a strip
+        real(c_double), intent(inout) :: estimate(*)
+            !! estimated error of what was wanted, -1 where it is not known
+        real(c_double), intent(inout) :: normal_us(*)     !! time of the pressures, us
+        real(c_double), intent(inout) :: tangential_us(*) !! of the forces, us
+        integer(c_int), intent(out) :: info               !! status
+
+        type(handle_t), pointer :: handle
+
+        n = 0
+        call find(iwork, handle, info)
+        if (.not. associated(handle)) return
+        n = handle%taken%n
+        if (capacity < n) then
+            info = st_workspace_too_small
+            return
+        end if
+        call read_steps(handle, normal(:n), tangential(:n), strips(:n), points(:n), estimate(:n), &
+                        normal_us(:n), tangential_us(:n))
+    end subroutine fsstep
+
     !> CALL FSCOPY(IFROM, ITO, INFO)
     !>
-    !> Copy gap and solution of one workspace into another, and what FSLIMT set, for a step that may
-    !> be taken back.
+    !> Copy gap and solution of one workspace into another, and what FSLIMT and FSWANT set, for a
+    !> step that may be taken back.
     subroutine fscopy(from, to, info) bind(c, name='fscopy_')
         integer(c_int), intent(in) :: from(n_iwork) !! made by FSINIT
         integer(c_int), intent(in) :: to(n_iwork)   !! made by another call of FSINIT

@@ -20,6 +20,8 @@
 !> errors   1, 2, 3 estimated error of penetration, largest pressure and area, relative
 !>          4 residual inside       5 overlap outside, relative
 !> forces   1, 2 estimated error of Fx and Fy over mu N    3 of Mz over mu N c
+!> taken    1 steps of auto         2 the best of them
+!>          3 is the estimated error of the target known?  4 is it met? (1: yes)
 !> ```
 module faststrip_interop_flat
     use, intrinsic :: iso_c_binding, only: c_int, c_double
@@ -27,18 +29,24 @@ module faststrip_interop_flat
     use faststrip_base_creepage, only: creepage_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_solve, only: contact_case_t
+    use faststrip_contact_target, only: unknown_error
     use faststrip_interop_handle, only: handle_t
     implicit none
     private
 
-    public :: n_choices, n_numbers, n_figures, n_counts, n_errors, n_forces
+    public :: n_choices, n_numbers, n_figures, n_counts, n_errors, n_forces, n_taken
     public :: flat_default, flat_methods, flat_material, wants_elements, fill_case
-    public :: read_result, read_force_errors, strip_count, read_strips, read_elements
+    public :: read_result, read_force_errors, read_taken, read_steps
+    public :: strip_count, read_strips, read_elements
 
     !> Lengths of the rows.
     !> Given: by the faces.
     integer, parameter :: n_choices = 9, n_numbers = 10, n_figures = 12, n_counts = 6, &
-                          n_errors = 5, n_forces = 3
+                          n_errors = 5, n_forces = 3, n_taken = 4
+
+    !> What stands for an estimated error that is not known.
+    !> Given: no estimate is negative.
+    real(c_double), parameter :: not_known = -1.0_c_double
 
 contains
 
@@ -132,6 +140,46 @@ contains
             errors = [forces%fx, forces%fy, forces%mz]
         end associate
     end subroutine read_force_errors
+
+    !> What came of the last contact by auto; zeros if there was none.
+    pure subroutine read_taken(handle, taken, estimate)
+        type(handle_t), intent(in) :: handle          !! after a solution
+        integer(c_int), intent(out) :: taken(n_taken) !! steps, best, is it known, is it met
+        real(c_double), intent(out) :: estimate       !! of the target's error; zero if not known
+
+        associate (last => handle%taken)
+            taken = [last%n, last%best, merge(1, 0, last%estimate < unknown_error), &
+                     merge(1, 0, last%is_met)]
+            estimate = merge(last%estimate, 0.0_c_double, last%estimate < unknown_error)
+        end associate
+    end subroutine read_taken
+
+    !> Copy the first steps of the last contact by auto, as many as the arrays are long.
+    pure subroutine read_steps(handle, normal, tangential, strips, points, estimate, normal_us, &
+                               tangential_us)
+        type(handle_t), intent(in) :: handle                     !! with so many steps
+        integer(c_int), intent(inout) :: normal(:), tangential(:) !! methods
+        integer(c_int), intent(inout) :: strips(:), points(:)
+            !! strips across the widest patch, points along a strip
+        real(c_double), intent(inout) :: estimate(:)
+            !! of the target's error; `not_known`
+        real(c_double), intent(inout) :: normal_us(:), tangential_us(:)
+            !! time of the pressures and of the forces, with their estimates, us
+
+        integer :: i
+
+        do i = 1, size(normal)
+            associate (step => handle%taken%steps(i))
+                normal(i) = step%methods%normal
+                tangential(i) = step%methods%tangential
+                strips(i) = step%methods%strips_per_patch
+                points(i) = step%methods%points_per_strip
+                estimate(i) = merge(step%estimate, not_known, step%estimate < unknown_error)
+                normal_us(i) = step%normal_us
+                tangential_us(i) = step%tangential_us
+            end associate
+        end do
+    end subroutine read_steps
 
     !> Strips of the last contact.
     pure integer function strip_count(handle)

@@ -5,10 +5,12 @@ module faststrip_interop_handle
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_workspace_too_small
     use faststrip_tangential_types, only: tangential_field_t
-    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_auto, only: taken_t, solve_contact_auto
+    use faststrip_contact_methods, only: contact_methods_t, normal_auto
     use faststrip_contact_solve, only: workspace_t, contact_case_t, contact_result_t, &
                                        reserve_workspace, reserve_contact_field, solve_contact, &
                                        set_contact_gap
+    use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register
     use faststrip_base_kinds, only: wp
     implicit none
@@ -21,8 +23,10 @@ module faststrip_interop_handle
         type(workspace_t) :: workspace
         type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
                                           !! the F77 face sets how errors are estimated once
+        type(wanted_t) :: wanted          !! of `normal_auto`; the F77 face sets it once
         type(tangential_field_t) :: field !! elements of the last contact, if capacity was made
         type(contact_result_t) :: result  !! figures of the last contact
+        type(taken_t) :: taken            !! steps of the last contact, if by `normal_auto`
         type(status_t) :: status          !! of the last call
     end type handle_t
 
@@ -88,6 +92,7 @@ contains
         real(wp), intent(in), optional :: inclination(:)       !! rad
 
         handle%result = contact_result_t()
+        handle%taken = taken_t()
         call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, inclination)
     end subroutine handle_gap
 
@@ -97,13 +102,31 @@ contains
         logical, intent(in) :: with_field       !! are the elements wanted?
 
         handle%field%n = 0
-        if (with_field) then
+        handle%taken = taken_t()
+        if (handle%case%methods%normal == normal_auto) then
+            call solve_wanted(handle, with_field)
+        else if (with_field) then
             call solve_contact(handle%workspace, handle%case, handle%result, handle%status, &
                                handle%field)
         else
             call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         end if
     end subroutine handle_solve
+
+    !> The same by `normal_auto`; with an error no step is told.
+    subroutine solve_wanted(handle, with_field)
+        type(handle_t), intent(inout) :: handle
+        logical, intent(in) :: with_field
+
+        if (with_field) then
+            call solve_contact_auto(handle%workspace, handle%case, handle%wanted, handle%result, &
+                                    handle%taken, handle%status, handle%field)
+        else
+            call solve_contact_auto(handle%workspace, handle%case, handle%wanted, handle%result, &
+                                    handle%taken, handle%status)
+        end if
+        if (is_error(handle%status)) handle%taken = taken_t()
+    end subroutine solve_wanted
 
     !> Copy gap, solution and elements of one handle into another; the other's capacity becomes the
     !> same.
@@ -113,8 +136,10 @@ contains
 
         to%workspace = from%workspace
         to%case = from%case
+        to%wanted = from%wanted
         to%field = from%field
         to%result = from%result
+        to%taken = from%taken
         call clear_status(to%status)
     end subroutine copy_handle
 end module faststrip_interop_handle
