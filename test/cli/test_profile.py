@@ -1,5 +1,7 @@
 """faststrip profile: what it reads, says, draws and writes."""
 
+import collections
+import csv
 import math
 import re
 import subprocess
@@ -219,6 +221,24 @@ class Mutated(unittest.TestCase):
                               check=False)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertRegex(done.stdout, r"1200 files: .*\b\d{2,} ok")
+
+
+class Stored(unittest.TestCase):
+    def test_the_documents_say_what_the_table_has(self):
+        lines = (ROOT / "reference" / "profiles.csv").read_text(encoding="utf-8").splitlines()
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        text = " ".join((ROOT / "docs" / "formats.md").read_text(encoding="utf-8").split())
+        self.assertTrue(f"Of {len(rows)} contacts: " in text, len(rows))
+        for status, count in collections.Counter(row["status"] for row in rows).items():
+            self.assertTrue(f"{count} `{status}`" in text, status)
+        # Each that is not ok is explained.
+        explained = text.split("| profile | not `ok` |")[1].split("###")[0]
+        for row in rows:
+            self.assertEqual(row["status"] == "ok", not row["message"])
+            if row["status"] != "ok":
+                name = (row["rail"] if row["wheel"] == "s1002" else row["wheel"]).split()[0]
+                self.assertTrue(name in explained or name.partition("_")[0] + "_*" in explained,
+                                name)
 
 
 @unittest.skipUnless(BANK.is_dir(), "the measured profiles are not here")

@@ -25,7 +25,7 @@ module faststrip_geometry_rail_uic60
     real(wp), parameter :: en60e1_transition = 10.228_wp
 
     !> Half of 20.024 mm: the `54e1` of EN 13674-1, 70 mm wide, mm. By tangency R80 then ends at a
-    !> width of 49.727 mm, as the standard has it.
+    !> width of 49.727 mm, as the standard is said to have it. Neither could be checked on paper.
     !> Given: dimensions, as said with it.
     real(wp), parameter :: en54e1_transition = 10.012_wp
 
