@@ -37,7 +37,7 @@ module faststrip_command_auto_stage
     ! Elements across where the largest grid is not expected to do: their estimate tells.
     real(wp), parameter :: telling_across = 30.0_wp
     ! A finer grid is not tried where the finest would be expected to miss by more than this factor.
-    real(wp), parameter :: largest_miss = 2.0_wp
+    real(wp), parameter :: largest_miss = 10.0_wp
     ! What is left of a budget, of which so much is planned for a grid of which no time is known.
     real(wp), parameter :: share_of_budget = 0.6_wp
     ! Elements of a grid over those in its patches.
