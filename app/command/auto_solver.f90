@@ -5,12 +5,13 @@ module faststrip_command_auto_solver
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_contact_auto, only: taken_t, solve_contact_auto
     use faststrip_contact_methods, only: normal_norm, tangential_tang
     use faststrip_contact_solve, only: contact_result_t
     use faststrip_contact_target, only: target_error, name_target
-    use faststrip_contact_wanted, only: wanted_t, needs_forces
+    use faststrip_contact_wanted, only: wanted_t, needs_forces, target_pmax, target_area
     use faststrip_command_auto_stage, only: wanted_of, grid_step_t, first_grid, next_grid, &
                                             step_words, grid_words
     use faststrip_command_clock, only: microseconds, cpu_microseconds
@@ -130,6 +131,8 @@ contains
         do while (step%across > 0.0_wp)
             trial = outcome_t()
             call solve_on_grid(solver, wanted, strips, step, trial, tried)
+            if (.not. is_error(tried)) step%estimate = max(step%estimate, &
+                contradiction(wanted%target, outcome%normal, best, trial%normal))
             call add_times(trial, outcome)
             outcome%choice = outcome%choice // '; ' // grid_words(step)
             if (is_error(tried) .or. step%estimate >= best) then
@@ -151,6 +154,25 @@ contains
             step = next_grid(wanted, step, outcome%normal_us + outcome%tangential_us)
         end do
     end subroutine follow_on
+
+    !> By how much more two solutions differ than the error that is told of the first: an error of
+    !> one of them that nobody told.
+    pure real(wp) function contradiction(target, first, error, second)
+        integer, intent(in) :: target
+        type(normal_result_t), intent(in) :: first, second
+        real(wp), intent(in) :: error ! relative
+
+        contradiction = 0.0_wp
+        if (target == target_pmax) contradiction = unlike(first%pmax, second%pmax) - error
+        if (target == target_area) contradiction = unlike(first%area, second%area) - error
+    end function contradiction
+
+    !> Difference of two figures over the larger.
+    pure real(wp) function unlike(a, b)
+        real(wp), intent(in) :: a, b
+
+        unlike = abs(a - b)/max(a, b)
+    end function unlike
 
     !> Both problems on one grid, and how wrong the target is.
     subroutine solve_on_grid(solver, wanted, strips, step, trial, status)
