@@ -45,6 +45,8 @@
 !>                 0.40/n^2 )
 !>            + 1/3 sum w xd 0.45 |m_k| D/(H xd) / sum w xd p0_k
 !>     and at least 1 - pmax/max q_k
+!>     and, as the area, at least the overlap outside where it is more than a hundredth: what
+!>     presses there is not in the solution
 !>
 !> with 1/l = 1/(2w) + 1/[2 pi xd (1 + ln(1 + w/xd))]: strips shorter than wide are needles, which
 !> press in what is about as long as they are, not as wide, and take more pressure to close a gap.
@@ -111,6 +113,9 @@ module faststrip_normal_certificate
     ! module's head.
     real(wp), parameter :: pmax_least = 0.4_wp
 
+    ! Tuned [1]: Overlap outside the patches over the penetration from where it counts. Origin: as
+    ! what is called `st_overlap_left`.
+    real(wp), parameter :: telling_overlap = 0.01_wp
     ! The largest pressure goes with the cube root of the load of its surroundings.
     ! Tuned [power]: The power. Origin: a point contact of Hertz.
     real(wp), parameter :: per_load = 1.0_wp/3.0_wp
@@ -254,6 +259,10 @@ contains
                                        pmax_least/across**2) + per_load*(sums%section/sums%loads)
         certificate%est_err_pmax = max(certificate%est_err_pmax, &
                                        1.0_wp - result%pmax/max(sums%off_centre, result%pmax))
+        if (certificate%overlap_outside > telling_overlap) then
+            certificate%est_err_pmax = max(certificate%est_err_pmax, certificate%overlap_outside)
+            certificate%est_err_area = max(certificate%est_err_area, certificate%overlap_outside)
+        end if
     end subroutine estimate
 
     !> Errors of a fine solution from it and a coarser one of the same contact, as Richardson: the
