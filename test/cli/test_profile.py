@@ -187,7 +187,7 @@ class Profiles(ProgramTest):
         self.assertIn("--unit", done.stderr)
 
     def test_a_contact_that_hangs_on_single_points_is_named(self):
-        words = "the points of the profiles do not resolve the contact: with every second one "
+        words = "do not resolve the contact: with every second one pmax changes by "
         lines = rail_text().splitlines()
         # Where S1002 touches it.
         at = min(range(len(lines)), key=lambda i: abs(float(lines[i].split()[0]) + 2.0))
