@@ -11,7 +11,8 @@ module faststrip_tangential_patch_law
     implicit none
     private
 
-    public :: patch_law_t, find_law, add_law, mean_law, same_law, smallest_force
+    public :: patch_law_t, find_law, add_law, mean_law, same_law, lateral_stiffness, &
+              smallest_force
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: gamma_length = 0.375_wp  ! S1; roots of roots
@@ -132,6 +133,14 @@ contains
         law%exponent = 0.5_wp + march*(0.5_wp - flattening*saturation*spin_share)
         law%alpha = march*asymmetry*(1.0_wp - spin_share)
     end subroutine find_law
+
+    !> Lateral force by a lateral creepage of one, linear, of the ellipse of a law, N.
+    pure real(wp) function lateral_stiffness(law, ellipse) result(stiffness)
+        type(patch_law_t), intent(in) :: law         !! of a patch with a load
+        type(patch_ellipse_t), intent(in) :: ellipse !! its ellipse
+
+        stiffness = 2.0_wp*i1*law%a/law%l2*ellipse%a*ellipse%b
+    end function lateral_stiffness
 
     !> From 0 at `sliding_from` smoothly to 1 at `sliding_to`, by the logarithm.
     elemental real(wp) function rise(saturation)
