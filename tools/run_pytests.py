@@ -1,17 +1,24 @@
 #!/usr/bin/env python3
 """Run the unittest files test_*.py of some folders, or some files, and count them.
 
-    run_pytests.py [--filter TEXT] FOLDER|FILE...
+    run_pytests.py [--filter TEXT] [--jobs N] [--whole FOLDER] FOLDER|FILE...
 
-The last line is `all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or
-none ran. With --filter only tests run whose `folder/module::class.test` contains TEXT.
+With --jobs files are run N at a time, each in a process of its own, but those of the folder of
+--whole, which share what they install, in one. The last line is
+`all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or none ran. With
+--filter only tests run whose `folder/module::class.test` contains TEXT.
 """
 
 import argparse
+import concurrent.futures
 import importlib.util
 import pathlib
+import re
+import subprocess
 import sys
 import unittest
+
+TOGETHER = "all modules together:"
 
 
 class Counts(unittest.TestResult):
@@ -87,27 +94,64 @@ def summary(totals):
     return f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else "")
 
 
+def run_here(paths, text):
+    """Run files one after the other; what they count together."""
+    together = [0, 0, 0]
+    for path in paths:
+        title = f"{path.parent.as_posix()}/{path.stem}"
+        suite = unittest.TestSuite(
+            test
+            for test in flatten(load(path, title))
+            if text in f"{title}::{'.'.join(test.id().split('.')[1:])}"
+        )
+        if suite.countTestCases() == 0:
+            continue
+        counts = Counts()
+        suite.run(counts)
+        together = [a + b for a, b in zip(together, counts.totals())]
+        print(f"{title:43} {summary(counts.totals())}", flush=True)
+    return together
+
+
+def run_apart(paths, text):
+    """Run files in a process of their own; what it counts, and what it says before that."""
+    done = subprocess.run([sys.executable, __file__, "--filter", text, *paths],
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, encoding="utf-8", errors="replace",
+                          check=False)
+    said, found, last = done.stdout.rpartition(TOGETHER)
+    numbers = [int(n) for n in re.findall(r"\d+", last)] if found else []
+    if len(numbers) < 2:
+        names = ", ".join(str(path) for path in paths)
+        return [0, 1, 0], f"{done.stdout}FAILED {names}: exit code {done.returncode}\n"
+    return [*numbers, 0][:3], said
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--filter", default="")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--whole", type=pathlib.Path)
     parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="FOLDER")
     options = parser.parse_args()
-    together = [0, 0, 0]
-    for folder in options.folders:
-        for path in [folder] if folder.is_file() else sorted(folder.glob("test_*.py")):
-            title = f"{path.parent.as_posix()}/{path.stem}"
-            suite = unittest.TestSuite(
-                test
-                for test in flatten(load(path, title))
-                if options.filter in f"{title}::{'.'.join(test.id().split('.')[1:])}"
-            )
-            if suite.countTestCases() == 0:
-                continue
-            counts = Counts()
-            suite.run(counts)
-            together = [a + b for a, b in zip(together, counts.totals())]
-            print(f"{title:43} {summary(counts.totals())}", flush=True)
-    print(f"{'all modules together:':43} {summary(together)}")
+    files = [(folder, path) for folder in options.folders
+             for path in ([folder] if folder.is_file() else sorted(folder.glob("test_*.py")))]
+    if options.jobs == 1:
+        together = run_here([path for _, path in files], options.filter)
+    else:
+        whole = [path for folder, path in files if folder == options.whole]
+        units = [[path] for folder, path in files if folder != options.whole]
+        if whole:
+            # The longest first.
+            units.insert(0, whole)
+        together = [0, 0, 0]
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            runs = [pool.submit(run_apart, unit, options.filter) for unit in units]
+            for run in concurrent.futures.as_completed(runs):
+                totals, said = run.result()
+                together = [a + b for a, b in zip(together, totals)]
+                print(said, end="", flush=True)
+    print(f"{TOGETHER:43} {summary(together)}")
     return 0 if together[0] > 0 and together[1] == 0 else 1
 
 

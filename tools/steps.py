@@ -327,7 +327,9 @@ def release_build(_):
 def python_tests(text):
     folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
                if os.path.isdir(name)]
-    return told(sys.executable, "tools/run_pytests.py", "--filter", text, *folders)
+    # Two at a time: most of them wait for one program.
+    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", "2",
+                "--whole", "test/embed", *folders)
 
 
 def lint_checks(text):

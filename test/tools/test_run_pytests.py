@@ -96,6 +96,20 @@ class Runs(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertRegex(result.stdout, r"\A\S*/test_two +1 passed, 0 failed\nall modules")
 
+    def test_several_at_a_time_count_the_same(self):
+        files = {"a/test_mixed.py": MIXED, "a/test_bad.py": "import no_such_module\n",
+                 "b/test_good.py": GOOD, "b/test_more.py": GOOD}
+        said = self.check(files, 1, "3 passed, 6 failed, 1 skipped", "--jobs", "3", "--whole", "b")
+        self.assertIn("ValueError: on purpose", said)
+        self.assertIn("no_such_module", said)
+        self.assertRegex(said, r"(?m)^b/test_good +1 passed, 0 failed\nb/test_more +1 passed")
+        self.check(files, 0, "2 passed, 0 failed", "--jobs", "2", "--filter", "b/")
+
+    def test_a_file_that_ends_its_process_fails(self):
+        files = {"a/test_end.py": "import os\nos._exit(3)\n", "a/test_good.py": GOOD}
+        said = self.check(files, 1, "1 passed, 1 failed", "--jobs", "2")
+        self.assertIn("test_end.py: exit code 3", said)
+
     def test_a_filter(self):
         files = {"a/test_mixed.py": MIXED, "b/test_good.py": GOOD}
         self.check(files, 0, "1 passed, 0 failed", "--filter", "b/test_good")
