@@ -24,7 +24,7 @@ from pathlib import Path
 from measured import ROOT, Measured, condense, measured_csv  # first: it finds the plots' package
 from pages import FENCE
 
-from faststrip_plots.tables import InputError
+from faststrip_plots.tables import InputError, read_table
 from faststrip_plots.verdicts import (
     CHAPTERS,
     accepts,
@@ -35,6 +35,11 @@ from faststrip_plots.verdicts import (
 
 MEASURED = "reference/measured.csv"
 MANIFEST = "reference/comparisons.csv"
+PROMISES = "reference/promises/promises.csv"
+ESTIMATED = "reference/promises/estimates.csv"
+ALL = "all"  # kinds together
+PROMISED = ("worst", "times_strips_sure", "times_strips", "times_kalker_sure", "times_kalker",
+            "us_median", "us_p95")
 PAGE = "docs/validation.md"
 PLACE = re.compile(r"<!-- measured: (?P<name>.*?) -->(?P<text>.*?)<!-- end -->", re.DOTALL)
 
@@ -130,6 +135,7 @@ class Figures:
     def __init__(self, root):
         self.measured = Measured(root / MEASURED)
         self.manifest = read_manifest(str(root / MANIFEST))
+        self.root = root
 
     def place(self, name):
         """What stands in a marked place."""
@@ -269,6 +275,47 @@ def certificate_table(figures):
                                         for row in figures.measured.rows("certificate"))])
 
 
+def promises_table(figures):
+    given = read_table(str(figures.root / PROMISES),
+                       ("target", "tolerance", "promised", "kept", *PROMISED))
+    numbers = {name: given.numbers(name, missing=True) for name in ("tolerance", *PROMISED)}
+    return table(["target and tolerance", "promises kept", "largest error over tolerance",
+                  "times faster than 31 strips that promise it", "that are within it",
+                  "than NORM and TANG that promise it", "all", "ms: median / 95 %"],
+                 [[f"{target}, {100.0 * numbers['tolerance'][k]:g} %",
+                   f"{kept} of {promised}, {100.0 * int(kept) / max(int(promised), 1):.1f} %",
+                   *(known(numbers[name][k]) for name in PROMISED[:5]),
+                   " / ".join(known(1e-3 * numbers[f"us_{name}"][k])
+                              for name in ("median", "p95"))]
+                  for k, (target, promised, kept) in enumerate(zip(
+                      given.words("target"), given.words("promised"), given.words("kept")))])
+
+
+def force_estimates_table(figures):
+    given = read_table(str(figures.root / ESTIMATED),
+                       ("method", "kind", *(f"{name}_{word}" for name in FORCES
+                                            for word in ("bounded", "ratio"))))
+    numbers = {f"{name}_{word}": given.numbers(f"{name}_{word}", missing=True)
+               for name in FORCES for word in ("bounded", "ratio")}
+
+    def cell(k, name):
+        if math.isnan(numbers[f"{name}_bounded"][k]):
+            return "–"
+        return (f"{100.0 * numbers[f'{name}_bounded'][k]:.1f} %,"
+                f" {known(numbers[f'{name}_ratio'][k])} times")
+
+    return table(["method", *FORCES],
+                 [[method, *(cell(k, name) for name in FORCES)]
+                  for k, (method, kind) in enumerate(zip(given.words("method"),
+                                                         given.words("kind")))
+                  if kind == ALL and not math.isnan(numbers["Fx_bounded"][k])])
+
+
+def known(value):
+    """Digits, or a dash where there is no number."""
+    return "–" if math.isnan(value) else digits(value)
+
+
 def statements_table(figures):
     return table(["verdict", "statements"],
                  [[row, figures.measured.word("statements", row, "count")]
@@ -308,6 +355,8 @@ TABLES = {
     "times": times_table,
     "extremes": extremes_table,
     "certificate": certificate_table,
+    "promises": promises_table,
+    "force estimates": force_estimates_table,
     "statements": statements_table,
     "stamp": stamp,
 } | {chapter: (lambda figures, own=chapter: verdict_table(figures, own)) for chapter in CHAPTERS}
@@ -345,6 +394,15 @@ SECTIONS = (
      " median (`bench certificate`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
      " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
      " second of the 20 contacts and on random gaps of other distributions.", "certificate"),
+    ("What the estimates of forces bound",
+     "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
+     " ellipses, each with two creepages (`faststrip-lab promises`; NORM and TANG, extrapolated,"
+     " are the truth).", "force estimates"),
+    ("What auto promises",
+     "On the same contacts, by the program itself: status `ok` promises an error within the"
+     " tolerance. Times are summed over the contacts: against always 31 strips with FASTSTRIP"
+     " where their own estimates are within the tolerance, and where their errors are, which"
+     " nobody knows; and against always NORM and TANG with 36 elements across.", "promises"),
     ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
      " core, from nothing (`bench trade`).", "trade"),

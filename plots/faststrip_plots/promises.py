@@ -149,6 +149,14 @@ def target_error(solved: Solved, target: str) -> np.ndarray:
     return np.max([solved.error[name] for name in TARGETS[target]], axis=0)
 
 
+def target_estimate(solved: Solved, target: str) -> np.ndarray:
+    """The estimate of that error; infinite where there is none: of the friction power."""
+    if any(name not in solved.estimate for name in TARGETS[target]):
+        return np.full(len(solved.status), np.inf)
+    return np.max([np.nan_to_num(solved.estimate[name], nan=np.inf) for name in TARGETS[target]],
+                  axis=0)
+
+
 def target_doubt(judged: Judged, target: str) -> np.ndarray:
     """How far that error may be off."""
     return np.max([judged.doubt[name] for name in TARGETS[target]], axis=0)
@@ -197,6 +205,9 @@ def promise_rows(judged: Judged) -> list[dict]:
                     both &= target_error(other, target) <= tolerance
                 row[f"{which}_contacts"] = int(both.sum())
                 row[f"times_{which}"] = ratio(target_time(other, target)[both], us[both])
+                sure = known & other.has_result & (target_estimate(other, target) <= tolerance)
+                row[f"{which}_sure"] = int(sure.sum())
+                row[f"times_{which}_sure"] = ratio(target_time(other, target)[sure], us[sure])
             row["kalker_within"] = share(target_error(judged.baseline("kalker"), target)
                                          <= tolerance)
             rows.append(row)

@@ -5,8 +5,11 @@ import unittest
 import matplotlib.image
 import numpy as np
 
-from faststrip_plots import style
+# First: it finds the plots' package.
 from plot_samples import Folder, csv_text, load
+
+# isort: split
+from faststrip_plots import style
 
 COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
 EXTREMES = "out/extremes/extremes.csv"

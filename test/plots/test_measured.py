@@ -7,8 +7,11 @@ import unittest
 import matplotlib.image
 import numpy as np
 
-from faststrip_plots import scales, style
+# First: it finds the plots' package.
 from plot_samples import Folder, csv_text, load
+
+# isort: split
+from faststrip_plots import scales, style
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVES = "out/curves.csv"

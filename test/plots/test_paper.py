@@ -7,9 +7,7 @@ import unittest
 
 import numpy as np
 
-from faststrip_plots import paper_figures, statements, style
-from faststrip_plots.results import read_reference, read_sweep
-from faststrip_plots.statements import FAILS, HOLDS, LIMITED, UNKNOWN, Limits
+# First: it finds the plots' package.
 from plot_samples import (
     AREA,
     REFERENCE_COLUMNS,
@@ -20,6 +18,11 @@ from plot_samples import (
     strips_text,
     sweep_row,
 )
+
+# isort: split
+from faststrip_plots import paper_figures, statements, style
+from faststrip_plots.results import read_reference, read_sweep
+from faststrip_plots.statements import FAILS, HOLDS, LIMITED, UNKNOWN, Limits
 
 SHIFTS = (-2.0, -1.0, 0.0, 1.0, 2.0)
 COMMANDS = ("paper", "paper_statements")

@@ -57,6 +57,10 @@ class Promises(unittest.TestCase):
         # forces do not count where pressure is wanted
         self.assertAlmostEqual(pmax["times_kalker"], 1000.0 / 150.0)
         self.assertEqual((pmax["strips_contacts"], pmax["times_strips"]), (2, 2.0))
+        # the strips promise 5 % everywhere and 1 % nowhere; nothing is estimated of NORM + TANG
+        self.assertEqual((five["strips_sure"], five["times_strips_sure"]), (4, 4.0))
+        self.assertEqual((one["strips_sure"], one["times_strips_sure"]), (0, None))
+        self.assertEqual(five["kalker_sure"], 0)
 
     def test_kinds(self):
         rows = {(row["target"], row["tolerance"], row["kind"]): row

@@ -5,8 +5,7 @@ import unittest
 
 import numpy as np
 
-from faststrip_plots import panels, results, scales, style
-from faststrip_plots.tables import InputError, read_table
+# First: it finds the plots' package.
 from plot_samples import (
     Folder,
     failed_row,
@@ -19,6 +18,10 @@ from plot_samples import (
     sweep_row,
     sweep_text,
 )
+
+# isort: split
+from faststrip_plots import panels, results, scales, style
+from faststrip_plots.tables import InputError, read_table
 
 
 class Styles(unittest.TestCase):

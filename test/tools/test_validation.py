@@ -76,8 +76,9 @@ class InACopy(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST):
-            (self.root / name).parent.mkdir(exist_ok=True)
+        for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
+                     validation.PROMISES, validation.ESTIMATED):
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         shutil.copytree(ROOT / "docs", self.root / "docs")
 

@@ -411,7 +411,7 @@ contains
     subroutine fswant(iwork, target, tolerance, budget_us, info) bind(c, name='fswant_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT
         integer(c_int), intent(in) :: target         !! `ITARG`
-        real(c_double), intent(in) :: tolerance      !! 0: the least within the budget
+        real(c_double), intent(in) :: tolerance      !! at 0 the least within the budget
         real(c_double), intent(in) :: budget_us      !! us; 0: as long as it takes
         integer(c_int), intent(out) :: info          !! status
 

@@ -104,6 +104,13 @@ module faststrip_tangential_faststrip
     ! Tuned [strips]. Origin: capacity: a quarter of the stack of a call.
     integer, parameter :: most_on_stack = 128
 
+    !> How a patch rolls.
+    type, extends(rolling_t) :: patch_rolling_t
+        type(creepage_t) :: given          ! creepage without what other patches do
+        real(wp) :: moment = 0.0_wp        ! what they give to the moment besides, N mm
+        logical :: is_corrected = .true.   ! S10, S11?
+    end type patch_rolling_t
+
 contains
 
     !> Forces of any contact patches by marching in their strips; no allocation.
@@ -129,15 +136,12 @@ contains
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
 
-        type(rolling_t) :: rolling
+        type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums
         type(coupling_t) :: coupling
         type(tractions_t) :: tractions(most_parts)
         integer :: pass
-        logical :: is_corrected
 
-        is_corrected = .true.
-        if (present(with_fit)) is_corrected = with_fit
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
         call check_material(material, status)
@@ -158,21 +162,23 @@ contains
             if (is_error(status)) return
         end if
 
-        rolling = rolling_t(mu, creepage, points_per_strip)
-        if (is_corrected) then
+        rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
+                                  given=creepage)
+        if (present(with_fit)) rolling%is_corrected = with_fit
+        if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)
             if (coupling%n > 1) then
                 do pass = 1, coupling_passes
                     sums = march_sums_t()
-                    call solve_patches(strips, material, rolling, is_corrected, coupling, &
-                                       tractions, sums, status)
+                    call solve_patches(strips, material, rolling, coupling, tractions, sums, &
+                                       status)
                     if (is_error(status)) return
                 end do
                 sums = march_sums_t()
             end if
         end if
-        call solve_patches(strips, material, rolling, is_corrected, coupling, tractions, sums, &
-                           status, field, per_strip)
+        call solve_patches(strips, material, rolling, coupling, tractions, sums, status, field, &
+                           per_strip)
         if (is_error(status)) return
         result = sums%result
         if (sums%covered > 0.0_wp) result%stick_fraction = sums%stuck/sums%covered
@@ -202,12 +208,11 @@ contains
 
     !> Add the forces of all patches that roll with the tractions of the others; what the tractions
     !> are then.
-    pure subroutine solve_patches(strips, material, rolling, is_corrected, coupling, tractions, &
-                                  sums, status, field, per_strip)
+    pure subroutine solve_patches(strips, material, rolling, coupling, tractions, sums, status, &
+                                  field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling
-        logical, intent(in) :: is_corrected
+        type(patch_rolling_t), intent(in) :: rolling
         type(coupling_t), intent(in) :: coupling
         type(tractions_t), intent(inout) :: tractions(:) !! of its parts
         type(march_sums_t), intent(inout) :: sums
@@ -216,15 +221,14 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         type(tractions_t) :: found(most_parts)
-        type(rolling_t) :: induced
+        type(patch_rolling_t) :: induced
         type(march_sums_t) :: before
         type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: law
-        real(wp) :: linear(3), tilt, moment
+        real(wp) :: linear(3), tilt
         integer :: first, last, part, patch
 
         induced = rolling
-        moment = 0.0_wp
         part = 0
         patch = 0
         last = 0
@@ -242,13 +246,14 @@ contains
                 ellipse = patch_ellipse(strips, first, last)
                 call find_law(ellipse, material, rolling%mu, induced%creepage, law, status, linear)
                 if (is_error(status)) return
-                moment = 0.0_wp
+                induced%moment = 0.0_wp
                 if (law%weight > 0.0_wp) &
-                    moment = induced_moment(tractions(part), tilt, lateral_stiffness(law, ellipse))
+                    induced%moment = induced_moment(tractions(part), tilt, &
+                                                    lateral_stiffness(law, ellipse))
             end if
             before = sums
-            call solve_patch(strips, first, last, material, induced, rolling%creepage, moment, &
-                             is_corrected, sums, status, field, per_strip)
+            call solve_patch(strips, first, last, material, induced, sums, status, field, &
+                             per_strip)
             if (is_error(status)) return
             if (coupling%n > 1) call sum_tractions(sums%result%fx - before%result%fx, &
                                                    sums%result%fy - before%result%fy, &
@@ -259,15 +264,12 @@ contains
     end subroutine solve_patches
 
     !> Add the forces of strips `first` to `last`, one patch.
-    pure subroutine solve_patch(strips, first, last, material, rolling, creepage, moment, &
-                                is_corrected, sums, status, field, per_strip)
+    pure subroutine solve_patch(strips, first, last, material, rolling, sums, status, field, &
+                                per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling   !! with what other patches do
-        type(creepage_t), intent(in) :: creepage !! without
-        real(wp), intent(in) :: moment           !! by other patches, N mm
-        logical, intent(in) :: is_corrected
+        type(patch_rolling_t), intent(in) :: rolling
         type(march_sums_t), intent(inout) :: sums
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
@@ -280,24 +282,24 @@ contains
         integer :: first_element
 
         before = sums
-        missing = [0.0_wp, 0.0_wp, moment, 0.0_wp]
+        missing = [0.0_wp, 0.0_wp, rolling%moment, 0.0_wp]
         first_element = 1
         if (present(field)) first_element = field%n + 1
         if (has_neck(strips%half_length(first:last))) then
-            call march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &
+            call march_sub_patches(strips, first, last, material, rolling, sums, &
                                    missing, status, field, per_strip)
         else
             ellipse = patch_ellipse(strips, first, last)
             call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
-            call march_strips(law, strips, first, last, rolling, sums, field, per_strip)
-            if (is_corrected .and. law%weight > 0.0_wp) &
+            call march_strips(law, strips, first, last, rolling%rolling_t, sums, field, per_strip)
+            if (rolling%is_corrected .and. law%weight > 0.0_wp) &
                 call add_missing(patch_shape(strips, first, last, ellipse), ellipse, law, linear, &
                                  material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
-        if (is_corrected) call correct(strips, first, last, rolling%mu, before, missing, &
+        if (rolling%is_corrected) call correct(strips, first, last, rolling%mu, before, missing, &
                                        first_element, sums, field, per_strip)
-        power = work(before%result, sums%result, creepage)
+        power = work(before%result, sums%result, rolling%given)
         if (present(field)) call match_power(power, first_element, field)
         sums%result%friction_power = sums%result%friction_power + power
         if (present(per_strip)) then
@@ -323,7 +325,7 @@ contains
         type(patch_law_t), intent(in) :: law
         real(wp), intent(in) :: linear(3) !! linear forces over mu N
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling
+        type(patch_rolling_t), intent(in) :: rolling
         real(wp), intent(in) :: weight
         real(wp), intent(inout) :: missing(4) !! N, N, N mm about the reference point, mm^2 of stick
 
@@ -418,13 +420,12 @@ contains
 
     !> March the strips of a patch with a neck; of more strips than the stack has room for, what is
     !> known of each is allocated.
-    pure subroutine march_sub_patches(strips, first, last, material, rolling, is_corrected, sums, &
+    pure subroutine march_sub_patches(strips, first, last, material, rolling, sums, &
                                       missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling
-        logical, intent(in) :: is_corrected
+        type(patch_rolling_t), intent(in) :: rolling
         type(march_sums_t), intent(inout) :: sums
         real(wp), intent(inout) :: missing(4) !! gets what the march misses; N, N, N mm, mm^2
         type(status_t), intent(inout) :: status
@@ -435,24 +436,24 @@ contains
         type(patch_law_t) :: mean(most_on_stack)
 
         if (last - first < most_on_stack) then
-            call find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+            call find_mean_laws(strips, first, last, material, rolling, missing, &
                                 openness, share, mean, status)
-            if (.not. is_error(status)) call march_by_means(strips, first, last, rolling, mean, &
-                                                            sums, field, per_strip)
+            if (is_error(status)) return
+            call march_by_means(strips, first, last, rolling%rolling_t, mean, sums, field, &
+                                per_strip)
         else
-            call march_many(strips, first, last, material, rolling, is_corrected, sums, missing, &
+            call march_many(strips, first, last, material, rolling, sums, missing, &
                             status, field, per_strip)
         end if
     end subroutine march_sub_patches
 
     !> The same of so many strips.
-    pure subroutine march_many(strips, first, last, material, rolling, is_corrected, sums, &
+    pure subroutine march_many(strips, first, last, material, rolling, sums, &
                                missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling
-        logical, intent(in) :: is_corrected
+        type(patch_rolling_t), intent(in) :: rolling
         type(march_sums_t), intent(inout) :: sums
         real(wp), intent(inout) :: missing(4)
         type(status_t), intent(inout) :: status
@@ -462,20 +463,19 @@ contains
         real(wp), dimension(first:last) :: openness, share
         type(patch_law_t) :: mean(first:last)
 
-        call find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+        call find_mean_laws(strips, first, last, material, rolling, missing, &
                             openness, share, mean, status)
-        if (.not. is_error(status)) call march_by_means(strips, first, last, rolling, mean, sums, &
-                                                        field, per_strip)
+        if (is_error(status)) return
+        call march_by_means(strips, first, last, rolling%rolling_t, mean, sums, field, per_strip)
     end subroutine march_many
 
     !> Of each strip of a patch with a neck the mean of the laws of its sub-patches.
-    pure subroutine find_mean_laws(strips, first, last, material, rolling, is_corrected, missing, &
+    pure subroutine find_mean_laws(strips, first, last, material, rolling, missing, &
                                    openness, share, mean, status)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
-        type(rolling_t), intent(in) :: rolling
-        logical, intent(in) :: is_corrected
+        type(patch_rolling_t), intent(in) :: rolling
         real(wp), intent(inout) :: missing(4) !! gets what the march misses; N, N, N mm, mm^2
         real(wp), dimension(first:last), intent(out) :: openness, share !! work
         type(patch_law_t), intent(inout) :: mean(first:last)            !! empty before
@@ -501,7 +501,7 @@ contains
                 ellipse = patch_ellipse(strips, from, to, share(from:to))
                 call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
                 if (is_error(status)) return
-                if (is_corrected .and. law%weight > 0.0_wp) &
+                if (rolling%is_corrected .and. law%weight > 0.0_wp) &
                     call add_missing(patch_shape(strips, from, to, ellipse, share(from:to)), &
                                      ellipse, law, linear, material, rolling, weight, missing)
                 do i = from, to

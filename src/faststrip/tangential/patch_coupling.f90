@@ -27,7 +27,7 @@ module faststrip_tangential_patch_coupling
     !> Most parts of a contact; with more patches, neighbours are one part, and nothing is coupled
     !> within it.
     !> Tuned [parts]. Origin: chosen for the stack; odd, so that left and right count alike.
-    integer, parameter :: most_parts = 11
+    integer, parameter :: most_parts = 9
     ! Tuned [lines]: Most lines of a part. Origin: measured on 182 contacts of several patches: as
     ! good as all strips; odd as the parts.
     integer, parameter :: most_lines = 7
