@@ -31,6 +31,11 @@ module faststrip_tangential_patch_coupling
     ! Tuned [lines]: Most lines of a part. Origin: measured on 182 contacts of several patches: as
     ! good as all strips; odd as the parts.
     integer, parameter :: most_lines = 7
+    ! Tuned [1]: Share of a part's load below which a line carries nothing. Origin: safeguard.
+    real(wp), parameter :: least_share = 1.0e-100_wp
+    ! Tuned [1]: Lines nearer than this over their half-lengths are none of two patches. Origin:
+    ! safeguard.
+    real(wp), parameter :: nearest = 1.0e-9_wp
     ! Given: three points of Gauss's rule from -1 to 1, weights of sum 1.
     real(wp), parameter :: node = sqrt(0.6_wp), weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
     ! Tuned [1]: Where slip counts ahead of the middle, and the centre of a traction behind it, over
@@ -157,7 +162,10 @@ contains
         end if
         do k = 1, part%n
             associate (line => part%lines(k))
-                if (line%share <= tiny(load)*load) cycle
+                if (line%share <= least_share*load) then
+                    line = line_t()
+                    cycle
+                end if
                 line%y = line%y/line%share
                 line%a = line%a/line%share
                 line%share = line%share/load
@@ -190,8 +198,8 @@ contains
                 mean_x = 0.0_wp
                 mean_y = 0.0_wp
                 do i = 1, from%n
-                    if (from%lines(i)%a <= 0.0_wp) cycle
                     associate (line => from%lines(i), d => to%lines(j)%y - from%lines(i)%y)
+                        if (line%a <= 0.0_wp .or. abs(d) <= nearest*(line%a + a)) cycle
                         call displacements(line%a, a, d, nu, ux, uy)
                         front_x = front_x + line%share*ux
                         front_y = front_y + line%share*uy
