@@ -8,6 +8,7 @@ program faststrip_main
     use faststrip_command_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
     use faststrip_command_profile, only: run_profile
+    use faststrip_command_conicity, only: run_conicity
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -18,6 +19,7 @@ program faststrip_main
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
     case ('profile'); call run_profile()
+    case ('conicity'); call run_conicity()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -40,6 +42,7 @@ contains
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
+        call say('  conicity               equivalent conicity from a rolling radius difference')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
