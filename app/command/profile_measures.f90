@@ -154,9 +154,9 @@ contains
             call put_cell(writer, maxval(y))
             call put_cell(writer, minval(z))
             call put_cell(writer, maxval(z))
-            call put_if(measures%flange%is_known, measures%flange%sd)
-            call put_if(measures%flange%is_known, measures%flange%sh)
-            call put_if(measures%flange%is_known, measures%flange%qr)
+            call put_cell(writer, measures%flange%sd, is_known=measures%flange%is_known)
+            call put_cell(writer, measures%flange%sh, is_known=measures%flange%is_known)
+            call put_cell(writer, measures%flange%qr, is_known=measures%flange%is_known)
             call put_cell(writer, sum(chord))
             call put_cell(writer, minval(chord))
             call put_cell(writer, maxval(chord))
@@ -168,30 +168,16 @@ contains
             call put_cell(writer, points%n_sections)
             call put_cell(writer, count(measures%is_kink))
             call put_cell(writer, size(measures%part%point))
-            call put_if(points%kind > 0, measures%profile%y_first)
-            call put_if(points%kind > 0, measures%profile%y_last)
-            call put_if(size(measures%curvature) > 0, minval(measures%curvature))
-            call put_if(size(measures%curvature) > 0, maxval(measures%curvature))
-            call put_if(measures%wear%is_known(1), measures%wear%top)
-            call put_if(measures%wear%is_known(2), measures%wear%side)
-            call put_if(measures%wear%is_known(3), measures%wear%corner)
-            call put_if(measures%has_wear, measures%largest_wear)
+            call put_cell(writer, measures%profile%y_first, is_known=points%kind > 0)
+            call put_cell(writer, measures%profile%y_last, is_known=points%kind > 0)
+            call put_cell(writer, minval(measures%curvature), is_known=size(measures%curvature) > 0)
+            call put_cell(writer, maxval(measures%curvature), is_known=size(measures%curvature) > 0)
+            call put_cell(writer, measures%wear%top, is_known=measures%wear%is_known(1))
+            call put_cell(writer, measures%wear%side, is_known=measures%wear%is_known(2))
+            call put_cell(writer, measures%wear%corner, is_known=measures%wear%is_known(3))
+            call put_cell(writer, measures%largest_wear, is_known=measures%has_wear)
             call put_cell(writer, measures%done)
         end associate
-
-    contains
-
-        !> A number, or an empty cell where it is not known.
-        subroutine put_if(is_known, value)
-            logical, intent(in) :: is_known
-            real(wp), intent(in) :: value
-
-            if (is_known) then
-                call put_cell(writer, value)
-            else
-                call put_cell(writer, '')
-            end if
-        end subroutine put_if
     end subroutine put_known
 
     pure function kind_word(kind) result(word)

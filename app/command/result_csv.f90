@@ -46,46 +46,33 @@ contains
         call put_cell(writer, outcome%normal%x_max)
         call put_cell(writer, outcome%normal%n_patches)
         associate (tangential => outcome%tangential)
-            call put_known(outcome%has_forces, tangential%fx)
-            call put_known(outcome%has_forces, tangential%fy)
-            call put_known(outcome%has_forces, tangential%mz)
-            call put_known(outcome%has_forces, tangential%friction_power)
-            call put_known(outcome%knows_stick, tangential%stick_fraction)
+            call put_cell(writer, tangential%fx, is_known=outcome%has_forces)
+            call put_cell(writer, tangential%fy, is_known=outcome%has_forces)
+            call put_cell(writer, tangential%mz, is_known=outcome%has_forces)
+            call put_cell(writer, tangential%friction_power, is_known=outcome%has_forces)
+            call put_cell(writer, tangential%stick_fraction, is_known=outcome%knows_stick)
         end associate
         call put_cell(writer, outcome%normal_us)
         call put_cell(writer, outcome%tangential_us)
         associate (certificate => outcome%certificate)
-            call put_known(outcome%is_certified, certificate%residual_inside)
-            call put_known(outcome%is_certified, certificate%overlap_outside)
-            call put_known(outcome%is_estimated, certificate%est_err_penetration)
-            call put_known(outcome%is_estimated, certificate%est_err_pmax)
-            call put_known(outcome%is_estimated, certificate%est_err_area)
+            call put_cell(writer, certificate%residual_inside, is_known=outcome%is_certified)
+            call put_cell(writer, certificate%overlap_outside, is_known=outcome%is_certified)
+            call put_cell(writer, certificate%est_err_penetration, is_known=outcome%is_estimated)
+            call put_cell(writer, certificate%est_err_pmax, is_known=outcome%is_estimated)
+            call put_cell(writer, certificate%est_err_area, is_known=outcome%is_estimated)
         end associate
         associate (errors => outcome%force_errors)
-            call put_known(outcome%forces_are_estimated, errors%fx)
-            call put_known(outcome%forces_are_estimated, errors%fy)
-            call put_known(outcome%forces_are_estimated, errors%mz)
+            call put_cell(writer, errors%fx, is_known=outcome%forces_are_estimated)
+            call put_cell(writer, errors%fy, is_known=outcome%forces_are_estimated)
+            call put_cell(writer, errors%mz, is_known=outcome%forces_are_estimated)
         end associate
-        call put_known(outcome%gap_change_um > 0.0_wp, outcome%gap_change_um)
+        call put_cell(writer, outcome%gap_change_um, is_known=outcome%gap_change_um > 0.0_wp)
         call put_cell(writer, outcome%choice)
         if (outcome%normal%strips_across > 0) then
             call put_cell(writer, outcome%normal%strips_across)
         else
             call put_cell(writer, '')
         end if
-
-    contains
-
-        subroutine put_known(is_known, value)
-            logical, intent(in) :: is_known
-            real(wp), intent(in) :: value
-
-            if (is_known) then
-                call put_cell(writer, value)
-            else
-                call put_cell(writer, '')
-            end if
-        end subroutine put_known
     end subroutine put_result
 
     !> The comment lines on columns: what the friction power is, and that gaps are smoothed, if

@@ -177,10 +177,17 @@ contains
         call append_cell(writer, integer_text(value))
     end subroutine put_integer_cell
 
-    subroutine put_real_cell(writer, value)
+    subroutine put_real_cell(writer, value, is_known)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         real(wp), intent(in) :: value               !! any; not finite: an empty cell
+        logical, intent(in), optional :: is_known   !! else an empty cell, too; default true
 
+        if (present(is_known)) then
+            if (.not. is_known) then
+                call append_cell(writer, '')
+                return
+            end if
+        end if
         call append_cell(writer, real_text(value))
     end subroutine put_real_cell
 

@@ -10,11 +10,13 @@ module faststrip_geometry_arc_spline
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, st_out_of_range, st_too_few_points, &
                                      st_not_increasing, st_not_finite, st_bad_argument
-    use faststrip_numerics_spline, only: spline_setup, spline_work_size, spline_not_a_knot
+    use faststrip_numerics_spline, only: spline_setup, spline_work_size, spline_not_a_knot, &
+                                         cubic_value, interval_of
     implicit none
     private
 
-    public :: arc_spline_t, make_arc_spline, arc_spline_at, find_kinks, standard_kink_angle
+    public :: arc_spline_t, make_arc_spline, arc_spline_at, find_kinks, chord_lengths, &
+              standard_kink_angle
 
     !> Turn of a profile within one point from which it is a kink, rad.
     !> Tuned [rad]: 20 degrees. Origin: points 2 mm apart on the gauge corner R13 turn by 9 degrees.
@@ -60,7 +62,7 @@ contains
                                                   !! `st_linear_algebra`
 
         real(wp), allocatable :: slopes(:), work(:)
-        integer :: n, first, last, i
+        integer :: n, first, last
 
         n = size(y)
         call check_points(y, z, kink_angle, status)
@@ -70,9 +72,8 @@ contains
         allocate (curve%s(n), slopes(n), work(spline_work_size(n)), source=0.0_wp)
         allocate (curve%y_from(n), curve%y_to(n), curve%z_from(n), curve%z_to(n), source=0.0_wp)
         allocate (curve%is_kink(n), source=.false.)
-        do i = 2, n
-            curve%s(i) = curve%s(i - 1) + hypot(y(i) - y(i - 1), z(i) - z(i - 1))
-        end do
+        call chord_lengths(y, z, curve%s, status)
+        if (is_error(status)) return
         call find_kinks(y, z, kink_angle, curve%is_kink)
         last = 1
         do while (last < n)
@@ -211,8 +212,8 @@ contains
         i = interval_of(curve%y, y)
         h = curve%s(i + 1) - curve%s(i)
         t = place_in(curve, i, h, y)
-        call cubic(curve%y(i), curve%y(i + 1), curve%y_from(i), curve%y_to(i), h, t, value, y1, y2)
-        call cubic(curve%z(i), curve%z(i + 1), curve%z_from(i), curve%z_to(i), h, t, z, z1, z2)
+        call cubic_value(curve%y(i:i + 1), [curve%y_from(i), curve%y_to(i)], h, t, value, y1, y2)
+        call cubic_value(curve%z(i:i + 1), [curve%z_from(i), curve%z_to(i)], h, t, z, z1, z2)
         dz = z1/y1
         d2z = (z2 - dz*y2)/y1**2
     end subroutine arc_spline_at
@@ -230,8 +231,8 @@ contains
         high = h
         t = h*((y - curve%y(i))/(curve%y(i + 1) - curve%y(i)))
         do k = 1, most_steps
-            call cubic(curve%y(i), curve%y(i + 1), curve%y_from(i), curve%y_to(i), h, t, value, &
-                       d1, d2)
+            call cubic_value(curve%y(i:i + 1), [curve%y_from(i), curve%y_to(i)], h, t, value, d1, &
+                             d2)
             if (value < y) then
                 low = t
             else
@@ -246,36 +247,21 @@ contains
         end do
     end function place_in
 
-    !> A cubic with given values and derivatives at both ends.
-    pure subroutine cubic(from, to, d_from, d_to, h, t, value, d1, d2)
-        real(wp), intent(in) :: from, to, d_from, d_to, h, t
-        real(wp), intent(out) :: value, d1, d2
+    !> Length of the chords from the first point on.
+    pure subroutine chord_lengths(y, z, s, status)
+        real(wp), intent(in) :: y(:), z(:)       !! points, mm, as many
+        real(wp), intent(out) :: s(:)            !! lengths, mm, as many
+        type(status_t), intent(inout) :: status  !! `st_not_increasing`: two points in one place
 
-        real(wp) :: secant, c2, c3
+        integer :: i
 
-        secant = (to - from)/h
-        c2 = (3.0_wp*secant - 2.0_wp*d_from - d_to)/h
-        c3 = (d_from + d_to - 2.0_wp*secant)/h**2
-        value = from + t*(d_from + t*(c2 + t*c3))
-        d1 = d_from + t*(2.0_wp*c2 + 3.0_wp*t*c3)
-        d2 = 2.0_wp*c2 + 6.0_wp*t*c3 ! Given: second derivative of a cubic
-    end subroutine cubic
-
-    !> The interval [y(i), y(i+1)) that holds a place between the first and the last point.
-    pure integer function interval_of(y, at) result(i)
-        real(wp), intent(in) :: y(:), at
-
-        integer :: upper, middle
-
-        i = 1
-        upper = size(y)
-        do while (upper - i > 1)
-            middle = i + (upper - i)/2
-            if (at < y(middle)) then
-                upper = middle
-            else
-                i = middle
-            end if
+        if (size(s) > 0) s(1) = 0.0_wp
+        do i = 2, size(s)
+            s(i) = s(i - 1) + hypot(y(i) - y(i - 1), z(i) - z(i - 1))
+            if (s(i) > s(i - 1)) cycle
+            call set_status(status, st_not_increasing, 'two points of the profile are in one ' &
+                            //'place, y = '//trim(number_text(y(i)))//' mm')
+            return
         end do
-    end function interval_of
+    end subroutine chord_lengths
 end module faststrip_geometry_arc_spline

@@ -3,10 +3,10 @@ module faststrip_geometry_curation
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_not_increasing, st_too_few_points
+                                     st_bad_argument, st_too_few_points
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
                                          spline_not_a_knot
-    use faststrip_geometry_arc_spline, only: find_kinks
+    use faststrip_geometry_arc_spline, only: find_kinks, chord_lengths
     implicit none
     private
 
@@ -103,7 +103,7 @@ contains
 
         real(wp), allocatable :: new_y(:), new_z(:), s(:)
         logical, allocatable :: is_kink(:)
-        integer :: first, last, i, n, n_new
+        integer :: first, last, n, n_new
         logical :: valid
 
         n = size(y)
@@ -120,13 +120,8 @@ contains
         end if
         allocate (s(n), source=0.0_wp)
         allocate (is_kink(n), source=.false.)
-        do i = 2, n
-            s(i) = s(i - 1) + hypot(y(i) - y(i - 1), z(i) - z(i - 1))
-            if (s(i) > s(i - 1)) cycle
-            call set_status(status, st_not_increasing, 'two points of the profile are in one ' &
-                            //'place, y = '//trim(number_text(y(i)))//' mm')
-            return
-        end do
+        call chord_lengths(y, z, s, status)
+        if (is_error(status)) return
         if (s(n)/step > most_points) then
             call set_status(status, st_bad_argument, 'the distance of points must leave at most ' &
                             //'1e6 of them, got '//trim(number_text(step))//' mm')

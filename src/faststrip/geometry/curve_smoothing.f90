@@ -13,9 +13,9 @@ module faststrip_geometry_curve_smoothing
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_linear_algebra, st_out_of_range, &
-                                     st_not_increasing
+                                     st_bad_argument, st_linear_algebra, st_out_of_range
     use faststrip_numerics_lapack, only: dpbtrf, dpbtrs
+    use faststrip_geometry_arc_spline, only: chord_lengths
     implicit none
     private
 
@@ -170,14 +170,8 @@ contains
 
         n = size(y)
         degrees = 0.0_wp
-        s(1) = 0.0_wp
-        do i = 2, n
-            s(i) = s(i - 1) + hypot(y(i) - y(i - 1), z(i) - z(i - 1))
-            if (s(i) > s(i - 1)) cycle
-            call set_status(status, st_not_increasing, 'two points of the profile are in one ' &
-                            //'place, y = '//trim(number_text(y(i)))//' mm')
-            return
-        end do
+        call chord_lengths(y, z, s, status)
+        if (is_error(status)) return
         weight(1) = 0.5_wp*(s(2) - s(1))
         weight(n) = 0.5_wp*(s(n) - s(n - 1))
         weight(2:n - 1) = 0.5_wp*(s(3:) - s(:n - 2))

@@ -12,7 +12,7 @@ module faststrip_numerics_spline
     implicit none
     private
 
-    public :: spline_setup, spline_value, spline_work_size
+    public :: spline_setup, spline_value, spline_work_size, cubic_value, interval_of
     public :: spline_not_a_knot, spline_monotone
 
     !> Twice continuously differentiable; the third derivative does not jump at the second and
@@ -224,7 +224,6 @@ contains
         real(wp), intent(out) :: value    !! the curve there
         real(wp), intent(out) :: d1       !! its first derivative
         real(wp), intent(out) :: d2       !! its second derivative
-        real(wp) :: h, t, secant, c2, c3
         integer :: i, n
 
         n = size(x)
@@ -246,20 +245,35 @@ contains
             d2 = 0.0_wp
         else
             i = interval_of(x, at)
-            h = x(i + 1) - x(i)
-            t = at - x(i)
-            secant = (y(i + 1) - y(i))/h
-            c2 = (3.0_wp*secant - 2.0_wp*slopes(i) - slopes(i + 1))/h
-            c3 = (slopes(i) + slopes(i + 1) - 2.0_wp*secant)/h**2
-            value = y(i) + t*(slopes(i) + t*(c2 + t*c3))
-            d1 = slopes(i) + t*(2.0_wp*c2 + 3.0_wp*t*c3)
-            d2 = 2.0_wp*c2 + 6.0_wp*t*c3 ! Given: second derivative of a cubic
+            call cubic_value(y(i:i + 1), slopes(i:i + 1), x(i + 1) - x(i), at - x(i), value, d1, d2)
         end if
     end subroutine spline_value
 
-    ! The interval [x(i), x(i+1)) that holds a place between the first and the last knot.
+    !> A cubic with given values and slopes at both ends.
+    pure subroutine cubic_value(ends, slopes, h, t, value, d1, d2)
+        real(wp), intent(in) :: ends(2)   !! values at the ends
+        real(wp), intent(in) :: slopes(2) !! slopes there
+        real(wp), intent(in) :: h         !! width, above 0
+        real(wp), intent(in) :: t         !! place from the first end on
+        real(wp), intent(out) :: value    !! there
+        real(wp), intent(out) :: d1       !! first derivative
+        real(wp), intent(out) :: d2       !! second derivative
+
+        real(wp) :: secant, c2, c3
+
+        secant = (ends(2) - ends(1))/h
+        c2 = (3.0_wp*secant - 2.0_wp*slopes(1) - slopes(2))/h
+        c3 = (slopes(1) + slopes(2) - 2.0_wp*secant)/h**2
+        value = ends(1) + t*(slopes(1) + t*(c2 + t*c3))
+        d1 = slopes(1) + t*(2.0_wp*c2 + 3.0_wp*t*c3)
+        d2 = 2.0_wp*c2 + 6.0_wp*t*c3 ! Given: second derivative of a cubic
+    end subroutine cubic_value
+
+    !> The interval [x(i), x(i+1)) that holds a place between the first and the last knot.
     pure integer function interval_of(x, at) result(i)
-        real(wp), intent(in) :: x(:), at
+        real(wp), intent(in) :: x(:) !! knots, increasing, at least 2
+        real(wp), intent(in) :: at   !! the place
+
         integer :: upper, middle
 
         i = 1
