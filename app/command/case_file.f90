@@ -5,13 +5,12 @@ module faststrip_command_case_file
     use faststrip_base_text, only: lower_case
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
-    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, beside, &
-                                               path_length
+    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, shape_t, &
+                                               beside, path_length
     use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &
-                                             not_given, take_list, need_as_many
+                                             not_given, take_list, need_as_many, case_groups
     use faststrip_command_files, only: take_input
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
@@ -50,10 +49,6 @@ module faststrip_command_case_file
     type, extends(contact_case_t) :: case_t
         character(len=:), allocatable :: name       !! for the CSV
         character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
-        character(len=:), allocatable :: wheel_name !! `s1002` or the file's name
-        character(len=:), allocatable :: rail_name  !! `uic60`, `60e1` or the file's name
-        character(len=:), allocatable :: wheel_words !! what was noticed of its file; or empty
-        character(len=:), allocatable :: rail_words !! the same
         logical :: load_is_vertical = .false.       !! else along the contact normal
         real(wp) :: shift = 0.0_wp                  !! lateral shift of the wheelset, mm
         real(wp), allocatable :: shifts(:)          !! of the sweep, mm
@@ -61,7 +56,7 @@ module faststrip_command_case_file
         real(wp), allocatable :: shift_cksi(:)      !! creepages of each shift; or empty
         real(wp), allocatable :: shift_ceta(:)      !! the same
         real(wp), allocatable :: shift_cphi(:)      !! the same, rad/mm
-        type(profile_t) :: wheel, rail              !! unless there is a gap file
+        type(shape_t) :: wheel, rail                !! unless there is a gap file
         type(wheelset_t) :: wheelset                !! mm
         type(track_t) :: track                      !! mm
         logical :: creepage_by_formula = .false.    !! from the shift, else as given
@@ -82,15 +77,12 @@ contains
         logical :: from_profiles
 
         call take_input(path)
-        call read_namelist_file(path, [character(len=8) :: 'contact', 'material', 'wheel', &
-                                       'rail', 'motion', 'numerics', 'sweep'], content)
+        call read_namelist_file(path, case_groups, content)
         call read_contact_group(content, case)
         from_profiles = len(case%gap_file) == 0
         call read_material_group(content, case)
-        call read_wheel_group(content, from_profiles, case%wheelset, case%wheel_name, case%wheel, &
-                              case%wheel_words)
-        call read_rail_group(content, from_profiles, case%track, case%rail_name, case%rail, &
-                             case%rail_words)
+        call read_wheel_group(content, from_profiles, case%wheelset, case%wheel)
+        call read_rail_group(content, from_profiles, case%track, case%rail)
         call read_motion_group(content, from_profiles, case)
         call read_numerics_group(content, case)
         call read_sweep_group(content, case)

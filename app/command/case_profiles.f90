@@ -1,7 +1,7 @@
 !> The profiles of a case file: the standard ones by name, others from files.
 module faststrip_command_case_profiles
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_curve_profile, standard_cant
@@ -19,17 +19,32 @@ module faststrip_command_case_profiles
     implicit none
     private
 
-    public :: read_wheel_group, read_rail_group, beside, path_length
+    public :: read_wheel_group, read_rail_group, shape_t, left_wheel_t, beside, path_length
 
     integer, parameter :: path_length = 512
+    ! Of a file with both sides.
+    integer, parameter :: left_side = -1
 
     character(len=name_length), parameter :: wheel_names(*) = [character(len=name_length) :: &
-        'profile', 'radius_mm', 'back_spacing_mm', 'tread_line_mm', &
-        'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', 'any_count', &
-        'ignore_smoothing', 'tape_circle_mm']
+        'profile', 'profile_left', 'radius_mm', 'radius_left_mm', 'back_spacing_mm', &
+        'tread_line_mm', 'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', &
+        'any_count', 'ignore_smoothing', 'tape_circle_mm']
     character(len=name_length), parameter :: rail_names(*) = [character(len=name_length) :: &
-        'profile', 'cant', 'gauge_mm', 'gauge_depth_mm', 'y_positive_to', 'z_positive_to', &
-        'unit', 'section', 'side', 'any_count', 'ignore_smoothing']
+        'profile', 'profile_left', 'cant', 'gauge_mm', 'gauge_depth_mm', 'rail_distance_mm', &
+        'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', 'any_count', &
+        'ignore_smoothing']
+
+    !> A profile that a case file names.
+    type :: shape_t
+        character(len=:), allocatable :: name  !! `s1002`, `uic60`, ... or the file's name
+        character(len=:), allocatable :: words !! what was noticed of the file; or empty
+        type(profile_t) :: profile             !! in the frame of a right wheel or rail
+    end type shape_t
+
+    !> The left wheel of a case file; where it says nothing, as the right one.
+    type, extends(shape_t) :: left_wheel_t
+        real(wp) :: radius = 0.0_wp !! rolling radius at the mean tread line, mm
+    end type left_wheel_t
 
     !> How a profile file is to be read, as a case file says it.
     type :: file_words_t
@@ -44,32 +59,32 @@ module faststrip_command_case_profiles
 
 contains
 
-    !> Read the group of the wheel.
-    subroutine read_wheel_group(content, required, wheelset, name, shape, words)
+    !> Read the group of the wheel. Without `left` the names of a left wheel are refused.
+    subroutine read_wheel_group(content, required, wheelset, right, left)
         type(namelist_file_t), intent(in) :: content       !! a case file
         logical, intent(in) :: required                    !! else nothing is taken
-        type(wheelset_t), intent(inout) :: wheelset        !! mm
-        character(len=:), allocatable, intent(out) :: name !! `s1002` or the file's name
-        type(profile_t), intent(inout) :: shape            !! of the wheel
-        character(len=:), allocatable, intent(out) :: words !! what was noticed of a file; or empty
+        type(wheelset_t), intent(inout) :: wheelset        !! mm; radius of the right wheel
+        type(shape_t), intent(inout) :: right              !! the right wheel
+        type(left_wheel_t), intent(inout), optional :: left !! the left wheel
 
-        character(len=path_length) :: profile
+        character(len=path_length) :: profile, profile_left
         character(len=word_length) :: y_positive_to, z_positive_to, unit, side
         integer :: section
         logical :: any_count, ignore_smoothing
-        real(wp) :: radius_mm, back_spacing_mm, tread_line_mm, tape_circle_mm
-        namelist /wheel/ profile, radius_mm, back_spacing_mm, tread_line_mm, &
-            y_positive_to, z_positive_to, unit, section, side, any_count, ignore_smoothing, &
-            tape_circle_mm
+        real(wp) :: radius_mm, radius_left_mm, back_spacing_mm, tread_line_mm, tape_circle_mm
+        namelist /wheel/ profile, profile_left, radius_mm, radius_left_mm, back_spacing_mm, &
+            tread_line_mm, y_positive_to, z_positive_to, unit, section, side, any_count, &
+            ignore_smoothing, tape_circle_mm
         type(file_words_t) :: default
         type(profile_options_t) :: options
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
-        type(status_t) :: status
 
         profile = ''
+        profile_left = ''
         radius_mm = wheelset%radius
+        radius_left_mm = unset()
         back_spacing_mm = wheelset%back_spacing
         tread_line_mm = wheelset%tread_line
         tape_circle_mm = 0.0_wp
@@ -80,7 +95,7 @@ contains
         section = default%section
         any_count = default%any_count
         ignore_smoothing = default%ignore_smoothing
-        words = ''
+        right%words = ''
         call find_group(content, 'wheel', required, group)
         do
             call next_lines(content, group, reading)
@@ -88,55 +103,79 @@ contains
             read (reading%text, nml=wheel, iostat=code, iomsg=reading%words)
             if (code /= 0) call refuse_values(content, group, wheel_names, reading)
         end do
+        if (.not. present(left)) call refuse_left(content, group, &
+            [character(len=name_length) :: 'profile_left', 'radius_left_mm'])
         if (.not. required) return
         call need_positive(content, group, 'radius_mm', radius_mm)
+        if (.not. sets(content, group, 'radius_left_mm')) radius_left_mm = radius_mm
+        call need_positive(content, group, 'radius_left_mm', radius_left_mm)
         call need_positive(content, group, 'back_spacing_mm', back_spacing_mm)
         call need_positive(content, group, 'tread_line_mm', tread_line_mm)
         wheelset = wheelset_t(back_spacing_mm, tread_line_mm, radius_mm)
-        name = trim(profile)
-        select case (profile)
-        case (''); call refuse(content, group, 'profile', 'must be given', '')
-        case ('s1002', 'cone20', 'cone40')
-            call make_wheel_profile(trim(profile), shape, status)
-            call fail_on_error(status)
-        case default
-            call need_finite(content, group, 'tape_circle_mm', tape_circle_mm)
-            options%kind = body_wheel
-            options%has_tape_circle = sets(content, group, 'tape_circle_mm')
-            options%tape_circle = tape_circle_mm
-            call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
-                            section, any_count, ignore_smoothing), options)
-            call read_points(content, profile, options, 0.0_wp, shape, words)
-        end select
+        call need_finite(content, group, 'tape_circle_mm', tape_circle_mm)
+        options%kind = body_wheel
+        options%has_tape_circle = sets(content, group, 'tape_circle_mm')
+        options%tape_circle = tape_circle_mm
+        call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
+                        section, any_count, ignore_smoothing), options)
+        call take_wheel(content, group, 'profile', profile, options, right)
+        if (.not. present(left)) return
+        left%radius = radius_left_mm
+        left%shape_t = right
+        if (.not. sets(content, group, 'profile_left')) return
+        options%side = left_side
+        call take_wheel(content, group, 'profile_left', profile_left, options, left%shape_t)
     end subroutine read_wheel_group
 
-    !> Read the group of the rail.
-    subroutine read_rail_group(content, required, track, name, shape, words)
-        type(namelist_file_t), intent(in) :: content       !! a case file
-        logical, intent(in) :: required                    !! else nothing is taken
-        type(track_t), intent(inout) :: track              !! mm
-        character(len=:), allocatable, intent(out) :: name !! `uic60`, `60e1` or the file's name
-        type(profile_t), intent(inout) :: shape            !! of the rail, inclined
-        character(len=:), allocatable, intent(out) :: words !! what was noticed of a file; or empty
+    !> The wheel of a name, or of a file.
+    subroutine take_wheel(content, group, key, profile, options, shape)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: key, profile
+        type(profile_options_t), intent(in) :: options
+        type(shape_t), intent(inout) :: shape
 
-        character(len=path_length) :: profile
+        type(status_t) :: status
+
+        shape%name = trim(profile)
+        shape%words = ''
+        select case (profile)
+        case (''); call refuse(content, group, key, 'must be given', '')
+        case ('s1002', 'cone20', 'cone40')
+            call make_wheel_profile(trim(profile), shape%profile, status)
+            call fail_on_error(status)
+        case default
+            call read_points(content, profile, options, 0.0_wp, shape)
+        end select
+    end subroutine take_wheel
+
+    !> Read the group of the rail. Without `left` the names of a left rail are refused.
+    subroutine read_rail_group(content, required, track, right, left)
+        type(namelist_file_t), intent(in) :: content   !! a case file
+        logical, intent(in) :: required                !! else nothing is taken
+        type(track_t), intent(inout) :: track          !! mm
+        type(shape_t), intent(inout) :: right          !! the right rail, inclined
+        type(shape_t), intent(inout), optional :: left !! the left rail, inclined
+
+        character(len=path_length) :: profile, profile_left
         character(len=word_length) :: y_positive_to, z_positive_to, unit, side
         integer :: section
         logical :: any_count, ignore_smoothing
-        real(wp) :: cant, gauge_mm, gauge_depth_mm
-        namelist /rail/ profile, cant, gauge_mm, gauge_depth_mm, y_positive_to, z_positive_to, &
-            unit, section, side, any_count, ignore_smoothing
+        real(wp) :: cant, gauge_mm, gauge_depth_mm, rail_distance_mm
+        namelist /rail/ profile, profile_left, cant, gauge_mm, gauge_depth_mm, rail_distance_mm, &
+            y_positive_to, z_positive_to, unit, section, side, any_count, ignore_smoothing
         type(file_words_t) :: default
         type(profile_options_t) :: options
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
-        type(status_t) :: status
 
         profile = ''
+        profile_left = ''
         cant = unset()
         gauge_mm = track%gauge
         gauge_depth_mm = track%gauge_depth
+        rail_distance_mm = unset()
         y_positive_to = default%y_positive_to
         z_positive_to = default%z_positive_to
         unit = default%unit
@@ -144,7 +183,7 @@ contains
         section = default%section
         any_count = default%any_count
         ignore_smoothing = default%ignore_smoothing
-        words = ''
+        right%words = ''
         call find_group(content, 'rail', required, group)
         do
             call next_lines(content, group, reading)
@@ -152,27 +191,74 @@ contains
             read (reading%text, nml=rail, iostat=code, iomsg=reading%words)
             if (code /= 0) call refuse_values(content, group, rail_names, reading)
         end do
+        if (.not. present(left)) call refuse_left(content, group, &
+            [character(len=name_length) :: 'profile_left'])
         if (.not. required) return
-        ! A drawn profile stands upright; a measured one is taken as it stands.
-        if (.not. sets(content, group, 'cant')) &
-            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ', '54e1 ']))
-        call need_finite(content, group, 'cant', cant)
         call need_positive(content, group, 'gauge_mm', gauge_mm)
         call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
         track = track_t(gauge_mm, gauge_depth_mm)
-        name = trim(profile)
+        if (sets(content, group, 'rail_distance_mm')) then
+            call need_positive(content, group, 'rail_distance_mm', rail_distance_mm)
+            if (sets(content, group, 'gauge_mm') .or. sets(content, group, 'gauge_depth_mm')) &
+                call refuse(content, group, 'rail_distance_mm', &
+                            'must not be given with gauge_mm or gauge_depth_mm', &
+                            number_text(rail_distance_mm))
+            track%rail_distance = rail_distance_mm
+        end if
+        options%kind = body_rail
+        call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
+                        section, any_count, ignore_smoothing), options)
+        call take_rail(content, group, 'profile', profile, cant, options, right)
+        if (.not. present(left)) return
+        left = right
+        if (.not. sets(content, group, 'profile_left')) return
+        options%side = left_side
+        call take_rail(content, group, 'profile_left', profile_left, cant, options, left)
+    end subroutine read_rail_group
+
+    !> The rail of a name, or of a file.
+    subroutine take_rail(content, group, key, profile, given_cant, options, shape)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: key, profile
+        real(wp), intent(in) :: given_cant
+        type(profile_options_t), intent(in) :: options
+        type(shape_t), intent(inout) :: shape
+
+        real(wp) :: cant
+        type(status_t) :: status
+
+        ! A drawn profile stands upright; a measured one is taken as it stands.
+        cant = given_cant
+        if (.not. sets(content, group, 'cant')) &
+            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ', '54e1 ']))
+        call need_finite(content, group, 'cant', cant)
+        shape%name = trim(profile)
+        shape%words = ''
         select case (profile)
-        case (''); call refuse(content, group, 'profile', 'must be given', '')
+        case (''); call refuse(content, group, key, 'must be given', '')
         case ('uic60', '60e1', '54e1')
-            call make_rail_profile(trim(profile), cant, shape, status)
+            call make_rail_profile(trim(profile), cant, shape%profile, status)
             if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
         case default
-            options%kind = body_rail
-            call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
-                            section, any_count, ignore_smoothing), options)
-            call read_points(content, profile, options, cant, shape, words)
+            call read_points(content, profile, options, cant, shape)
         end select
-    end subroutine read_rail_group
+    end subroutine take_rail
+
+    !> What knows one wheel takes no name of the other side.
+    subroutine refuse_left(content, group, names)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: names(:)
+
+        integer :: i
+
+        do i = 1, size(names)
+            if (sets(content, group, trim(names(i)))) &
+                call refuse(content, group, trim(names(i)), &
+                            'must not be given for one contact, of the right wheel', '')
+        end do
+    end subroutine refuse_left
 
     !> What the words of a case file mean.
     subroutine take_words(content, group, words, options)
@@ -209,13 +295,12 @@ contains
         end function sense_of
     end subroutine take_words
 
-    subroutine read_points(content, path, options, cant, profile, words)
+    subroutine read_points(content, path, options, cant, shape)
         type(namelist_file_t), intent(in) :: content
         character(len=*), intent(in) :: path
         type(profile_options_t), intent(in) :: options
         real(wp), intent(in) :: cant
-        type(profile_t), intent(out) :: profile
-        character(len=:), allocatable, intent(out) :: words
+        type(shape_t), intent(inout) :: shape
 
         type(status_t) :: status
         type(profile_file_t) :: points
@@ -227,13 +312,13 @@ contains
         call read_profile(file, options, points, status)
         call fail_on_error(status)
         call make_curve_profile(points%y, points%z, options%kind, cant, standard_kink_angle, &
-                                profile, part, status)
+                                shape%profile, part, status)
         call fail_on_error(status, file)
-        words = trim(touchable_words(part))
-        if (points%notes /= '' .and. len(words) > 0) words = '; ' // words
-        words = trim(points%notes) // words
-        if (len(words) == 0) return
-        words = printable(file // ': ' // words)
+        shape%words = trim(touchable_words(part))
+        if (points%notes /= '' .and. len(shape%words) > 0) shape%words = '; ' // shape%words
+        shape%words = trim(points%notes) // shape%words
+        if (len(shape%words) == 0) return
+        shape%words = printable(file // ': ' // shape%words)
     end subroutine read_points
 
     !> A path that is relative to the folder of another file.

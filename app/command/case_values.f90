@@ -9,10 +9,14 @@ module faststrip_command_case_values
     private
 
     public :: unset, need_finite, need_positive, need_poisson
-    public :: not_given, take_list, need_as_many
+    public :: not_given, take_list, need_as_many, case_groups
 
     !> What stands in a list where the file gives no number.
     real(wp), parameter :: not_given = -huge(1.0_wp)
+
+    !> The groups of a case file.
+    character(len=*), parameter :: case_groups(*) = [character(len=8) :: &
+        'contact', 'material', 'wheel', 'rail', 'motion', 'numerics', 'sweep']
 
 contains
 

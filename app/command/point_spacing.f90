@@ -48,7 +48,7 @@ contains
         integer :: first
 
         if (len(case%gap_file) > 0) return
-        if (all([case%wheel%kind, case%rail%kind] /= profile_curve)) return
+        if (all([case%wheel%profile%kind, case%rail%profile%kind] /= profile_curve)) return
         numerics = case%numerics
         numerics%normal = normal_strip
         numerics%tangential = tangential_faststrip
@@ -58,9 +58,9 @@ contains
             spacing%is_known = .true.
             thinned = case
             do first = 1, 2
-                call thin_profile(case%wheel, first, thinned%wheel, status)
+                call thin_profile(case%wheel%profile, first, thinned%wheel%profile, status)
                 if (.not. is_error(status)) &
-                    call thin_profile(case%rail, first, thinned%rail, status)
+                    call thin_profile(case%rail%profile, first, thinned%rail%profile, status)
                 if (.not. is_error(status)) &
                     call prepare_case(thinned, prepared%shift, contact, status)
                 if (.not. is_error(status)) call solve(solver, contact, outcome, status)

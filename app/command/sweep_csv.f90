@@ -30,9 +30,9 @@ contains
         if (len(case%gap_file) > 0) then
             call put_comment(writer, 'gap ' // case%gap_file)
         else
-            call put_comment(writer, 'wheel ' // case%wheel_name // ', rail ' // case%rail_name)
-            call tell(case%wheel_words)
-            call tell(case%rail_words)
+            call put_comment(writer, 'wheel ' // case%wheel%name // ', rail ' // case%rail%name)
+            call tell(case%wheel%words)
+            call tell(case%rail%words)
         end if
         call put_notes(writer, case%numerics%smoothing_um)
         call put_header(writer, [case_columns, result_columns])

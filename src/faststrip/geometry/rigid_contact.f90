@@ -34,6 +34,8 @@ module faststrip_geometry_rigid_contact
         real(wp) :: gauge = 1435.0_wp     !! distance of the two gauge faces, mm
         ! Given: dimensions of the track.
         real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
+        real(wp) :: rail_distance = 0.0_wp !! distance of the origins of the two rail profiles, mm;
+                                           !! 0: as the gauge says
     end type track_t
 
     !> One point of contact.
@@ -217,6 +219,7 @@ contains
         call check_length('rolling radius', wheelset%radius, status)
         call check_length('gauge', track%gauge, status)
         call check_length('depth of the gauge below the crown', track%gauge_depth, status)
+        if (is_apart(track)) call check_length('distance of the rails', track%rail_distance, status)
         if (status%code /= 0) return
         if (.not. ieee_is_finite(shift)) then
             call set_status(status, st_bad_argument, 'the lateral shift must be a finite ' // &
@@ -227,6 +230,13 @@ contains
                             trim(number_text(shift)) // ' mm')
         end if
     end subroutine check_setup
+
+    ! Is the distance of the rails given, and not their gauge?
+    pure logical function is_apart(track)
+        type(track_t), intent(in) :: track
+
+        is_apart = track%rail_distance /= 0.0_wp
+    end function is_apart
 
     ! Positive, finite, and no more than a kilometre.
     pure subroutine check_length(name, value, status)
@@ -252,7 +262,7 @@ contains
         real(wp), intent(in) :: shift
         real(wp), intent(out) :: offset
         type(status_t), intent(out) :: status
-        real(wp) :: y_gauge, wheel_line
+        real(wp) :: y_gauge, y_origin
 
         offset = 0.0_wp
         call clear_status(status)
@@ -260,10 +270,14 @@ contains
             call set_status(status, st_bad_argument, 'there is no wheel or no rail profile')
             return
         end if
-        call find_gauge_point(rail, track%gauge_depth, y_gauge, status)
-        if (status%code /= 0) return
-        wheel_line = 0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift
-        offset = 0.5_wp*track%gauge - y_gauge - wheel_line
+        if (is_apart(track)) then
+            y_origin = 0.5_wp*track%rail_distance
+        else
+            call find_gauge_point(rail, track%gauge_depth, y_gauge, status)
+            if (status%code /= 0) return
+            y_origin = 0.5_wp*track%gauge - y_gauge
+        end if
+        offset = y_origin - (0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift)
     end subroutine rail_offset
 
     ! The point of the gauge face at a depth below the highest point of the rail, or the innermost
