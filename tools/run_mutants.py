@@ -76,7 +76,7 @@ TIME_OUT = "time-out"
 FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
          "test/embed/test_callers.py", "test/embed/test_legacy.py"]
 FORTRAN_ROOMS = ("base", "numerics", "influence", "geometry", "normal", "tangential", "contact",
-                 "files", "kalker", "tables")
+                 "wheelset", "files", "kalker", "tables")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],

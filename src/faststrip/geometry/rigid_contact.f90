@@ -16,7 +16,7 @@ module faststrip_geometry_rigid_contact
 
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
-    public :: creepage_set_a, creepage_set_b, largest_length
+    public :: find_gauge_point, creepage_set_a, creepage_set_b, largest_length
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
@@ -280,13 +280,14 @@ contains
         offset = y_origin - (0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift)
     end subroutine rail_offset
 
-    ! The point of the gauge face at a depth below the highest point of the rail, or the innermost
-    ! one above it where the face overhangs.
-    pure subroutine find_gauge_point(rail, depth, y_gauge, status)
-        type(profile_t), intent(in) :: rail
-        real(wp), intent(in) :: depth
-        real(wp), intent(out) :: y_gauge
-        type(status_t), intent(out) :: status
+    !> The point of the gauge face at a depth below the highest point of the rail, or the innermost
+    !> one above it where the face overhangs.
+    pure subroutine find_gauge_point(rail, depth, y_gauge, status, z_crown)
+        type(profile_t), intent(in) :: rail   !! canted
+        real(wp), intent(in) :: depth         !! below the crown, mm
+        real(wp), intent(out) :: y_gauge      !! on the profile, mm
+        type(status_t), intent(out) :: status !! `st_out_of_range`: it does not reach so deep
+        real(wp), intent(out), optional :: z_crown !! highest point of the profile, mm
         real(wp) :: step, z, dz, d2z, top, low, high, y
         integer :: i, n, i_top
 
@@ -315,6 +316,7 @@ contains
                 high = y
             end if
         end do
+        if (present(z_crown)) z_crown = top
         ! From the crown inwards to the first sample below the depth.
         y_gauge = 0.0_wp
         do i = i_top - 1, 0, -1

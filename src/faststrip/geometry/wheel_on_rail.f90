@@ -1,0 +1,237 @@
+!> One wheel of a wheelset and its rail, and the wheel's outline as it is seen along the rail.
+!>
+!> A rail is the same all along x. What a wheel that is turned by yaw and roll can touch of it is
+!> therefore its outline against the (y, z) plane: the points whose normal has no part along x. At a
+!> place y of the profile it is `theta` ahead of the lowest point of the wheel's circle,
+!> `sin(theta) e_x + cos(theta) e_z = (dz/dy) e_y`, with e the parts along x of the wheelset's axes:
+!> exact for a surface of revolution. The least distance of wheel and rail at each y' of a turned
+!> frame, too, is that of the outline.
+!>
+!> A left wheel is given as a right one: in a mirror.
+module faststrip_geometry_wheel_on_rail
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_bad_argument, st_out_of_range
+    use faststrip_geometry_profile, only: profile_t, profile_at, profile_none
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, find_gauge_point
+    use faststrip_geometry_wheelset_state, only: wheelset_axes_t
+    implicit none
+    private
+
+    public :: wheel_on_rail_t, outline_t
+    public :: make_wheel_on_rail, find_outline, rail_height, outline_point
+
+    ! Tuned [mm]: distance of the outline's points along the profile. Origin: chosen: some twenty in
+    ! the narrowest patch of a flange.
+    real(wp), parameter :: outline_step = 0.1_wp
+    ! Tuned [mm]: distance of the rail's samples, of which regions of overlap are found. Origin:
+    ! chosen: between them a cubic.
+    real(wp), parameter :: rail_step = 0.05_wp
+    ! Tuned [points]: most points of an outline and of a rail. Origin: capacity.
+    integer, parameter :: most_points = 200000
+
+    !> One wheel and its rail, as a right pair; made once.
+    type :: wheel_on_rail_t
+        type(profile_t) :: wheel           !! y = 0 at the tread line
+        type(profile_t) :: rail            !! canted
+        real(wp) :: y_line = 0.0_wp        !! tread line from the wheelset's centre, mm
+        real(wp) :: radius = 0.0_wp        !! nominal radius, at the tread line, mm
+        real(wp) :: z_line = 0.0_wp        !! z of the profile there, mm
+        real(wp) :: y_rail = 0.0_wp        !! the rail's origin in the track, mm
+        real(wp) :: z_rail = 0.0_wp        !! the same, mm
+        real(wp), allocatable :: y(:)      !! points of the wheel's profile, mm
+        real(wp), allocatable :: z(:)      !! the same, mm
+        real(wp), allocatable :: slope(:)  !! dz/dy there
+        real(wp) :: y_sample = 0.0_wp      !! first sample of the rail, in the track, mm
+        real(wp) :: sample_step = 0.0_wp   !! to the next ones, mm
+        real(wp), allocatable :: sample(:) !! height of the rail in the track, mm
+        real(wp), allocatable :: sample_slope(:) !! its slope
+    end type wheel_on_rail_t
+
+    !> The outline of a wheel over its rail; the points are those of the wheel's profile.
+    type :: outline_t
+        real(wp), allocatable :: x(:)       !! in the track, mm
+        real(wp), allocatable :: y(:)       !! the same, mm
+        real(wp), allocatable :: z(:)       !! the same, with the state's z, mm
+        real(wp), allocatable :: slope(:)   !! angle of the outline in the track, rad
+        real(wp), allocatable :: height(:)  !! of the wheel's point over the rail, mm
+        logical, allocatable :: is_there(:) !! is there an outline, over the rail?
+        real(wp) :: z_state = 0.0_wp        !! the state's z it was found for, mm
+    end type outline_t
+
+contains
+
+    !> Put a wheel on its rail: the one place that allocates.
+    subroutine make_wheel_on_rail(wheel, rail, wheelset, track, pair, status)
+        type(profile_t), intent(in) :: wheel         !! of this wheel
+        type(profile_t), intent(in) :: rail          !! of its rail, canted
+        type(wheelset_t), intent(in) :: wheelset     !! its radius is that of this wheel, mm
+        type(track_t), intent(in) :: track           !! mm
+        type(wheel_on_rail_t), intent(out) :: pair   !! as a right pair
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`: no profile; `st_out_of_range`: no gauge face
+
+        real(wp) :: dz, d2z, y_gauge
+
+        call clear_status(status)
+        if (wheel%kind == profile_none .or. rail%kind == profile_none) then
+            call set_status(status, st_bad_argument, 'there is no wheel or no rail profile')
+            return
+        end if
+        if (.not. wheelset%radius > 0.0_wp) then
+            call set_status(status, st_bad_argument, 'the nominal radius must be above 0, got ' // &
+                            trim(number_text(wheelset%radius)) // ' mm')
+            return
+        end if
+        pair%wheel = wheel
+        pair%rail = rail
+        pair%radius = wheelset%radius
+        pair%y_line = 0.5_wp*wheelset%back_spacing + wheelset%tread_line
+        call profile_at(wheel, 0.0_wp, pair%z_line, dz, d2z, status)
+        if (is_error(status)) then
+            call set_status(status, st_out_of_range, &
+                            'the wheel profile must reach its tread line, y = 0')
+            return
+        end if
+        if (track%rail_distance > 0.0_wp) then
+            pair%y_rail = 0.5_wp*track%rail_distance
+        else
+            call find_gauge_point(rail, track%gauge_depth, y_gauge, status, pair%z_rail)
+            if (is_error(status)) return
+            pair%y_rail = 0.5_wp*track%gauge - y_gauge
+            ! The crown is where z = 0.
+            pair%z_rail = -pair%z_rail
+        end if
+        call sample_wheel(pair)
+        call sample_rail(pair)
+    end subroutine make_wheel_on_rail
+
+    ! Points of the wheel at equal distances along its profile.
+    subroutine sample_wheel(pair)
+        type(wheel_on_rail_t), intent(inout) :: pair
+
+        real(wp) :: y, z, dz, d2z
+        type(status_t) :: inside
+        integer :: n, pass
+
+        do pass = 1, 2
+            n = 0
+            y = pair%wheel%y_first
+            do
+                call profile_at(pair%wheel, y, z, dz, d2z, inside)
+                n = n + 1
+                if (pass == 2) then
+                    pair%y(n) = y
+                    pair%z(n) = z
+                    pair%slope(n) = dz
+                end if
+                if (y >= pair%wheel%y_last .or. n == most_points) exit
+                y = min(y + outline_step/hypot(1.0_wp, dz), pair%wheel%y_last)
+            end do
+            if (pass == 1) allocate (pair%y(n), pair%z(n), pair%slope(n))
+        end do
+    end subroutine sample_wheel
+
+    subroutine sample_rail(pair)
+        type(wheel_on_rail_t), intent(inout) :: pair
+
+        real(wp) :: y, d2z
+        type(status_t) :: inside
+        integer :: i, n
+
+        associate (rail => pair%rail)
+            n = min(ceiling((rail%y_last - rail%y_first)/rail_step), most_points)
+            pair%sample_step = (rail%y_last - rail%y_first)/n
+            pair%y_sample = pair%y_rail + rail%y_first
+            allocate (pair%sample(0:n), pair%sample_slope(0:n))
+            do i = 0, n
+                y = min(rail%y_first + i*pair%sample_step, rail%y_last)
+                call profile_at(rail, y, pair%sample(i), pair%sample_slope(i), d2z, inside)
+            end do
+            pair%sample = pair%sample + pair%z_rail
+        end associate
+    end subroutine sample_rail
+
+    !> Height and slope of the rail between its samples.
+    pure subroutine rail_height(pair, y, z, slope, is_there)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        real(wp), intent(in) :: y                 !! in the track, mm
+        real(wp), intent(out) :: z                !! in the track, mm
+        real(wp), intent(out) :: slope            !! dz/dy
+        logical, intent(out) :: is_there          !! is y on the rail?
+
+        real(wp) :: t, c1, c3, secant
+        integer :: i
+
+        t = (y - pair%y_sample)/pair%sample_step
+        i = min(int(t), ubound(pair%sample, 1) - 1)
+        is_there = t >= 0.0_wp .and. t <= real(i + 1, wp)
+        z = 0.0_wp
+        slope = 0.0_wp
+        if (.not. is_there) return
+        t = t - i
+        secant = pair%sample(i + 1) - pair%sample(i)
+        c1 = pair%sample_slope(i)*pair%sample_step
+        c3 = c1 + pair%sample_slope(i + 1)*pair%sample_step - 2.0_wp*secant
+        z = pair%sample(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
+        slope = (c1 + t*(2.0_wp*(secant - c1 - c3) + 3.0_wp*t*c3))/pair%sample_step
+    end subroutine rail_height
+
+    !> The outline of a wheel, and how high each point of it stands over the rail.
+    pure subroutine find_outline(pair, axes, z_state, outline)
+        type(wheel_on_rail_t), intent(in) :: pair   !! made
+        type(wheelset_axes_t), intent(in) :: axes   !! of the state, as a right pair
+        real(wp), intent(in) :: z_state             !! z of that state, mm
+        type(outline_t), intent(inout) :: outline   !! allocated at the first time only
+
+        real(wp) :: point(3), z, slope
+        integer :: i, n
+
+        n = size(pair%y)
+        if (.not. allocated(outline%x)) &
+            allocate (outline%x(n), outline%y(n), outline%z(n), outline%slope(n), &
+                      outline%height(n), outline%is_there(n))
+        outline%z_state = z_state
+        do i = 1, n
+            call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
+                               outline%slope(i), outline%is_there(i))
+            outline%x(i) = point(1)
+            outline%y(i) = point(2)
+            outline%z(i) = point(3)
+            if (.not. outline%is_there(i)) cycle
+            call rail_height(pair, point(2), z, slope, outline%is_there(i))
+            outline%height(i) = z - point(3)
+        end do
+    end subroutine find_outline
+
+    !> The point of the outline that a point of the wheel's profile is turned to.
+    pure subroutine outline_point(pair, axes, y, z, dz, point, slope, is_there)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(wheelset_axes_t), intent(in) :: axes !! of the state
+        real(wp), intent(in) :: y                 !! on the wheel's profile, mm
+        real(wp), intent(in) :: z                 !! on the wheel's profile, mm
+        real(wp), intent(in) :: dz                !! slope of the profile there
+        real(wp), intent(out) :: point(3)         !! in the track, mm
+        real(wp), intent(out) :: slope            !! angle of the outline there, rad
+        logical, intent(out) :: is_there          !! has the wheel an outline there?
+
+        real(wp) :: radius, reach, along, sine, cosine, spoke(3), normal(3)
+
+        point = 0.0_wp
+        slope = 0.0_wp
+        ! sin(theta) e_x + cos(theta) e_z = reach sin(theta + turn)
+        reach = hypot(axes%ahead(1), axes%down(1))
+        along = dz*axes%axle(1)/reach
+        is_there = abs(along) < 1.0_wp
+        if (.not. is_there) return
+        cosine = sqrt(1.0_wp - along**2)
+        sine = (along*axes%ahead(1) - cosine*axes%down(1))/reach
+        cosine = (cosine*axes%ahead(1) + along*axes%down(1))/reach
+        spoke = cosine*axes%down + sine*axes%ahead
+        radius = pair%radius + z - pair%z_line
+        point = axes%centre + (pair%y_line + y)*axes%axle + radius*spoke
+        normal = spoke - dz*axes%axle
+        is_there = normal(3) > 0.0_wp .and. radius > 0.0_wp
+        slope = atan2(-normal(2), normal(3))
+    end subroutine outline_point
+end module faststrip_geometry_wheel_on_rail

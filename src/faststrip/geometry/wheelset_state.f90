@@ -1,0 +1,160 @@
+!> Where a wheelset is and how it moves, and its axes in the track.
+!>
+!> The track frame: x in the direction of travel, y to the right, z down; its origin on the centre
+!> line, as high as the crowns of the rails. The centre of a wheelset that stands level on the
+!> track is at `(0, y, z - r)`, with r the mean of its nominal radii: z = 0 where the tread lines
+!> are as high as the crowns. The wheelset is turned by its yaw about z (nose to the right) and
+!> then by its roll about the track's x (right wheel down), as CONTACT turns it.
+module faststrip_geometry_wheelset_state
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument
+    implicit none
+    private
+
+    public :: wheelset_state_t, wheelset_axes_t
+    public :: mirrored_state, check_state, wheelset_axes, rigid_creepage, cross
+
+    ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
+    ! wheel that is turned farther have no meaning.
+    real(wp), parameter :: largest_turn = 0.5_wp
+    ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
+    real(wp), parameter :: largest_displacement = 1.0e4_wp
+
+    !> Position and velocity of a wheelset, in the track frame.
+    type :: wheelset_state_t
+        real(wp) :: y = 0.0_wp          !! lateral displacement, mm
+        real(wp) :: z = 0.0_wp          !! vertical displacement of the centre, mm
+        real(wp) :: roll = 0.0_wp       !! right wheel down, rad
+        real(wp) :: yaw = 0.0_wp        !! nose to the right, rad
+        real(wp) :: speed = 0.0_wp      !! along the track, mm/s
+        real(wp) :: y_rate = 0.0_wp     !! mm/s
+        real(wp) :: z_rate = 0.0_wp     !! mm/s
+        real(wp) :: roll_rate = 0.0_wp  !! about the wheelset's x axis, rad/s
+        real(wp) :: yaw_rate = 0.0_wp   !! relative to the track, about the wheelset's z axis, rad/s
+        real(wp) :: pitch_rate = 0.0_wp !! about the axle, negative for rolling ahead, rad/s
+        real(wp) :: curvature = 0.0_wp  !! of the track, positive to the right, 1/mm
+    end type wheelset_state_t
+
+    !> The wheelset's frame in the track.
+    type :: wheelset_axes_t
+        real(wp) :: ahead(3) = 0.0_wp  !! its x axis
+        real(wp) :: axle(3) = 0.0_wp   !! its y axis
+        real(wp) :: down(3) = 0.0_wp   !! its z axis
+        real(wp) :: centre(3) = 0.0_wp !! mm
+    end type wheelset_axes_t
+
+contains
+
+    !> The same wheelset in a mirror: left is right.
+    elemental type(wheelset_state_t) function mirrored_state(state) result(mirrored)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+
+        mirrored = state
+        mirrored%y = -state%y
+        mirrored%roll = -state%roll
+        mirrored%yaw = -state%yaw
+        mirrored%y_rate = -state%y_rate
+        mirrored%roll_rate = -state%roll_rate
+        mirrored%yaw_rate = -state%yaw_rate
+        mirrored%curvature = -state%curvature
+    end function mirrored_state
+
+    !> Refuse states that are no numbers or out of all range.
+    pure subroutine check_state(state, status)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+        type(status_t), intent(out) :: status       !! `st_bad_argument`
+
+        call clear_status(status)
+        call check_value('y', state%y, largest_displacement, 'mm', status)
+        call check_value('z', state%z, largest_displacement, 'mm', status)
+        call check_value('roll', state%roll, largest_turn, 'rad', status)
+        call check_value('yaw', state%yaw, largest_turn, 'rad', status)
+        call check_value('speed', state%speed, huge(1.0_wp), 'mm/s', status)
+        call check_value('y_rate', state%y_rate, huge(1.0_wp), 'mm/s', status)
+        call check_value('z_rate', state%z_rate, huge(1.0_wp), 'mm/s', status)
+        call check_value('roll_rate', state%roll_rate, huge(1.0_wp), 'rad/s', status)
+        call check_value('yaw_rate', state%yaw_rate, huge(1.0_wp), 'rad/s', status)
+        call check_value('pitch_rate', state%pitch_rate, huge(1.0_wp), 'rad/s', status)
+        call check_value('curvature', state%curvature, 1.0_wp, '1/mm', status)
+    end subroutine check_state
+
+    ! A finite number within a range.
+    pure subroutine check_value(name, value, largest, unit, status)
+        character(len=*), intent(in) :: name, unit
+        real(wp), intent(in) :: value, largest
+        type(status_t), intent(inout) :: status
+
+        logical :: valid
+
+        if (status%code /= 0) return
+        valid = ieee_is_finite(value)
+        if (valid) valid = abs(value) <= largest
+        if (valid) return
+        if (largest < huge(1.0_wp)) then
+            call set_status(status, st_bad_argument, name // ' of the wheelset must be within ' // &
+                            '+-' // trim(number_text(largest)) // ' ' // unit // ', got ' // &
+                            number_text(value))
+        else
+            call set_status(status, st_bad_argument, name // ' of the wheelset must be a finite ' &
+                            // 'number of ' // unit // ', got ' // number_text(value))
+        end if
+    end subroutine check_value
+
+    !> The axes of a wheelset and its centre.
+    pure type(wheelset_axes_t) function wheelset_axes(state, radius) result(axes)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad
+        real(wp), intent(in) :: radius              !! mean of the nominal radii, mm
+
+        associate (roll => state%roll, yaw => state%yaw)
+            axes%ahead = [cos(yaw), sin(yaw)*cos(roll), sin(yaw)*sin(roll)]
+            axes%axle = [-sin(yaw), cos(yaw)*cos(roll), cos(yaw)*sin(roll)]
+            axes%down = [0.0_wp, -sin(roll), cos(roll)]
+            axes%centre = [0.0_wp, state%y, state%z - radius]
+        end associate
+    end function wheelset_axes
+
+    !> Creepages of rigid bodies at a point of the wheel: velocity of the rail relative to the wheel
+    !> over the rolling speed, in the contact frame, turned by the contact angle about x. The
+    !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle.
+    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed)
+        type(wheelset_state_t), intent(in) :: state  !! mm, rad, s
+        type(wheelset_axes_t), intent(in) :: axes    !! of the state
+        real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
+        real(wp), intent(in) :: angle                !! contact angle, rad
+        type(creepage_t), intent(out) :: creepage    !! zero if nothing rolls; -, -, rad/mm
+        real(wp), intent(out) :: speed               !! rolling speed, mm/s
+
+        real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3)
+
+        arm = point - axes%centre
+        pitch = state%pitch_rate*axes%axle
+        ! The track itself turns in a curve, with all that is on it.
+        turning = state%roll_rate*axes%ahead + state%yaw_rate*axes%down &
+                  + [0.0_wp, 0.0_wp, state%speed*state%curvature]
+        travel = [state%speed, state%y_rate, state%z_rate] &
+                 + cross([0.0_wp, 0.0_wp, state%speed*state%curvature], axes%centre) &
+                 + cross(turning, arm)
+        velocity = travel + cross(pitch, arm)
+        turning = turning + pitch
+        associate (rolled => cross(pitch, arm))
+            speed = 0.5_wp*(abs(travel(1)) + abs(rolled(1)))
+        end associate
+        creepage = creepage_t()
+        if (.not. speed > 0.0_wp) return
+        creepage%cksi = -velocity(1)/speed
+        creepage%ceta = -(velocity(2)*cos(angle) + velocity(3)*sin(angle))/speed
+        creepage%cphi = -(turning(3)*cos(angle) - turning(2)*sin(angle))/speed
+    end subroutine rigid_creepage
+
+    !> Vector product.
+    pure function cross(a, b) result(c)
+        real(wp), intent(in) :: a(3) !! any unit
+        real(wp), intent(in) :: b(3) !! any unit
+        real(wp) :: c(3)             !! product of the units
+
+        c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    end function cross
+end module faststrip_geometry_wheelset_state

@@ -1,0 +1,113 @@
+!> The approach at which a force is as large as a load: one step after the other, for a caller that
+!> finds the forces.
+!>
+!> Steps are those of the secant over the force to 2/3, which Hertz' law makes linear, between
+!> bounds. Near the end the force is the solver's to some ten digits only: there the slope is kept.
+module faststrip_wheelset_approach
+    use faststrip_base_kinds, only: wp
+    implicit none
+    private
+
+    public :: approach_search_t, start_search, take_force, is_found, usual_approach
+
+    ! Tuned [1]: equilibrium, of the load. Origin: above the digits of a contact's solution.
+    real(wp), parameter :: exact = 7.0e-11_wp
+    ! Tuned [1]: a force as near as this to its load is found, where no step comes nearer. Origin:
+    ! chosen: some digits of a contact's solution.
+    real(wp), parameter :: near_enough = 1.0e-8_wp
+    ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
+    ! near_enough.
+    real(wp), parameter :: telling = 1.0e-6_wp
+    ! Tuned [steps]. Origin: capacity; five are usual.
+    integer, parameter :: most_steps = 60
+    ! Tuned [N/mm**1.5]: force over the approach to 3/2, for a first guess. Origin: a steel wheel of
+    ! 460 mm on a rail of 300 mm.
+    real(wp), parameter :: usual_stiffness = 2.0e6_wp
+    ! Given: Hertz' law of a point contact.
+    real(wp), parameter :: hertz_power = 1.5_wp
+    ! Tuned [1]: most by which an approach grows or shrinks in a step. Origin: safeguard.
+    real(wp), parameter :: most_growth = 4.0_wp
+
+    !> A search, and the approach that it wants to know the force of.
+    type :: approach_search_t
+        real(wp) :: approach = 0.0_wp      !! next one, mm
+        logical :: goes_on = .true.        !! is another force wanted?
+        real(wp) :: load = 0.0_wp          !! N
+        real(wp) :: misfit = huge(1.0_wp)  !! smallest so far, of the load
+        real(wp) :: best = 0.0_wp          !! approach of it, mm
+        real(wp) :: low = 0.0_wp           !! too small, mm
+        real(wp) :: high = huge(1.0_wp)    !! too large, mm
+        real(wp) :: before = 0.0_wp        !! the last approach, mm
+        real(wp) :: root_before = 0.0_wp   !! its force to 2/3
+        real(wp) :: slope = 0.0_wp         !! last one that was told, of the force to 2/3
+        integer :: steps = 0               !! so far
+    end type approach_search_t
+
+contains
+
+    !> An approach at which a usual contact carries a load, mm.
+    elemental real(wp) function usual_approach(load)
+        real(wp), intent(in) :: load !! N
+
+        usual_approach = (load/usual_stiffness)**(1.0_wp/hertz_power)
+    end function usual_approach
+
+    !> Start a search.
+    pure subroutine start_search(search, load, approach)
+        type(approach_search_t), intent(out) :: search !! to be continued by `take_force`
+        real(wp), intent(in) :: load                   !! > 0, N
+        real(wp), intent(in) :: approach               !! a first guess, > 0, mm
+
+        search%load = load
+        search%approach = approach
+    end subroutine start_search
+
+    !> Tell the force at `search%approach`: the next approach is there, or the search has ended.
+    pure subroutine take_force(search, force)
+        type(approach_search_t), intent(inout) :: search !! that goes on
+        real(wp), intent(in) :: force                    !! N
+
+        real(wp) :: misfit, root, next, change
+
+        search%steps = search%steps + 1
+        misfit = abs(force/search%load - 1.0_wp)
+        if (misfit < search%misfit) then
+            search%misfit = misfit
+            search%best = search%approach
+        end if
+        if (misfit <= exact .or. search%steps == most_steps &
+            .or. search%high - search%low <= spacing(search%high)) then
+            search%goes_on = .false.
+            return
+        end if
+        if (force < search%load) then
+            search%low = max(search%low, search%approach)
+        else
+            search%high = min(search%high, search%approach)
+        end if
+        root = sign((abs(force)/search%load)**(1.0_wp/hertz_power), force)
+        change = root - search%root_before
+        if (abs(change) > telling) search%slope = change/(search%approach - search%before)
+        search%before = search%approach
+        search%root_before = root
+        next = most_growth*search%approach
+        if (search%slope > 0.0_wp) next = search%approach + (1.0_wp - root)/search%slope
+        ! The bounds are as good as the digits of the force.
+        if (misfit > near_enough .and. .not. (next > search%low .and. next < search%high)) then
+            if (search%high < huge(1.0_wp)) then
+                next = 0.5_wp*(search%low + search%high)
+            else
+                next = most_growth*search%approach
+            end if
+        end if
+        search%approach = min(max(next, search%approach/most_growth), &
+                              search%approach*most_growth)
+    end subroutine take_force
+
+    !> Was the load found?
+    pure logical function is_found(search)
+        type(approach_search_t), intent(in) :: search !! that has ended
+
+        is_found = search%misfit <= near_enough
+    end function is_found
+end module faststrip_wheelset_approach

@@ -1,0 +1,113 @@
+!> A wheelset on its track, what is prescribed, and the figures of its contacts.
+module faststrip_wheelset_types
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_solve, only: contact_result_t, workspace_t
+    use faststrip_geometry_contact_frame, only: frame_gap_t
+    use faststrip_geometry_overlap, only: region_t, most_regions
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t
+    use faststrip_geometry_wheelset_state, only: wheelset_axes_t, wheelset_state_t
+    implicit none
+    private
+
+    public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
+    public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t
+    public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, most_contacts
+
+    !> Given: places in arrays of both sides.
+    integer, parameter :: side_right = 1
+    integer, parameter :: side_left = 2
+
+    !> z and roll are those of the state.
+    !> Given: numbers of kinds.
+    integer, parameter :: demand_position = 0
+    !> Each wheel asked for has its own vertical force, with a z of its own; roll is the state's.
+    integer, parameter :: demand_loads = 1
+    !> Both wheels carry the axle load together; z, and roll if it is free, are found.
+    integer, parameter :: demand_axle_load = 2
+
+    !> Most contacts of one wheel.
+    integer, parameter :: most_contacts = most_regions
+
+    !> Wheels, rails, and how contacts are solved; made once by `make_wheelset`, then only read.
+    type :: wheelset_model_t
+        type(wheel_on_rail_t) :: pair(2)        !! right; left, in a mirror
+        real(wp) :: radius = 0.0_wp             !! mean of the nominal radii, mm
+        type(contact_case_t) :: case            !! material, friction, methods; its load, gap and
+                                                !! creepages are not used
+        ! Tuned [mm]: Origin: chosen: as CONTACT separates patches.
+        real(wp) :: join_distance = 8.0_wp      !! regions nearer than this are one contact, mm
+        ! Tuned [mm]. Origin: chosen: as CONTACT combines patches.
+        real(wp) :: near_distance = 4.0_wp      !! regions nearer than this are nothing else, mm
+        ! Tuned [mm]. Origin: chosen: over ten times the usual penetration.
+        real(wp) :: gap_height = 0.3_wp         !! how high gaps are sampled, mm
+    end type wheelset_model_t
+
+    !> What is prescribed.
+    type :: wheelset_demand_t
+        integer :: kind = demand_loads                     !! one of the `demand_` numbers
+        logical :: wants(2) = .true.                       !! which wheels: right, left
+        real(wp) :: load(2) = 0.0_wp                       !! vertical force of each wheel, N
+        real(wp) :: axle_load = 0.0_wp                     !! of both, N
+        logical :: roll_is_free = .false.                  !! is the roll found?
+        real(wp) :: roll_moment = 0.0_wp
+            !! moment about the wheelset's centre along the track that the frame exerts on it, N mm
+    end type wheelset_demand_t
+
+    !> One contact of a wheel. Left and right have the same frame: x ahead, y to the right, turned
+    !> about x by the contact angle.
+    type :: wheel_contact_t
+        type(status_t) :: status                    !! of its solution
+        real(wp) :: place(3) = 0.0_wp               !! reference point in the track, mm
+        real(wp) :: angle = 0.0_wp                  !! contact angle, rad
+        real(wp) :: rail(2) = 0.0_wp                !! y, z of it on the rail's profile, mm
+        real(wp) :: wheel(3) = 0.0_wp               !! x, y, z of it in the frame of the wheel's
+                                                    !! profile, mm
+        real(wp) :: radius = 0.0_wp                 !! rolling radius, mm
+        real(wp) :: speed = 0.0_wp                  !! rolling speed, mm/s
+        type(creepage_t) :: creepage                !! -, -, rad/mm
+        type(contact_result_t) :: figures           !! of the contact's solution
+        real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, N
+        real(wp) :: moment(3) = 0.0_wp
+            !! of it about the wheelset's centre, with the moment about the normal, N mm
+    end type wheel_contact_t
+
+    !> The contacts of one wheel.
+    type :: wheel_result_t
+        type(status_t) :: status                         !! the worst of its contacts
+        integer :: n = 0                                 !! number of contacts
+        type(wheel_contact_t) :: contact(most_contacts)  !! along y
+        real(wp) :: z = 0.0_wp                           !! of the wheelset's centre, mm
+        real(wp) :: roll = 0.0_wp                        !! rad
+        real(wp) :: force(3) = 0.0_wp                    !! on the rail, in the track, N
+        real(wp) :: force_wheelset(3) = 0.0_wp           !! the same in the wheelset's frame, N
+        real(wp) :: moment(3) = 0.0_wp                   !! about the wheelset's centre, in the
+                                                         !! track, N mm
+        integer :: solutions = 0                         !! contact problems that were solved
+    end type wheel_result_t
+
+    !> Figures of a wheelset.
+    type :: wheelset_result_t
+        type(wheel_result_t) :: wheel(2) !! right, left; those that were asked for
+    end type wheelset_result_t
+
+    !> Everything that one wheel's solutions need beside the model.
+    type :: wheel_workspace_t
+        type(outline_t) :: outline                    !! of the last state
+        type(frame_gap_t) :: gap                      !! of the last contact
+        type(workspace_t) :: contact(most_contacts)   !! one a contact
+        integer :: n = 0                              !! contacts of the last solution, 0: none
+        real(wp) :: approach = 0.0_wp                 !! of the last solution, from first touch, mm
+        type(region_t) :: region(most_contacts)       !! of the last solution
+        type(wheelset_axes_t) :: axes                 !! of the outline
+    end type wheel_workspace_t
+
+    !> Everything that solutions need beside the model; owned by the caller, one per thread.
+    type :: wheelset_workspace_t
+        type(wheel_workspace_t) :: wheel(2)   !! right, left
+        type(wheelset_state_t) :: last_state  !! of the last solution, with its z and roll
+        logical :: has_last = .false.         !! was there one?
+    end type wheelset_workspace_t
+end module faststrip_wheelset_types

@@ -1,0 +1,177 @@
+!> The contacts of one wheel at a given height: from the overlap to the forces.
+module faststrip_wheelset_wheel
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, clear_status, is_error
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_solve, only: set_contact_gap, solve_contact
+    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
+                                                in_track, along_normal
+    use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
+                                          region_distance, most_regions
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
+                                                 rigid_creepage, cross
+    use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
+                                        wheel_workspace_t
+    implicit none
+    private
+
+    public :: solve_wheel_at, mirror_wheel
+
+contains
+
+    !> All contacts of a wheel that is lowered beyond the state of its outline.
+    subroutine solve_wheel_at(model, pair, workspace, state, lowered, estimate, wheel)
+        type(wheelset_model_t), intent(in) :: model          !! made
+        type(wheel_on_rail_t), intent(in) :: pair            !! of this side
+        type(wheel_workspace_t), intent(inout) :: workspace  !! with the outline of the state
+        type(wheelset_state_t), intent(in) :: state          !! as of a right wheel
+        real(wp), intent(in) :: lowered                      !! mm
+        logical, intent(in) :: estimate                      !! are errors estimated?
+        type(wheel_result_t), intent(inout) :: wheel         !! as of a right wheel; z not set
+
+        type(region_t) :: regions(most_regions)
+        type(contact_case_t) :: case
+        integer :: i, n
+
+        call find_regions(pair, workspace%outline, lowered, regions, n)
+        call join_near(model, regions, n)
+        wheel%n = n
+        wheel%force = 0.0_wp
+        wheel%moment = 0.0_wp
+        call clear_status(wheel%status)
+        case = model%case
+        case%by_load = .false.
+        case%estimate = estimate
+        case%warm_start = workspace%n == n
+        workspace%n = n
+        do i = 1, n
+            associate (contact => wheel%contact(i))
+                contact = wheel_contact_t()
+                call solve_one(model, pair, workspace, i, regions(i), state, lowered, case, contact)
+                wheel%solutions = wheel%solutions + 1
+                if (worse(contact%status, wheel%status)) wheel%status = contact%status
+                if (is_error(contact%status)) then
+                    workspace%n = 0
+                    return
+                end if
+                wheel%force = wheel%force + contact%force
+                wheel%moment = wheel%moment + contact%moment
+            end associate
+        end do
+    end subroutine solve_wheel_at
+
+    ! An error is worse than a limitation, that is worse than none.
+    pure logical function worse(status, than)
+        type(status_t), intent(in) :: status, than
+
+        worse = is_error(status) .and. .not. is_error(than) .or. than%code == 0
+    end function worse
+
+    ! Regions that are near to each other are one contact.
+    pure subroutine join_near(model, regions, n)
+        type(wheelset_model_t), intent(in) :: model
+        type(region_t), intent(inout) :: regions(:)
+        integer, intent(inout) :: n
+
+        integer :: i, kept
+
+        kept = min(n, 1)
+        do i = 2, n
+            if (region_distance(regions(kept), regions(i)) < model%join_distance) then
+                regions(kept) = join_regions(regions(kept), regions(i))
+            else
+                kept = kept + 1
+                regions(kept) = regions(i)
+            end if
+        end do
+        n = kept
+    end subroutine join_near
+
+    subroutine solve_one(model, pair, workspace, i, region, state, lowered, case, contact)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(wheel_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: i
+        type(region_t), intent(in) :: region
+        type(wheelset_state_t), intent(in) :: state
+        real(wp), intent(in) :: lowered
+        type(contact_case_t), intent(inout) :: case
+        type(wheel_contact_t), intent(inout) :: contact
+
+        type(contact_frame_t) :: frame
+        type(wheelset_axes_t) :: axes
+        real(wp) :: point(3)
+
+        axes = workspace%axes
+        axes%centre(3) = axes%centre(3) + lowered
+        call place_frame(pair, region, frame)
+        call sample_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
+                        workspace%gap, contact%status)
+        if (is_error(contact%status)) return
+        associate (gap => workspace%gap)
+            call set_contact_gap(workspace%contact(i), gap%y(:gap%n), gap%h(:gap%n), &
+                                 gap%inv2r(:gap%n), contact%status, gap%inclination(:gap%n))
+            case%penetration = gap%overlap
+        end associate
+        if (is_error(contact%status)) return
+        contact%place = frame%origin
+        contact%angle = frame%angle
+        contact%rail = frame%origin(2:3) - [pair%y_rail, pair%z_rail]
+        ! Velocities are those of the wheel's surface before it is deformed.
+        point = along_normal(frame, case%penetration)
+        call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed)
+        call place_on_wheel(pair, axes, frame%origin, contact)
+        case%creepage = contact%creepage
+        call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
+        if (is_error(contact%status)) return
+        associate (normal => contact%figures%normal, forces => contact%figures%tangential)
+            contact%force = in_track(frame, [forces%fx, forces%fy, normal%load])
+            contact%moment = cross(frame%origin - axes%centre, contact%force) &
+                             + in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
+        end associate
+    end subroutine solve_one
+
+    ! Where a point of the track is in the frame of the wheel's profile.
+    pure subroutine place_on_wheel(pair, axes, point, contact)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(wheelset_axes_t), intent(in) :: axes
+        real(wp), intent(in) :: point(3)
+        type(wheel_contact_t), intent(inout) :: contact
+
+        real(wp) :: arm(3), down
+
+        arm = point - axes%centre
+        down = dot_product(arm, axes%down)
+        contact%wheel(1) = dot_product(arm, axes%ahead)
+        contact%wheel(2) = dot_product(arm, axes%axle) - pair%y_line
+        contact%wheel(3) = down - pair%radius + pair%z_line
+        contact%radius = hypot(down, contact%wheel(1))
+    end subroutine place_on_wheel
+
+    !> A wheel that was solved in a mirror, as it is.
+    pure subroutine mirror_wheel(wheel)
+        type(wheel_result_t), intent(inout) :: wheel !! of the left wheel
+
+        integer :: i
+
+        wheel%roll = -wheel%roll
+        wheel%force(2) = -wheel%force(2)
+        wheel%force_wheelset(2) = -wheel%force_wheelset(2)
+        wheel%moment([1, 3]) = -wheel%moment([1, 3])
+        do i = 1, wheel%n
+            associate (contact => wheel%contact(i))
+                contact%place(2) = -contact%place(2)
+                contact%angle = -contact%angle
+                contact%rail(1) = -contact%rail(1)
+                contact%wheel(2) = -contact%wheel(2)
+                contact%creepage%ceta = -contact%creepage%ceta
+                contact%creepage%cphi = -contact%creepage%cphi
+                contact%force(2) = -contact%force(2)
+                contact%moment([1, 3]) = -contact%moment([1, 3])
+                contact%figures%tangential%fy = -contact%figures%tangential%fy
+                contact%figures%tangential%mz = -contact%figures%tangential%mz
+            end associate
+        end do
+    end subroutine mirror_wheel
+end module faststrip_wheelset_wheel
