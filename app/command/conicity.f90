@@ -1,4 +1,4 @@
-!> `faststrip conicity`: equivalent conicity from a rolling radius difference.
+!> `faststrip conicity`: equivalent conicity from profiles or from a rolling radius difference.
 module faststrip_command_conicity
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word, &
@@ -11,6 +11,9 @@ module faststrip_command_conicity
                                            regression_conicity, largest_amplitude
     use faststrip_command_console, only: fail, fail_on_error, usage_error, put_origin, &
                                          exit_bad_input
+    use faststrip_command_case_wheelset, only: case_wheelset_t, read_case_wheelset
+    use faststrip_command_contact_functions, only: tabulate_functions, write_functions, put_wheelset
+    use faststrip_geometry_contact_functions, only: contact_functions_t
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_word
     implicit none
@@ -25,38 +28,68 @@ module faststrip_command_conicity
     real(wp), parameter :: step_slack = 1.0e-9_wp
     ! More amplitudes than this are a slip of the step.
     integer, parameter :: most_amplitudes = 1000000
+    ! The same of shifts to one side.
+    integer, parameter :: most_shifts = 100000
+    ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
+    ! Tuned [mm]. Origin: chosen.
+    real(wp), parameter :: standard_y_max = 10.0_wp
+    ! Nonlinearity is half of what the conicity rises from an amplitude 1 mm less to one 1 mm more.
+    ! Given: Polach (2010): (tan gamma_e(4 mm) - tan gamma_e(2 mm))/2 at 3 mm.
+    real(wp), parameter :: half_span = 1.0_wp
+
+    !> What was found of the amplitudes.
+    type :: values_t
+        real(wp) :: y_equilibrium = 0.0_wp            ! mm
+        real(wp) :: largest = 0.0_wp                  ! amplitude that the table holds, mm
+        real(wp), allocatable :: conicity(:, :)       ! by klingel and by regression
+        real(wp), allocatable :: turns(:, :)          ! turning points, mm
+        real(wp), allocatable :: nonlinearity(:)      ! by the method, 1/mm
+        logical, allocatable :: has_nonlinearity(:)
+        type(status_t), allocatable :: states(:)
+    end type values_t
 
 contains
 
     !> Run the subcommand from the command line.
     subroutine run_conicity()
         type(command_t) :: command
-        type(csv_table_t) :: table
-        type(status_t) :: status
+        type(case_wheelset_t) :: case
+        type(contact_functions_t), allocatable :: functions(:)
         character(len=:), allocatable :: method, path
         real(wp), allocatable :: y(:), delta_r(:), amplitudes(:)
-        real(wp) :: y_equilibrium, largest
+        real(wp) :: y_max, y_step
+        type(values_t) :: values
+        type(status_t) :: status
+        logical :: from_table
 
         command%name = 'conicity'
-        command%usage = ''
+        command%usage = '[CASE.nml]'
         command%about = &
-            'Equivalent conicity of a wheelset by EN 15302:2008+A1:2010 from its rolling radius' &
-            // new_line('a') // 'difference: on the side to which y points less that on the other' &
-            // new_line('a') // 'side. CSV: amplitude_mm,tan_gamma_e,y_min_mm,y_max_mm,method,' &
-            // 'status.' // new_line('a')
+            'Equivalent conicity of a wheelset by EN 15302:2008+A1:2010 from the profiles and' &
+            // new_line('a') // 'radii of a case (groups &wheel and &rail) or from its rolling' &
+            // new_line('a') // 'radius difference: on the side to which y points less that on' &
+            // new_line('a') // 'the other side. CSV: amplitude_mm,tan_gamma_e,y_min_mm,' &
+            // 'y_max_mm,regression,' // new_line('a') &
+            // 'nonlinearity_per_mm,method,status.' // new_line('a')
         command%options = [ &
-            option_t('--delta-r', 'FILE.csv', 'columns y_mm (rising),delta_r_mm', reads=.true.), &
+            option_t('--delta-r', 'FILE.csv', &
+                     'instead of a case: columns y_mm (rising),delta_r_mm', reads=.true.), &
             option_t('--amplitudes', 'LIST', 'amplitudes, mm, as 1,2.5,3'), &
             option_t('--from', 'NUMBER', 'or the least amplitude, mm (default 1)'), &
-            option_t('--to', 'NUMBER', 'the largest, mm (default: all that the table holds)'), &
+            option_t('--to', 'NUMBER', 'the largest, mm (default: all that there are)'), &
             option_t('--step', 'NUMBER', 'and their step, mm (default 0.1)'), &
             option_t('--method', 'NAME', 'klingel (default; Annex B) or regression (Annex C)'), &
+            option_t('--roll', '', 'of a case: the wheelset rolls until both wheels touch'), &
+            option_t('--y-max', 'NUMBER', 'of a case: largest lateral shift, mm (default 10)'), &
+            option_t('--y-step', 'NUMBER', 'of a case: step of the shift, mm (default 0.1)'), &
+            option_t('--functions', 'FILE', 'of a case: write delta r, radii, contact angles,' &
+                     // new_line('a') // 'roll and contact places over the shift there', &
+                     writes=.true.), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
-        call parse_command(command, 0)
+        call parse_command(command, 0, 1)
         method = option_word(command, '--method', 'klingel', &
                              [character(len=10) :: 'klingel', 'regression'])
-        if (.not. given(command, '--delta-r')) &
-            call usage_error('--delta-r is needed', command%name)
+        call check_sources(command)
         if (given(command, '--amplitudes') .and. (given(command, '--from') .or. &
                                                   given(command, '--to') .or. &
                                                   given(command, '--step'))) &
@@ -65,7 +98,64 @@ contains
         if (given(command, '--amplitudes')) &
             call take_list(command, option_text(command, '--amplitudes', ''), amplitudes)
 
-        path = option_text(command, '--delta-r', '')
+        from_table = given(command, '--delta-r')
+        if (from_table) then
+            path = option_text(command, '--delta-r', '')
+            call read_table(path, y, delta_r)
+        else
+            path = command%arguments(1)%text
+            y_max = option_number(command, '--y-max', standard_y_max, above=0)
+            y_step = option_number(command, '--y-step', amplitude_step, above=0)
+            if (y_max/y_step > most_shifts) call usage_error('--y-step must leave at most ' &
+                // integer_text(most_shifts) // ' shifts, got ' // trim(number_text(y_step)), &
+                command%name)
+            if (y_step > y_max) call usage_error('--y-step must be at most --y-max, got ' &
+                // trim(number_text(y_step)) // ' and ' // trim(number_text(y_max)), command%name)
+            call read_case_wheelset(path, case)
+            call tabulate_functions(path, case, y_step, int(y_max/y_step + step_slack), &
+                                    given(command, '--roll'), functions)
+            y = functions%shift
+            delta_r = functions%delta_r
+        end if
+        call find_equilibrium(y, delta_r, values%y_equilibrium, status)
+        call fail_on_error(status, path)
+        values%largest = largest_amplitude(y, delta_r, values%y_equilibrium)
+        if (.not. allocated(amplitudes)) call take_steps(command, path, values%largest, amplitudes)
+        call find_values(path, method, y, delta_r, amplitudes, values)
+        if (given(command, '--functions')) &
+            call write_functions(option_text(command, '--functions', '-'), case, functions)
+        call write_values(option_text(command, '-o', '-'), method, amplitudes, values, from_table, &
+                          case)
+    end subroutine run_conicity
+
+    !> Either a case or a table, and with a table nothing that a case is asked for.
+    subroutine check_sources(command)
+        type(command_t), intent(in) :: command
+
+        character(len=*), parameter :: of_a_case(4) = [character(len=11) :: &
+            '--roll', '--y-max', '--y-step', '--functions']
+        integer :: i
+
+        if (size(command%arguments) == 0 .and. .not. given(command, '--delta-r')) &
+            call usage_error('CASE.nml or --delta-r is needed', command%name)
+        if (.not. given(command, '--delta-r')) return
+        if (size(command%arguments) > 0) &
+            call usage_error('--delta-r must not be given with a case, got ' &
+                             // command%arguments(1)%text, command%name)
+        do i = 1, size(of_a_case)
+            if (given(command, trim(of_a_case(i)))) &
+                call usage_error(trim(of_a_case(i)) // ' must not be given with --delta-r', &
+                                 command%name)
+        end do
+    end subroutine check_sources
+
+    subroutine read_table(path, y, delta_r)
+        character(len=*), intent(in) :: path
+        real(wp), allocatable, intent(out) :: y(:), delta_r(:)
+
+        type(csv_table_t) :: table
+        type(status_t) :: status
+
         call read_csv(path, table, status)
         call fail_on_error(status)
         call column_numbers(table, 'y_mm', y, status)
@@ -73,13 +163,7 @@ contains
         call column_numbers(table, 'delta_r_mm', delta_r, status)
         call fail_on_error(status)
         call check_order(table, y)
-        call find_equilibrium(y, delta_r, y_equilibrium, status)
-        call fail_on_error(status, path)
-        largest = largest_amplitude(y, delta_r, y_equilibrium)
-        if (.not. allocated(amplitudes)) call take_steps(command, path, largest, amplitudes)
-        call write_values(option_text(command, '-o', '-'), path, method, y, delta_r, &
-                          y_equilibrium, largest, amplitudes)
-    end subroutine run_conicity
+    end subroutine read_table
 
     subroutine take_list(command, text, amplitudes)
         type(command_t), intent(in) :: command
@@ -146,51 +230,101 @@ contains
         end do
     end subroutine check_order
 
-    subroutine write_values(output, path, method, y, delta_r, y_equilibrium, largest, amplitudes)
-        character(len=*), intent(in) :: output, path, method
-        real(wp), intent(in) :: y(:), delta_r(:), y_equilibrium, largest, amplitudes(:)
+    !> The conicity at every amplitude; ends the program at one beyond the table.
+    subroutine find_values(path, method, y, delta_r, amplitudes, values)
+        character(len=*), intent(in) :: path, method
+        real(wp), intent(in) :: y(:), delta_r(:), amplitudes(:)
+        type(values_t), intent(inout) :: values
+
+        type(status_t) :: status
+        real(wp) :: both(2), beside(2, 2), turns(2)
+        integer :: i, j, n, taken
+
+        n = size(amplitudes)
+        taken = merge(2, 1, method == 'regression')
+        allocate (values%conicity(2, n), values%turns(2, n), values%nonlinearity(n))
+        allocate (values%has_nonlinearity(n), values%states(n))
+        do i = 1, n
+            call find_both(amplitudes(i), values%conicity(:, i), values%turns(:, i), &
+                           values%states(i))
+            ! Within the table an amplitude without a motion is a result, and the others stand.
+            if (values%states(i)%code /= st_out_of_range .or. amplitudes(i) > values%largest) &
+                call fail_on_error(values%states(i), path)
+            values%has_nonlinearity(i) = .false.
+            if (.not. amplitudes(i) > half_span) cycle
+            do j = 1, 2
+                call find_both(amplitudes(i) + merge(-half_span, half_span, j == 1), both, turns, &
+                               status)
+                if (is_error(status)) exit
+                beside(:, j) = both
+            end do
+            values%has_nonlinearity(i) = .not. is_error(status)
+            if (values%has_nonlinearity(i)) values%nonlinearity(i) = &
+                0.5_wp*(beside(taken, 2) - beside(taken, 1))/half_span
+        end do
+
+    contains
+
+        !> By Klingel's equation and by regression between its turning points.
+        subroutine find_both(amplitude, conicity, ends, state)
+            real(wp), intent(in) :: amplitude
+            real(wp), intent(out) :: conicity(2), ends(2)
+            type(status_t), intent(out) :: state
+
+            conicity = 0.0_wp
+            call klingel_conicity(y, delta_r, values%y_equilibrium, amplitude, conicity(1), &
+                                  ends(1), ends(2), state)
+            if (.not. is_error(state)) &
+                call regression_conicity(y, delta_r, ends(1), ends(2), conicity(2), state)
+        end subroutine find_both
+    end subroutine find_values
+
+    subroutine write_values(output, method, amplitudes, values, from_table, case)
+        character(len=*), intent(in) :: output, method
+        real(wp), intent(in) :: amplitudes(:)
+        type(values_t), intent(in) :: values
+        logical, intent(in) :: from_table
+        type(case_wheelset_t), intent(in) :: case
 
         type(csv_writer_t) :: writer
         type(status_t) :: status
-        type(status_t), allocatable :: states(:)
-        real(wp), allocatable :: tan_gamma_e(:), turns(:, :)
         integer :: i
-
-        allocate (states(size(amplitudes)), tan_gamma_e(size(amplitudes)))
-        allocate (turns(2, size(amplitudes)))
-        do i = 1, size(amplitudes)
-            call klingel_conicity(y, delta_r, y_equilibrium, amplitudes(i), tan_gamma_e(i), &
-                                  turns(1, i), turns(2, i), states(i))
-            if (method == 'regression' .and. .not. is_error(states(i))) &
-                call regression_conicity(y, delta_r, turns(1, i), turns(2, i), tan_gamma_e(i), &
-                                         states(i))
-            ! Within the table an amplitude without a motion is a result, and the others stand.
-            if (states(i)%code /= st_out_of_range .or. amplitudes(i) > largest) &
-                call fail_on_error(states(i), path)
-        end do
+        logical :: is_there
 
         call open_csv(writer, output, status)
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'equivalent conicity, EN 15302:2008+A1:2010')
-        call put_header(writer, [character(len=12) :: 'amplitude_mm', 'tan_gamma_e', 'y_min_mm', &
-                                 'y_max_mm', 'method', 'status'])
+        if (.not. from_table) call put_wheelset(writer, case)
+        call put_header(writer, [character(len=19) :: 'amplitude_mm', 'tan_gamma_e', 'y_min_mm', &
+                                 'y_max_mm', 'regression', 'nonlinearity_per_mm', 'method', &
+                                 'status'])
         do i = 1, size(amplitudes)
+            is_there = .not. is_error(values%states(i))
             call put_cell(writer, amplitudes(i))
-            if (is_error(states(i))) then
-                call put_cell(writer, '')
-                call put_cell(writer, '')
-                call put_cell(writer, '')
-            else
-                call put_cell(writer, tan_gamma_e(i))
-                call put_cell(writer, turns(1, i))
-                call put_cell(writer, turns(2, i))
-            end if
+            call put_known(values%conicity(merge(2, 1, method == 'regression'), i), is_there)
+            call put_known(values%turns(1, i), is_there)
+            call put_known(values%turns(2, i), is_there)
+            call put_known(values%conicity(2, i), is_there)
+            call put_known(values%nonlinearity(i), is_there .and. values%has_nonlinearity(i))
             call put_cell(writer, method)
-            call put_cell(writer, trim(status_word(states(i)%code)))
+            call put_cell(writer, trim(status_word(values%states(i)%code)))
             call end_row(writer)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
+
+    contains
+
+        subroutine put_known(value, is_known)
+            real(wp), intent(in) :: value
+            logical, intent(in) :: is_known
+
+            if (is_known) then
+                call put_cell(writer, value)
+            else
+                call put_cell(writer, '')
+            end if
+        end subroutine put_known
     end subroutine write_values
 end module faststrip_command_conicity

@@ -42,7 +42,7 @@ contains
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
-        call say('  conicity               equivalent conicity from a rolling radius difference')
+        call say('  conicity               contact geometry and equivalent conicity of a wheelset')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

@@ -1,6 +1,7 @@
 """`faststrip conicity` against exact cases and the tables of EN 15302:2008+A1:2010."""
 
 import csv
+import math
 import unittest
 
 from cli_program import ROOT, ProgramTest
@@ -27,12 +28,14 @@ class Conicity(ProgramTest):
         for method in ("klingel", "regression"):
             rows = self.good("conicity", "--delta-r", "cone.csv", "--method", method)
             self.assertEqual(list(rows[0]), ["amplitude_mm", "tan_gamma_e", "y_min_mm", "y_max_mm",
-                                             "method", "status"])
+                                             "regression", "nonlinearity_per_mm", "method",
+                                             "status"])
             self.assertEqual([round(float(row["amplitude_mm"]), 12) for row in rows],
                              [i / 10 for i in range(10, 71)])
             for row in rows:
                 self.assertEqual((row["method"], row["status"]), (method, "ok"))
                 self.assert_close(float(row["tan_gamma_e"]), 0.05, 1e-12, what=row)
+                self.assert_close(float(row["regression"]), 0.05, 1e-10, what=row)
                 self.assert_close(float(row["y_min_mm"]), 1 - float(row["amplitude_mm"]),
                                   absolute=1e-9)
 
@@ -54,6 +57,17 @@ class Conicity(ProgramTest):
         self.assertEqual([row["status"] for row in rows], ["ok", "out_of_range", "ok"])
         self.assertEqual([row["tan_gamma_e"] == "" for row in rows], [False, True, False])
 
+    def test_nonlinearity_is_half_the_rise_over_two_millimetres(self):
+        self.write("cubic.csv", table_of([(y / 50, (y / 50) ** 3 / 100) for y in range(-250, 251)]))
+        for method in ("klingel", "regression"):
+            rows = self.good("conicity", "--delta-r", "cubic.csv", "--amplitudes", "1,2,3,4,5",
+                             "--method", method)
+            values = [float(row["tan_gamma_e"]) for row in rows]
+            self.assertEqual([row["nonlinearity_per_mm"] == "" for row in rows],
+                             [True, False, False, False, True])
+            self.assert_close(float(rows[2]["nonlinearity_per_mm"]), (values[3] - values[1]) / 2,
+                              1e-12)
+
     def test_bad_words(self):
         cone = ("conicity", "--delta-r", "cone.csv")
         for words, says in (
@@ -66,6 +80,13 @@ class Conicity(ProgramTest):
             ([*cone, "--step", "1e-9"], "0.1"),
             ([*cone, "--method", "guess"], "guess"),
             ([*cone, "case.nml"], "case.nml"),
+            ([*cone, "--roll"], "--roll"),
+            ([*cone, "--y-step", "0.1"], "--y-step"),
+            ([*cone, "--functions", "f.csv"], "--functions"),
+            (["conicity", "case.nml", "--y-max", "-1"], "'-1'"),
+            (["conicity", "case.nml", "--y-max", "1", "--y-step", "2"], "2.0"),
+            (["conicity", "case.nml", "--y-step", "1e-9"], "100000"),
+            (["conicity", "case.nml", "other.nml"], "other.nml"),
         ):
             with self.subTest(words):
                 self.refused(2, *words, says=[says])
@@ -110,6 +131,165 @@ class Conicity(ProgramTest):
         # E5 is E1 with radii 1 mm apart. That, and not the table printed for it, is what Annex E
         # has its conicity from.
         self.check_annex_e([(y, radius + 1.0) for y, radius in radii["E1"]], "E5", 0.001)
+
+
+def wheelset_case(wheel="profile = 'cone20'", rail="profile = '60e1'"):
+    return f"&wheel\n  {wheel}\n/\n&rail\n  {rail}\n/\n"
+
+
+class Profiles(ProgramTest):
+    def conicity(self, *words, **case):
+        self.write("case.nml", wheelset_case(**case))
+        return self.good("conicity", "case.nml", *words)
+
+    def functions(self, *words, **case):
+        self.conicity("--functions", "f.csv", "-o", "out.csv", *words, **case)
+        return self.read("f.csv")
+
+    def test_cones_are_their_own_conicity(self):
+        for row in self.conicity("--to", "3"):
+            self.assertEqual(row["status"], "ok")
+            self.assert_close(float(row["tan_gamma_e"]), 0.05, 1e-9, what=row)
+            self.assert_close(float(row["regression"]), 0.05, 1e-9, what=row)
+
+    def test_functions_of_unequal_sides(self):
+        rows = self.functions("--y-max", "2", "--y-step", "0.5", "--amplitudes", "0.5",
+                              wheel="profile = 'cone20', profile_left = 'cone40',\n"
+                                    "radius_mm = 460, radius_left_mm = 460.2")
+        self.assertEqual(list(rows[0]), [
+            "y_mm", "delta_r_mm", "radius_right_mm", "radius_left_mm", "gamma_right_rad",
+            "gamma_left_rad", "roll_rad", "y_wheel_right_mm", "y_rail_right_mm",
+            "y_wheel_left_mm", "y_rail_left_mm"])
+        self.assertEqual([float(row["y_mm"]) for row in rows], [-2 + i / 2 for i in range(9)])
+        middle = {name: float(value) for name, value in rows[4].items()}
+        for row in rows:
+            row = {name: float(value) for name, value in row.items()}
+            y = row["y_mm"]
+            self.assert_close(row["delta_r_mm"] - middle["delta_r_mm"], 0.075 * y, absolute=1e-9)
+            self.assert_close(row["radius_left_mm"], 460.2 - 0.025 * row["y_wheel_left_mm"],
+                              1e-12)
+            self.assert_close(row["delta_r_mm"], row["radius_right_mm"] - row["radius_left_mm"],
+                              absolute=1e-12)
+            self.assert_close(math.tan(row["gamma_right_rad"]), -0.05, 1e-9)
+            self.assert_close(math.tan(row["gamma_left_rad"]), -0.025, 1e-9)
+            self.assert_close(row["y_wheel_left_mm"] - middle["y_wheel_left_mm"], y, absolute=1e-8)
+            self.assertEqual(row["roll_rad"], 0.0)
+
+    def test_left_rail_and_the_distance_of_rails(self):
+        words = ("--y-max", "3", "--y-step", "3", "--amplitudes", "0.5")
+        rows = [self.functions(*words, rail=rail, wheel="profile = 's1002'")
+                for rail in ("profile = '60e1', rail_distance_mm = 1500",
+                             "profile = '60e1', profile_left = '54e1', rail_distance_mm = 1500",
+                             "profile = '60e1', rail_distance_mm = 1504")]
+        same, left, wider = ({name: float(value) for name, value in three[0].items()}
+                             for three in rows)
+        # Shifted to the left, towards the left flange.
+        self.assertEqual(same["y_rail_right_mm"], left["y_rail_right_mm"])
+        self.assertGreater(abs(same["y_rail_left_mm"] - left["y_rail_left_mm"]), 0.1)
+        for row, side, offset in ((same, "right", 3), (same, "left", -3), (wider, "right", 5),
+                                  (wider, "left", -1)):
+            self.assert_close(row[f"y_wheel_{side}_mm"] - row[f"y_rail_{side}_mm"], offset,
+                              absolute=1e-9)
+
+    def test_roll_on_demand(self):
+        words = ("--y-max", "4", "--y-step", "2", "--amplitudes", "1")
+        level = self.functions(*words, wheel="profile = 's1002'")
+        rolled = self.functions("--roll", *words, wheel="profile = 's1002'")
+        for one, other in zip(level, rolled, strict=True):
+            self.assertEqual(float(one["roll_rad"]), 0.0)
+            self.assertEqual(float(other["roll_rad"]) * float(one["y_mm"]) < 0.0,
+                             float(one["y_mm"]) != 0.0)
+            self.assert_close(float(one["radius_right_mm"]), float(other["radius_right_mm"]),
+                              1e-3)
+
+    def test_shifts_end_where_a_wheel_leaves_its_rail(self):
+        rows = self.functions("--y-max", "90", "--y-step", "5", "--to", "5")
+        self.assertGreater(float(rows[-1]["y_mm"]), 10.0)
+        self.assertLess(float(rows[-1]["y_mm"]), 90.0)
+
+    def test_the_sides_and_the_edition_are_said(self):
+        self.write("case.nml", wheelset_case("profile = 's1002', radius_left_mm = 459"))
+        text = self.run_program("conicity", "case.nml", "--to", "2").stdout
+        for words in ("\n# equivalent conicity, EN 15302:2008+A1:2010\n",
+                      "\n# right wheel s1002, rail 60e1, radius 460.000 mm\n",
+                      "\n# left wheel s1002, rail 60e1, radius 459.000 mm\n"):
+            self.assertIn(words, text)
+
+    def test_bad_cases(self):
+        for text, says in (
+            (wheelset_case(rail="profile = '60e1', rail_distance_mm = 1200"), ["case.nml"]),
+            (wheelset_case("profile = 's1002', radius_left_mm = 0"),
+             ["(case.nml:2)", "radius_left_mm", "0.0"]),
+            (wheelset_case("profile = 's1002', profile_left = 'none.prw'"), ["none.prw"]),
+            (wheelset_case("profile = 's1002', profile_left = ''"),
+             ["(case.nml:2)", "profile_left"]),
+            (wheelset_case(rail="profile = '60e1', profile_left = ''"),
+             ["(case.nml:5)", "profile_left"]),
+            ("&wheel\n profile = 's1002'\n/\n", ["&rail", "case.nml"]),
+        ):
+            with self.subTest(text):
+                self.write("case.nml", text)
+                self.refused_and_untouched("conicity", "case.nml", says=says)
+
+
+# Wheels of the cases of EN 15302:2008+A1:2010, right and left, and the left radius, mm.
+CASES = {"E1": "AA", "E2": "BB", "E3": "HH", "E4": "II", "E5": "AA", "E6": "BB", "E7": "HH",
+         "E8": "II", "E9": "AB"}
+UNEQUAL = ("E5", "E6", "E7", "E8")
+
+
+@unittest.skipUnless(STANDARD.exists(), "the tables of EN 15302 are not here")
+class ReferenceProfiles(ProgramTest):
+    def deviations(self, case, *words, distance="1500"):
+        """From Annex E, at the amplitudes that its table of delta r holds; and Annex F's limits."""
+        right, left = CASES[case]
+        self.write("case.nml", wheelset_case(
+            f"profile = '{STANDARD}/RUIC519{right}.dat'\n"
+            f" profile_left = '{STANDARD}/RUIC519{left}.dat'\n"
+            f" radius_left_mm = {459 if case in UNEQUAL else 460}\n z_positive_to = 'up'",
+            f"profile = '{STANDARD}/SUIC519A.dat'\n"
+            f" rail_distance_mm = {distance}\n z_positive_to = 'up'"))
+        wanted = {row["amplitude_mm"]: float(row["tan_gamma_e"])
+                  for row in standard("conicity.csv") if row["case"] == case}
+        ends = [abs(float(row["y_mm"])) for row in standard("delta_r.csv") if row["case"] == case]
+        rows = self.good("conicity", "case.nml", "--to", f"{min(ends[0], ends[-1]) - 0.1}", *words)
+        self.assertGreaterEqual(len(rows), 57)
+        result = {}
+        for row in rows:
+            amplitude = f"{float(row['amplitude_mm']):.3f}"
+            self.assertEqual(row["status"], "ok")
+            result[amplitude] = (float(row["tan_gamma_e"]) - wanted[amplitude],
+                                 min(0.05, 0.5 * wanted[amplitude]))
+        return result
+
+    def outside(self, deviations):
+        return [amplitude for amplitude, (deviation, limit) in deviations.items()
+                if abs(deviation) > limit]
+
+    def test_annex_e_within_the_limits_of_annex_f(self):
+        for case in CASES:
+            if case == "E3":
+                continue
+            deviations = self.deviations(case)
+            self.assertEqual(self.outside(deviations), [], case)
+            self.assertLess(max(abs(deviation) for deviation, _ in deviations.values()),
+                            0.038 if case == "E7" else 0.010, case)
+
+    def test_finer_shifts_stay_within_the_limits(self):
+        for case in ("E1", "E4", "E7"):
+            self.assertEqual(self.outside(self.deviations(case, "--y-step", "0.05")), [], case)
+
+    def test_e3_jumps_within_micrometres_of_two_rows_of_the_table(self):
+        """Delta r jumps by 2.3 mm at 2.496 and by 5.8 mm at 6.699 mm, in Annex E behind its rows
+        at 2.5 and 6.7. There the heights of two places of contact are equal to 1 um, the last
+        digit of the standard's profiles; rails 4.5 um further out bring both jumps behind."""
+        at_jumps = ["2.500", "2.600", "2.700", "6.700"]
+        deviations = self.deviations("E3")
+        self.assertEqual(self.outside(deviations), at_jumps)
+        self.assertLess(max(abs(deviation) for amplitude, (deviation, _) in deviations.items()
+                            if amplitude not in at_jumps), 0.05)
+        deviations = self.deviations("E3", distance="1500.009")
+        self.assertLess(max(abs(deviation) for deviation, _ in deviations.values()), 0.001)
 
 
 if __name__ == "__main__":

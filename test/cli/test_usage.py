@@ -35,7 +35,7 @@ class Help(ProgramTest):
             ("integral", ("--n", "--b", "--x", "--method", "--input")),
             ("contact", ("--fields", "--strips", "--gap", "--profiles", "--shift")),
             ("batch", ("--normal", "--tangential", "--strips-per-patch")),
-            ("conicity", ("--delta-r", "--amplitudes", "--method")),
+            ("conicity", ("--delta-r", "--amplitudes", "--method", "--roll", "--functions")),
         ):
             text = self.check(name, "--help")
             for option in options:

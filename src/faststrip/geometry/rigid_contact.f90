@@ -17,6 +17,7 @@ module faststrip_geometry_rigid_contact
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
     public :: find_gauge_point, creepage_set_a, creepage_set_b, largest_length
+    public :: scan_step, n_bisections
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
@@ -59,10 +60,11 @@ module faststrip_geometry_rigid_contact
     !> Given: numbers of kinds.
     integer, parameter :: creepage_set_b = 2
 
-    ! Spacing of the scan for the smallest distance, mm; bisections that follow.
-    ! Tuned [mm]: Spacing. Origin: well below the curvature of flange and rail corner.
+    !> Spacing of the scan for the smallest distance, mm.
+    !> Tuned [mm]. Origin: well below the curvature of flange and rail corner.
     real(wp), parameter :: scan_step = 0.02_wp
-    ! Tuned [steps]: Bisections. Origin: all digits of the scan's interval.
+    !> Bisections that follow.
+    !> Tuned [steps]. Origin: all digits of the scan's interval.
     integer, parameter :: n_bisections = 60
     ! Tuned [mm]: shifts beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_shift = 1.0e4_wp
