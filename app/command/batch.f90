@@ -18,7 +18,7 @@ module faststrip_command_batch
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: beside
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
-    use faststrip_command_result_csv, only: result_columns, put_result, put_notes
+    use faststrip_command_result_csv, only: result_columns, put_result, put_notes, note_wear
     implicit none
     private
 
@@ -75,7 +75,7 @@ contains
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_notes(writer, numerics%smoothing_um)
+        call put_notes(writer, numerics)
         call put_names(writer, table%names)
         n_failed = 0
         do row = 1, table%n_rows
@@ -97,6 +97,8 @@ contains
                 call note('row ' // integer_text(row) // ' (' // table%file // ':' &
                           // integer_text(table%line(row)) // '): ' // trim(status%message) &
                           // about_gap(table, row, column, status))
+            else
+                call note_wear(outcome, 'row ' // integer_text(row) // ': ')
             end if
             call progress('contacts', row, table%n_rows)
         end do

@@ -18,6 +18,7 @@ module faststrip_command_case_file
                                          tangential_method_name
     use faststrip_contact_wanted, only: target_number, target_names
     use faststrip_command_methods, only: numerics_t, check_numerics, one_of, word_length
+    use faststrip_command_wear_figures, only: take_wear_law
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                           find_group, sets, refuse
     use faststrip_command_namelist_values, only: reading_t, next_lines, refuse_values, name_length
@@ -40,7 +41,7 @@ module faststrip_command_case_file
         'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
         'element_dx_mm', 'element_dy_mm', 'error_target', 'norm_start', 'tolerance', &
         'target', 'budget_us', 'max_elements', 'resolution_limit', 'force_limit', &
-        'yield_MPa']
+        'yield_MPa', 'yield_shear_MPa', 'wear_file']
     character(len=name_length), parameter :: sweep_names(*) = [character(len=name_length) :: &
         'shifts_mm', 'load_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
 
@@ -227,11 +228,12 @@ contains
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, tolerance, budget_us, resolution_limit, force_limit, &
-            yield_mpa
+            yield_mpa, yield_shear_mpa
+        character(len=path_length) :: wear_file
         namelist /numerics/ normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
             fastsim_ny, gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
             error_target, norm_start, tolerance, target, budget_us, max_elements, &
-            resolution_limit, force_limit, yield_mpa
+            resolution_limit, force_limit, yield_mpa, yield_shear_mpa, wear_file
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -254,6 +256,8 @@ contains
         resolution_limit = case%resolution_limit
         force_limit = case%force_limit
         yield_mpa = case%numerics%yield_mpa
+        yield_shear_mpa = case%numerics%wear%yield_shear_mpa
+        wear_file = ''
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
         smoothing_um = case%numerics%smoothing_um
@@ -276,6 +280,7 @@ contains
         numbers%fastsim_ny = fastsim_ny
         numbers%smoothing_um = smoothing_um
         numbers%yield_mpa = yield_mpa
+        numbers%wear%yield_shear_mpa = yield_shear_mpa
         numbers%element_dx = element_dx_mm
         numbers%element_dy = element_dy_mm
         numbers%error_target = error_target
@@ -290,6 +295,10 @@ contains
                                                     // one_of(target_names), trim(target))
         call check_numerics(numbers, what, range, value)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
+        if (len_trim(wear_file) > 0) then
+            call take_input(beside(content%file, trim(wear_file)))
+            call take_wear_law(beside(content%file, trim(wear_file)), numbers%wear)
+        end if
         case%numerics = numbers
         call need_positive(content, group, 'resolution_limit', resolution_limit)
         call need_positive(content, group, 'force_limit', force_limit)

@@ -10,7 +10,7 @@ module faststrip_command_contact
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
-    use faststrip_command_result_csv, only: put_strips, put_field
+    use faststrip_command_result_csv, only: put_strips, put_field, note_wear
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
     private
@@ -76,12 +76,14 @@ contains
         call judge_spacing(case, prepared, spacing)
         call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
+        call note_wear(outcome, '')
         call open_outputs(command, writer)
         call put_sweep_header(writer(1), case)
         call put_sweep_row(writer(1), case, case%numerics, prepared, outcome, status)
         if (given(command, '--strips')) &
             call put_strips(writer(2), case%name, solver%workspace%strips, &
-                            solver%strip_forces)
+                            solver%strip_forces, case%numerics%wear, &
+                            prepared%rigid_contact%radius)
         if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
         if (given(command, '--gap')) call put_gap(writer(4), solver%case%gap, &
                                                   case%numerics%smoothing_um)

@@ -10,6 +10,7 @@ module faststrip_command_method_options
     use faststrip_contact_wanted, only: target_number, target_names
     use faststrip_command_methods, only: numerics_t, norm_starts, most_strips, &
                                          most_points, most_points_per_strip, most_elements
+    use faststrip_command_wear_figures, only: take_wear_law
     implicit none
     private
 
@@ -18,7 +19,7 @@ module faststrip_command_method_options
     character(len=*), parameter :: newline = new_line('a')
 
     !> For the table of a subcommand; the names are told by `method_notes`.
-    type(option_t), parameter :: method_options(18) = [ &
+    type(option_t), parameter :: method_options(20) = [ &
         option_t('--normal', 'NAME', 'normal method, one of the above (default strip)'), &
         option_t('--tangential', 'NAME', &
                  'tangential method, one of the above (default faststrip)'), &
@@ -35,6 +36,9 @@ module faststrip_command_method_options
                  // ' (default 0.1)'), &
         option_t('--force-limit', 'E', 'the same of est_err_Fx, _Fy, _Mz (default 0.1)'), &
         option_t('--yield-MPa', 'MPA', 'status beyond_yield where pmax is above (default none)'), &
+        option_t('--yield-shear-MPa', 'MPA', 'yield stress in cyclic shear, for fatigue_index'), &
+        option_t('--wear', 'FILE.csv', 'wear law, for wear_ug_per_m; faststrip, faststrip-plain', &
+                 reads=.true.), &
         option_t('--norm-start', 'NAME', 'norm starts from a coarse grid (default) or strips'), &
         option_t('--smooth', 'UM', 'smooth the gap for this noise of its heights, rms, in um'), &
         option_t('--tolerance', 'E', 'auto: largest error wanted (default 0.02)'), &
@@ -114,6 +118,10 @@ contains
                                                  case%resolution_limit, above=0)
         case%force_limit = option_number(command, '--force-limit', case%force_limit, above=0)
         numerics%yield_mpa = option_number(command, '--yield-MPa', numerics%yield_mpa, least=0)
+        numerics%wear%yield_shear_mpa = option_number(command, '--yield-shear-MPa', &
+                                                      numerics%wear%yield_shear_mpa, least=0)
+        if (given(command, '--wear')) &
+            call take_wear_law(option_text(command, '--wear', ''), numerics%wear)
         numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
                                          norm_starts)
     end subroutine take_method_options

@@ -11,6 +11,7 @@ module faststrip_command_methods
                                          method_name_length, most_strips, &
                                          most_points => most_rows
     use faststrip_contact_wanted, only: wanted_t
+    use faststrip_command_wear_figures, only: wear_choice_t
     implicit none
     private
 
@@ -39,6 +40,7 @@ module faststrip_command_methods
         integer :: max_elements = standard_max_elements !! of a grid, norm, tang
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
         type(wanted_t) :: wanted = wanted_t() !! of auto: target, tolerance, budget
+        type(wear_choice_t) :: wear      !! wear law and yield stress in shear, if there are any
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
         logical :: target_is_given = .false. !! else it is pmax where no forces are asked for
     end type numerics_t
@@ -67,6 +69,7 @@ contains
         call check_real('element_dy_mm', numerics%element_dy, .false.)
         call check_real('error_target', numerics%error_target, .true.)
         call check_real('yield_MPa', numerics%yield_mpa, .true.)
+        call check_real('yield_shear_MPa', numerics%wear%yield_shear_mpa, .true.)
         call check_real('smoothing_um', numerics%smoothing_um, .true.)
         call check_real('tolerance', numerics%wanted%tolerance, numerics%wanted%budget_us > 0.0_wp)
         call check_real('budget_us', numerics%wanted%budget_us, .true.)

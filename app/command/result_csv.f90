@@ -5,21 +5,25 @@ module faststrip_command_result_csv
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
-    use faststrip_command_console, only: put_origin
+    use faststrip_command_console, only: note, put_origin
+    use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: outcome_t
+    use faststrip_command_wear_figures, only: wear_choice_t, strip_wear_t, make_strip_wear
     implicit none
     private
 
-    public :: result_columns, put_result, put_strips, put_field, put_notes
+    public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(26) = [character(len=19) :: &
+    character(len=*), parameter :: result_columns(32) = [character(len=26) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
         'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
         'est_err_Mz', 'gap_change_um', &
-        'choice', 'strips_across']
+        'choice', 'strips_across', &
+        't_gamma_N', 't_gamma_spin_N', 't_gamma_per_area_N_per_mm2', 'fatigue_index', &
+        'wear_ug_per_m', 'wear_mm3_per_m']
 
 contains
 
@@ -73,34 +77,76 @@ contains
         else
             call put_cell(writer, '')
         end if
+        associate (figures => outcome%wear)
+            call put_cell(writer, figures%t_gamma, is_known=outcome%has_forces)
+            call put_cell(writer, figures%t_gamma_spin, is_known=outcome%has_forces)
+            call put_cell(writer, figures%t_gamma_per_area, is_known=outcome%has_forces)
+            call put_cell(writer, figures%fatigue_index, is_known=figures%knows_fatigue)
+            call put_cell(writer, figures%wear%mass, is_known=figures%knows_wear)
+            call put_cell(writer, figures%wear%volume, is_known=figures%knows_wear)
+        end associate
     end subroutine put_result
 
-    !> The comment lines on columns: what the friction power is, and that gaps are smoothed, if
-    !> they are.
-    subroutine put_notes(writer, smoothing_um)
+    !> The comment lines on columns: what the friction power and T gamma are, where a wear law is
+    !> from, and that gaps are smoothed, if they are.
+    subroutine put_notes(writer, numerics)
         type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
-        real(wp), intent(in) :: smoothing_um        !! noise that was stated, um; 0: none
+        type(numerics_t), intent(in) :: numerics    !! smoothing, wear
 
         call put_comment(writer, 'friction_power_N is the frictional work per distance rolled, ' &
                          // 'T gamma')
-        if (smoothing_um <= 0.0_wp) return
-        call put_comment(writer, 'gap smoothed for a noise of ' // trim(number_text(smoothing_um)) &
+        call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fy ceta|; t_gamma_spin_N adds ' &
+                         // '|Mz cphi|')
+        call put_wear_source(writer, numerics%wear)
+        if (numerics%smoothing_um <= 0.0_wp) return
+        call put_comment(writer, 'gap smoothed for a noise of ' &
+                         // trim(number_text(numerics%smoothing_um)) &
                          // ' um, rms; gap_change_um is by how much it changed, rms')
     end subroutine put_notes
 
+    !> Say on stderr why there is no wear, where a law was given and does not go as far.
+    subroutine note_wear(outcome, place)
+        type(outcome_t), intent(in) :: outcome !! solved
+        character(len=*), intent(in) :: place  !! which one it is, with what parts it; or empty
+
+        if (.not. allocated(outcome%wear%words)) return
+        if (len(outcome%wear%words) > 0) call note(place // outcome%wear%words)
+    end subroutine note_wear
+
+    !> Where a wear law is from, and whose wear it is, if there is one.
+    subroutine put_wear_source(writer, choice)
+        type(csv_writer_t), intent(inout) :: writer
+        type(wear_choice_t), intent(in) :: choice
+
+        if (choice%law%n == 0) return
+        if (choice%law%of_wheel) then
+            call put_comment(writer, 'wear of the wheel by ' // choice%file)
+        else
+            call put_comment(writer, 'wear of the rail by ' // choice%file)
+        end if
+        call put_comment(writer, 'its source: ' // choice%source)
+    end subroutine put_wear_source
+
     !> The strips of a contact, one row a strip.
-    subroutine put_strips(writer, case_name, strips, forces)
+    subroutine put_strips(writer, case_name, strips, forces, choice, radius)
         type(csv_writer_t), intent(inout) :: writer  !! an open file
         character(len=*), intent(in) :: case_name    !! for the column `case`
         type(contact_strips_t), intent(in) :: strips !! mm, MPa
         type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
+        type(wear_choice_t), intent(in) :: choice    !! wear law
+        real(wp), intent(in) :: radius               !! rolling radius, mm; 0: not known
 
+        type(strip_wear_t) :: wear
         integer :: k, j
 
+        call make_strip_wear(choice, strips, forces, radius, wear)
         call put_origin(writer)
-        call put_header(writer, [character(len=16) :: 'case', 'patch', 'strip', 'y_left_mm', &
+        call put_wear_source(writer, choice)
+        call put_header(writer, [character(len=26) :: 'case', 'patch', 'strip', 'y_left_mm', &
                                  'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N', &
-                                 'Fx_N', 'Fy_N', 'friction_power_N'])
+                                 'Fx_N', 'Fy_N', 'friction_power_N', &
+                                 't_gamma_per_area_N_per_mm2', 'wear_ug_per_m', &
+                                 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km'])
         do k = 1, strips%n
             associate (left => strips%y_left(k), right => strips%y_right(k), &
                        length => strips%half_length(k), p0 => strips%p0(k))
@@ -122,10 +168,27 @@ contains
                         call put_cell(writer, '')
                     end do
                 end if
+                call put_known(writer, wear%t_gamma_per_area, k)
+                call put_known(writer, wear%mass, k)
+                call put_known(writer, wear%pass_depth, k)
+                call put_known(writer, wear%depth_per_km, k)
                 call end_row(writer)
             end associate
         end do
     end subroutine put_strips
+
+    !> One of some numbers, or an empty cell where there are none.
+    subroutine put_known(writer, numbers, k)
+        type(csv_writer_t), intent(inout) :: writer
+        real(wp), allocatable, intent(in) :: numbers(:)
+        integer, intent(in) :: k
+
+        if (allocated(numbers)) then
+            call put_cell(writer, numbers(k))
+        else
+            call put_cell(writer, '')
+        end if
+    end subroutine put_known
 
     !> The elements of a contact, one row an element.
     subroutine put_field(writer, case_name, field)

@@ -20,6 +20,7 @@ module faststrip_command_solver
     use faststrip_command_stages, only: solver_t, outcome_t, solve_pressures, solve_forces, &
                                         estimate_figures
     use faststrip_command_tang_stage, only: release_tang_stage
+    use faststrip_command_wear_figures, only: find_wear_figures
     implicit none
     private
 
@@ -44,6 +45,8 @@ contains
             call reserve_contact_field(solver%field, core_methods(numerics), status)
         solver%with_strip_forces = .false.
         if (present(with_strip_forces)) solver%with_strip_forces = with_strip_forces
+        ! Wear is that of the strips.
+        if (numerics%wear%law%n > 0) solver%with_strip_forces = .true.
     end subroutine make_solver
 
     !> Give back what the compiler does not, of solvers in an array.
@@ -62,8 +65,12 @@ contains
         type(status_t), intent(out) :: status       !! an error, or a named limitation
 
         call solve_methods(solver, case, outcome, status)
-        if (.not. is_error(status)) &
-            call name_yield(solver%numerics%yield_mpa, outcome%normal%pmax, status)
+        if (is_error(status)) return
+        call name_yield(solver%numerics%yield_mpa, outcome%normal%pmax, status)
+        if (outcome%has_forces) &
+            call find_wear_figures(solver%numerics%wear, outcome%normal, outcome%tangential, &
+                                   solver%case%creepage, solver%workspace%strips, &
+                                   solver%strip_forces, outcome%wear)
     end subroutine solve
 
     !> The same without the limit of the user.

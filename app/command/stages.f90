@@ -24,6 +24,7 @@ module faststrip_command_stages
     use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_command_norm_stage, only: norm_stage_t, reserve_norm_stage, solve_by_norm, &
                                             take_rows
+    use faststrip_command_wear_figures, only: wear_figures_t
     use faststrip_command_tang_stage, only: tang_stage_t, solve_by_tang, estimate_by_tang
     implicit none
     private
@@ -59,6 +60,7 @@ module faststrip_command_stages
         type(certificate_t) :: certificate      !! how wrong the normal solution is
         logical :: forces_are_estimated = .false. !! do the errors of the forces count?
         type(force_errors_t) :: force_errors    !! how wrong the forces are
+        type(wear_figures_t) :: wear            !! T gamma, wear, fatigue, if there are forces
         real(wp) :: gap_change_um = 0.0_wp      !! rms change of the gap by smoothing, um
         real(wp) :: normal_us = 0.0_wp          !! wall-clock time of the normal problem, us; of
                                                 !! auto with all that was tried, and estimates

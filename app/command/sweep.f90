@@ -14,6 +14,7 @@ module faststrip_command_sweep
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_result_csv, only: note_wear
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
     private
@@ -91,6 +92,9 @@ contains
                     call solve(solver(m), prepared, outcome, status)
                 if (.not. is_error(status)) call name_spacing(spacing, status)
                 call put_sweep_row(writer, case, solver(m)%numerics, prepared, outcome, status)
+                if (.not. is_error(status)) &
+                    call note_wear(outcome, 'shift ' // trim(number_text(case%shifts(i))) &
+                                   // ' mm: ')
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &

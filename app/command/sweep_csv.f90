@@ -14,7 +14,7 @@ module faststrip_command_sweep_csv
 
     public :: put_sweep_header, put_sweep_row
 
-    character(len=*), parameter :: case_columns(9) = [character(len=19) :: &
+    character(len=*), parameter :: case_columns(9) = [character(len=len(result_columns)) :: &
         'case', 'yw_mm', 'normal', 'tangential', 'N_N', 'gamma_rad', 'cksi', 'ceta', &
         'cphi_rad_per_mm']
 
@@ -34,7 +34,7 @@ contains
             call tell(case%wheel%words)
             call tell(case%rail%words)
         end if
-        call put_notes(writer, case%numerics%smoothing_um)
+        call put_notes(writer, case%numerics)
         call put_header(writer, [case_columns, result_columns])
 
     contains

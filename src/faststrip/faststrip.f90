@@ -55,6 +55,11 @@ module faststrip
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           field_power, strip_forces_t, &
                                           reserve_strip_forces, state_adhesion, state_slip
+    use faststrip_tangential_wear_numbers, only: t_gamma, t_gamma_with_spin, &
+                                                 surface_fatigue_index, strip_areas, &
+                                                 strip_power_densities
+    use faststrip_tangential_wear_law, only: wear_law_t, wear_t, check_wear_law, find_wear_rate, &
+                                             find_strip_wear, wheel_depth_per_km, most_regimes
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &

@@ -28,6 +28,7 @@ module faststrip_files_csv_table
         type(csv_text_t), allocatable :: cells(:, :)  !! texts, (column, row)
         integer, allocatable :: line(:)               !! line of the file each row stands on
         type(csv_text_t), allocatable :: comments(:)  !! comment lines, without the `#`
+        integer, allocatable :: comment_line(:)       !! line of the file each stands on
     end type csv_table_t
 
     ! More cells than this are no table, or have no end: 1 GB in memory.
@@ -60,6 +61,7 @@ contains
 
         table%file = path
         allocate (table%names(0), table%cells(0, 0), table%line(0), table%comments(0))
+        allocate (table%comment_line(0))
     end subroutine empty_table
 
     subroutine read_rows(file, table, status)
@@ -81,7 +83,7 @@ contains
             line = trim_blanks(line)
             if (len(line) == 0) cycle
             if (line(1:1) == '#') then
-                call append_comment(table%comments, n_comments, trim_blanks(line(2:)))
+                call append_comment(table, n_comments, trim_blanks(line(2:)), file%line)
                 cycle
             end if
             call split_line(line, cells, table%file, file%line, status)
@@ -95,6 +97,7 @@ contains
             if (status%code /= 0) return
         end do
         table%comments = table%comments(:n_comments)
+        table%comment_line = table%comment_line(:n_comments)
         if (.not. has_header) then
             call set_place_status(status, st_file_format, &
                                   'column names must be given, got none', '', &
@@ -105,19 +108,24 @@ contains
         table%line = table%line(:table%n_rows)
     end subroutine read_rows
 
-    pure subroutine append_comment(comments, n, text)
-        type(csv_text_t), allocatable, intent(inout) :: comments(:)
+    pure subroutine append_comment(table, n, text, line)
+        type(csv_table_t), intent(inout) :: table
         integer, intent(inout) :: n
         character(len=*), intent(in) :: text
+        integer, intent(in) :: line
         type(csv_text_t), allocatable :: wider(:)
+        integer, allocatable :: more_lines(:)
 
-        if (n == size(comments)) then
-            allocate (wider(2*n + 8))
-            wider(:n) = comments
-            call move_alloc(wider, comments)
+        if (n == size(table%comments)) then
+            allocate (wider(2*n + 8), more_lines(2*n + 8))
+            wider(:n) = table%comments
+            more_lines(:n) = table%comment_line
+            call move_alloc(wider, table%comments)
+            call move_alloc(more_lines, table%comment_line)
         end if
         n = n + 1
-        comments(n)%text = text
+        table%comments(n)%text = text
+        table%comment_line(n) = line
     end subroutine append_comment
 
     subroutine take_header(table, cells, number, status)

@@ -40,8 +40,8 @@ contains
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'Kalker: NORM and TANG on about 30 elements across')
-        call put_header(writer, [[character(len=19) :: 'example', 'method', 'N_N', 'mu'], &
-                                 result_columns])
+        call put_header(writer, [[character(len=len(result_columns)) :: 'example', 'method', &
+                                  'N_N', 'mu'], result_columns])
         do i = 1, size(example_names)
             call read_example(folder, i, case, prepared)
             do m = 1, size(labels)
