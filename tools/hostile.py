@@ -59,9 +59,14 @@ CASE = ["&contact", "  name = 'gap'", "  gap_file = 'gap.csv'", "  load_N = 1e5"
 PROFILES = ["&contact", "  load_N = 1e5", "  shift_mm = 0", "/", "&wheel", "  profile = 'w.txt'",
             "/", "&rail", "  profile = 'uic60'", "/", "&material", "  mu = 0.3", "/", "&motion",
             "/"]
+WHEELSET = ["&wheel", "  profile = 'w.txt'", "  profile_left = 's1002'",
+            "  radius_left_mm = 459.5", "/", "&rail", "  profile = 'uic60'",
+            "  profile_left = '60e1'", "  rail_distance_mm = 1500", "/"]
+RADII = ["y_mm,delta_r_mm"] + [f"{y / 2},{(y / 8) ** 3 / 10 + y / 20}" for y in range(-20, 21)]
 POINTS = [f"{y} {abs(y) ** 1.5 / 100.0}" for y in range(-30, 31)]
 GOOD = {"gap.csv": text_of(gap_lines()), "case.nml": text_of(CASE), "prof.nml": text_of(PROFILES),
-        "w.txt": text_of(POINTS), "ok.csv": text_of([COLUMNS, ROW]), "kept.csv": "kept\n"}
+        "w.txt": text_of(POINTS), "set.nml": text_of(WHEELSET), "radii.csv": text_of(RADII),
+        "ok.csv": text_of([COLUMNS, ROW]), "kept.csv": "kept\n"}
 
 
 @dataclasses.dataclass
@@ -237,6 +242,29 @@ def profile_files(rng, i):
     return Try("profile files", words, codes=(1, 3), files={"w.txt": text}, may_pass=True)
 
 
+def conicities(rng, i):
+    lines = RADII[:]
+    at = rng.randrange(1, len(lines))
+    y, radius = lines[at].split(",")
+    if i % 4 == 0:
+        return Try("conicities", ["conicity", "set.nml", "--y-max", "4", "--y-step", "1"],
+                   files={"set.nml": mutated(rng, GOOD["set.nml"])}, may_pass=True)
+    if i % 4 == 1:
+        lines[at] = rng.choice([f"NaN,{radius}", f"{y},Inf", y, f"{y},{radius},1", "99,1", "-99,1",
+                                f"{y},\x1b[1m", f"{y},1e400", f"{y} 1,{radius}", ","])
+        lines.append("98,1e300")
+        return Try("conicities", ["conicity", "--delta-r", "radii.csv"],
+                   files={"radii.csv": text_of(lines)})
+    if i % 4 == 2:
+        return Try("conicities", ["conicity", "--delta-r", "radii.csv"],
+                   files={"radii.csv": mutated(rng, GOOD["radii.csv"])}, may_pass=True)
+    scale = rng.choice(["1e300", "1e-300", "-1", "0", "1e-320", "1e154"])
+    lines[1:] = [f"{y},{float(scale) * float(radius)}"
+                 for y, radius in (line.split(",") for line in lines[1:])]
+    return Try("conicities", ["conicity", "--delta-r", "radii.csv"],
+               files={"radii.csv": text_of(lines)}, may_pass=True)
+
+
 def batches(rng, i):
     names, cells = COLUMNS.split(","), ROW.split(",")
     kind = i % 8
@@ -281,7 +309,8 @@ BAD_VALUES = {"N": ["1.7", "0", "-1", "99999999999", "", "x", "1e3", "auto!", "\
               "NAME": ["", "guess", "STRIP", "strip ,hertz", "\x1b[2J", "strip\n", "x" * 5000],
               "PART": ["guess", ""], "FILE.csv": ["none.csv", "", "."]}
 SUBCOMMANDS = {"integral": ["--n", "1", "--b", "0.1"], "contact": ["case.nml"],
-               "batch": ["ok.csv"], "sweep": ["prof.nml"], "table": [], "fuzz": ["--cases", "2"],
+               "batch": ["ok.csv"], "sweep": ["prof.nml"], "conicity": ["set.nml"], "table": [],
+               "fuzz": ["--cases", "2"],
                "bench": ["integral"], "scenes": []}
 
 
@@ -504,9 +533,10 @@ def endless_work(rng, i):
 
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
-            "batches": (batches, 12), "options": (options, 16), "paths": (paths, 10),
-            "permissions": (permissions, 2), "special files": (special_files, 2),
-            "signals": (signals, 3), "endless work": (endless_work, 1)}
+            "conicities": (conicities, 8), "batches": (batches, 12), "options": (options, 16),
+            "paths": (paths, 10), "permissions": (permissions, 2),
+            "special files": (special_files, 2), "signals": (signals, 3),
+            "endless work": (endless_work, 1)}
 
 
 def snapshot(folder):

@@ -31,18 +31,26 @@ FILES = {
     "reference/contact/s1002_uic60_B.csv": reference_text(-1, 0, 1),
     "reference/contact/fields/shift_0_B.csv": grid_text(),
     "gap.csv": gap_text(),
+    "out/functions.csv": "# faststrip 0.1.0 rev abc\n# compiler\ny_mm,delta_r_mm,gamma_right_rad,"
+                         "gamma_left_rad,roll_rad\n"
+                         + "".join(f"{y},{0.1 * y},{-0.05 - 0.01 * y},{-0.05 + 0.01 * y},{roll}\n"
+                                   for y, roll in ((-2, 1e-3), (0, 0), (2, -1e-3))),
+    "out/conicity.csv": "# faststrip 0.1.0 rev abc\namplitude_mm,tan_gamma_e,regression,method\n"
+                        "1,0.05,0.04,klingel\n2,,,klingel\n3,0.06,0.07,klingel\n",
 }
 PICTURES = {
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
     "overview": ("out/overview.png",),
+    "conicity": ("out/conicity.png",),
 }
 COLUMNS = {
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
     "sweep": ("out/sweep.csv", "Mz_Nmm"),
     "overview": ("out/fields_shift_0.csv", "pn_MPa"),
+    "conicity": ("out/functions.csv", "delta_r_mm"),
 }
 
 
