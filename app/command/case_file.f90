@@ -7,6 +7,7 @@ module faststrip_command_case_file
     use faststrip_base_creepage, only: creepage_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
+    use faststrip_command_case_friction, only: read_friction_group
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, shape_t, &
                                                beside, path_length
     use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &
@@ -35,7 +36,7 @@ module faststrip_command_case_file
     character(len=name_length), parameter :: material_names(*) = [character(len=name_length) :: &
         'E_wheel_MPa', 'E_rail_MPa', 'nu_wheel', 'nu_rail', 'mu']
     character(len=name_length), parameter :: motion_names(*) = [character(len=name_length) :: &
-        'creepage', 'sign_set', 'cksi', 'ceta', 'cphi_rad_per_mm']
+        'creepage', 'sign_set', 'cksi', 'ceta', 'cphi_rad_per_mm', 'speed_mm_s']
     character(len=name_length), parameter :: numerics_names(*) = [character(len=name_length) :: &
         'normal', 'tangential', 'strips_per_patch', 'points_per_strip', &
         'fastsim_nx', 'fastsim_ny', 'gap_step_mm', 'gap_height_mm', 'smoothing_um', &
@@ -85,6 +86,7 @@ contains
         call read_wheel_group(content, from_profiles, case%wheelset, case%wheel)
         call read_rail_group(content, from_profiles, case%track, case%rail)
         call read_motion_group(content, from_profiles, case)
+        call read_friction_group(content, case%mu, from_profiles, case%friction)
         call read_numerics_group(content, case)
         call read_sweep_group(content, case)
     end subroutine read_case
@@ -184,8 +186,8 @@ contains
 
         character(len=word_length) :: creepage
         character(len=word_length) :: sign_set
-        real(wp) :: cksi, ceta, cphi_rad_per_mm
-        namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm
+        real(wp) :: cksi, ceta, cphi_rad_per_mm, speed_mm_s
+        namelist /motion/ creepage, sign_set, cksi, ceta, cphi_rad_per_mm, speed_mm_s
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code
@@ -195,6 +197,7 @@ contains
         cksi = 0.0_wp
         ceta = 0.0_wp
         cphi_rad_per_mm = 0.0_wp
+        speed_mm_s = unset()
         call find_group(content, 'motion', .true., group)
         do
             call next_lines(content, group, reading)
@@ -206,6 +209,10 @@ contains
         call need_finite(content, group, 'ceta', ceta)
         call need_finite(content, group, 'cphi_rad_per_mm', cphi_rad_per_mm)
         case%creepage = creepage_t(cksi, ceta, cphi_rad_per_mm)
+        if (sets(content, group, 'speed_mm_s')) then
+            call need_positive(content, group, 'speed_mm_s', speed_mm_s)
+            case%friction%speed = speed_mm_s
+        end if
         case%creepage_by_formula = creepage == 'formula'
         if (creepage /= 'formula' .and. creepage /= 'given') &
             call refuse(content, group, 'creepage', 'must be formula or given', creepage)

@@ -16,7 +16,7 @@ module faststrip_command_case_values
 
     !> The groups of a case file.
     character(len=*), parameter :: case_groups(*) = [character(len=8) :: &
-        'contact', 'material', 'wheel', 'rail', 'motion', 'numerics', 'sweep']
+        'contact', 'material', 'wheel', 'rail', 'motion', 'friction', 'numerics', 'sweep']
 
 contains
 

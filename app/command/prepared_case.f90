@@ -4,6 +4,7 @@ module faststrip_command_prepared_case
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_at_angle
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_gap, only: gap_t
@@ -53,6 +54,7 @@ contains
             call clear_rigid_contact(case, prepared)
             return
         end if
+        prepared%mu = friction_at_angle(case%friction, case%mu, prepared%rigid_contact%gamma)
         if (case%load_is_vertical) &
             prepared%load = contact_force(case%load, prepared%rigid_contact%gamma)
         if (case%creepage_by_formula) prepared%creepage = &

@@ -1,5 +1,6 @@
 !> Kalker's variational method as the tangential method of one contact: outside the embeddable core.
 module faststrip_command_tang_stage
+    use faststrip_base_friction, only: falls, softened
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, message_length, st_under_resolved
     use faststrip_base_text, only: integer_text
@@ -16,7 +17,7 @@ module faststrip_command_tang_stage
     use faststrip_command_system, only: set_detail
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_norm, normal_hertz
-    use faststrip_contact_solve, only: workspace_t, add_shape_errors
+    use faststrip_contact_solve, only: workspace_t, add_shape_errors, name_falling_friction
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_norm_stage, only: norm_stage_t
     implicit none
@@ -88,6 +89,10 @@ contains
         character(len=message_length) :: words
 
         is_estimated = .false.
+        if (falls(case%friction)) then
+            call name_falling_friction(status)
+            return
+        end if
         if (numerics%normal == normal_norm) then
             call solve_on_grid(stage%coarse_workspace, norm%workspace%coarse, edges_of_norm, &
                                case, .false., coarse, no_field, estimate)
@@ -157,11 +162,11 @@ contains
         call set_detail('tang: ' // integer_text(elements) // ' elements in contact')
         if (with_field) then
             if (elements > size(field%x)) call reserve_field(field, elements, status)
-            call tang_solve(workspace, grid, case%material, case%mu, &
-                            case%creepage, options, tangential, status, field)
+            call tang_solve(workspace, grid, softened(case%material, case%friction), case%mu, &
+                            case%creepage, options, tangential, status, field, case%friction)
         else
-            call tang_solve(workspace, grid, case%material, case%mu, &
-                            case%creepage, options, tangential, status)
+            call tang_solve(workspace, grid, softened(case%material, case%friction), case%mu, &
+                            case%creepage, options, tangential, status, friction=case%friction)
         end if
     end subroutine solve_on_grid
 end module faststrip_command_tang_stage

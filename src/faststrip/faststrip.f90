@@ -19,6 +19,9 @@ module faststrip
     use faststrip_base_material, only: material_t, check_material, normal_compliance, &
                                        combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t, check_friction, friction_at_angle, &
+                                       falling_share, softened, friction_constant, &
+                                       friction_linear, friction_rational, friction_exponential
     use faststrip_influence_closed, only: influence_primitive, influence_primitive_slope, &
                                           strip_influence, strip_influence_edges
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
@@ -72,7 +75,7 @@ module faststrip
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name, method_name_length, &
-                                         gives_elements, gives_stick
+                                         gives_elements, gives_stick, takes_falling
     ! BEGIN methods, written by tools/methods.py
     use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_equal_area, &
                                          normal_equal_moments, normal_norm, normal_auto, &

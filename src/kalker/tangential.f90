@@ -10,6 +10,11 @@
 !> the slip is then at the trailing edge, in less than an element: in the mean of 110 contacts 15 %
 !> with 18 elements across, 9 % with 36.
 !>
+!> Friction that falls with slip is found by repetition: a bound of each element's slip, tractions
+!> under it, and so on, until the bound stays. The first slip is that of the static coefficient. The
+!> half-space takes the slip as it is, other than FASTSIM (its F2), for its short waves are stiffer
+!> than its long ones; where a fall is too steep the repetition does not end, and that is said.
+!>
 !> Needs FFTW, and is for program, tests and reports only (`faststrip_kalker_convolution`).
 module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -19,6 +24,7 @@ module faststrip_kalker_tangential
                                      st_no_convergence, st_not_finite, st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
     use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_motion, only: check_motion
@@ -53,6 +59,14 @@ module faststrip_kalker_tangential
     real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
     ! Tuned [1]: tolerances outside are refused. Origin: rounding; chosen.
     real(wp), parameter :: least_tolerance = 1.0e-12_wp, largest_tolerance = 0.1_wp
+    ! Tuned [1]: Change of the bounds, over all of them, at which falling friction is found. Origin:
+    ! far below the errors of any grid.
+    real(wp), parameter :: settled = 1.0e-5_wp
+    ! Tuned [passes]: Most of them. Origin: safeguard.
+    integer, parameter :: most_passes = 60
+    ! Tuned [passes]: Passes that take all of the new bound; later ones the mean with the last.
+    ! Origin: chosen against elements that swing between adhesion and slip.
+    integer, parameter :: free_passes = 6
     ! Tuned [1]: sides of elements beyond this proportion are refused. Origin: safeguard.
     real(wp), parameter :: largest_ratio = 1.0e6_wp
 
@@ -79,8 +93,10 @@ module faststrip_kalker_tangential
         integer :: steps = 0          !! of Newton's method
         integer :: products = 0       !! applications of the influence
         real(wp) :: residual = 0.0_wp !! of Coulomb's law over that without tractions
+        integer :: passes = 0         !! solutions under a bound, more than one if friction falls
         type(problem_t), private :: problem
         type(newton_t), private :: newton
+        real(wp), allocatable, private :: bound(:) ! of the tractions, MPa
         logical, private :: is_solved = .false.
     end type tang_workspace_t
 
@@ -100,7 +116,8 @@ contains
     !> slip: their coupling is not built), `st_no_contact`, `st_out_of_range` (more elements in
     !> contact than allowed; sizes beyond all proportion), `st_workspace_too_small` (the field, no
     !> memory), `st_no_convergence`.
-    subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, field)
+    subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, &
+                          field, friction)
         type(tang_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid        !! pressures in MPa; heights do not count
         type(material_t), intent(in) :: material        !! moduli in MPa
@@ -113,15 +130,23 @@ contains
         type(status_t), intent(out) :: status           !! how it ended
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs capacity for the elements in contact
+        type(friction_t), intent(in), optional :: friction
+            !! how mu falls with slip, in rolling; its other parts do not count here
 
-        integer :: attempt
+        type(friction_t) :: law
 
         workspace%elements = 0
         workspace%steps = 0
         workspace%products = 0
         workspace%residual = 0.0_wp
+        workspace%passes = 0
+        if (present(friction)) law = friction
         call check_motion(mu, creepage, status)
+        if (.not. is_error(status)) call check_friction(law, status)
         if (.not. is_error(status)) call check_options(options, status)
+        if (.not. is_error(status) .and. falls(law) .and. options%motion /= motion_rolling) &
+            call set_status(status, st_bad_argument, 'friction that falls with slip is for ' // &
+                            'rolling, not for a shift')
         if (.not. is_error(status)) call check_bodies(material, status)
         if (.not. is_error(status)) call check_grid(grid, status)
         if (is_error(status)) return
@@ -146,29 +171,98 @@ contains
             call slide_freely(workspace%newton, workspace%problem)
             workspace%is_solved = .false.
         else
-            do attempt = 1, size(scalings)
-                if (.not. workspace%is_solved) workspace%newton%p = 0.0_wp
-                workspace%is_solved = .false.
-                call solve_newton(workspace%newton, workspace%problem, mu, &
-                                  options%sticks_everywhere, scalings(attempt), &
-                                  options%tolerance, options%max_steps)
-                workspace%steps = workspace%steps + workspace%newton%steps
-                if (workspace%newton%is_converged) exit
-            end do
-            workspace%residual = workspace%newton%residual
-            workspace%products = workspace%newton%products
-            if (.not. workspace%newton%is_converged) then
-                call set_status(status, st_no_convergence, 'the tractions did not converge: ' // &
-                                'residual '//number_text(workspace%residual))
-                return
-            end if
-            workspace%is_solved = .true.
+            call find_tractions(workspace, mu, law, options, status)
+            if (is_error(status)) return
         end if
         call add_up(workspace%newton, workspace%problem, result, field)
         if (options%motion == motion_rolling) result%friction_power = &
             max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi), &
                 0.0_wp)
     end subroutine tang_solve
+
+    !> Tractions under a bound that may fall with their slip.
+    subroutine find_tractions(workspace, mu, friction, options, status)
+        type(tang_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: mu
+        type(friction_t), intent(in) :: friction
+        type(tang_options_t), intent(in) :: options
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: change
+
+        associate (problem => workspace%problem, n => workspace%problem%n)
+            if (allocated(workspace%bound)) then
+                if (size(workspace%bound) < n) deallocate (workspace%bound)
+            end if
+            if (.not. allocated(workspace%bound)) allocate (workspace%bound(n), source=0.0_wp)
+            workspace%bound(:n) = mu*problem%pn(:n)
+        end associate
+        do
+            workspace%passes = workspace%passes + 1
+            call find_tractions_under(workspace, options, status)
+            if (is_error(status) .or. .not. falls(friction) .or. options%sticks_everywhere) return
+            call follow_slip(workspace, mu, friction, change)
+            if (change <= settled) return
+            if (workspace%passes >= most_passes) then
+                workspace%is_solved = .false.
+                call set_status(status, st_no_convergence, 'friction falls so steeply with ' // &
+                                'slip that none was found that stays: the bound changes by ' // &
+                                number_text(change))
+                return
+            end if
+        end do
+    end subroutine find_tractions
+
+    !> Tractions under a bound.
+    subroutine find_tractions_under(workspace, options, status)
+        type(tang_workspace_t), intent(inout) :: workspace
+        type(tang_options_t), intent(in) :: options
+        type(status_t), intent(inout) :: status
+
+        integer :: attempt
+
+        do attempt = 1, size(scalings)
+            if (.not. workspace%is_solved) workspace%newton%p = 0.0_wp
+            workspace%is_solved = .false.
+            call solve_newton(workspace%newton, workspace%problem, workspace%bound, &
+                              options%sticks_everywhere, scalings(attempt), &
+                              options%tolerance, options%max_steps)
+            workspace%steps = workspace%steps + workspace%newton%steps
+            if (workspace%newton%is_converged) exit
+        end do
+        workspace%residual = workspace%newton%residual
+        workspace%products = workspace%newton%products
+        if (.not. workspace%newton%is_converged) then
+            call set_status(status, st_no_convergence, 'the tractions did not converge: ' // &
+                            'residual '//number_text(workspace%residual))
+            return
+        end if
+        workspace%is_solved = .true.
+    end subroutine find_tractions_under
+
+    !> The bound of the slip that was found; the next pass has a part of it.
+    subroutine follow_slip(workspace, mu, friction, change)
+        type(tang_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: mu
+        type(friction_t), intent(in) :: friction
+        real(wp), intent(out) :: change ! over all bounds
+
+        real(wp) :: difference, part, squares
+        integer :: i
+
+        part = merge(1.0_wp, 0.5_wp, workspace%passes <= free_passes)
+        change = 0.0_wp
+        squares = 0.0_wp
+        do i = 1, workspace%problem%n
+            difference = mu*workspace%problem%pn(i) &
+                         *falling_share(friction, norm2(workspace%newton%slip(:, i))) &
+                         - workspace%bound(i)
+            change = change + difference**2
+            squares = squares + workspace%bound(i)**2
+            workspace%bound(i) = workspace%bound(i) + part*difference
+        end do
+        change = sqrt(change/squares)
+    end subroutine follow_slip
 
     !> Give back what the compiler does not: plans of workspaces in an array.
     subroutine release_tang(workspace)

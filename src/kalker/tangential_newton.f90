@@ -85,10 +85,11 @@ contains
     end subroutine size_newton
 
     !> Solve a problem, from the tractions in `newton%p`.
-    subroutine solve_newton(newton, problem, mu, sticks_everywhere, scaling, tolerance, max_steps)
+    subroutine solve_newton(newton, problem, bound, sticks_everywhere, scaling, tolerance, &
+                            max_steps)
         type(newton_t), intent(inout) :: newton  !! sized; `is_converged` tells
         type(problem_t), intent(inout) :: problem !! made
-        real(wp), intent(in) :: mu               !! coefficient of friction, > 0
+        real(wp), intent(in) :: bound(:)         !! of the traction of each element, >= 0, MPa
         logical, intent(in) :: sticks_everywhere !! is friction without a bound?
         real(wp), intent(in) :: scaling          !! r times the own compliance of an element
         real(wp), intent(in) :: tolerance        !! of `residual`
@@ -101,7 +102,7 @@ contains
         do i = 1, n
             newton%r(i) = 2.0_wp*scaling/sum(problem%own_row(:, 0) + problem%edge(:, i))
         end do
-        newton%bound = mu*problem%pn(:n)
+        newton%bound = bound(:n)
         newton%is_converged = .false.
         newton%steps = 0
         newton%is_carried = .false.

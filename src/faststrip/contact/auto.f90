@@ -11,8 +11,10 @@
 module faststrip_contact_auto
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
+    use faststrip_base_friction, only: falls, softened
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_workspace_too_small, st_more_strips, st_fewer_strips
+                                     st_bad_argument, st_workspace_too_small, st_more_strips, &
+                                     st_fewer_strips
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap_curve, only: gap_curve_t, set_gap_curve, copy_gap_curve
     use faststrip_normal_certificate, only: certificate_t
@@ -25,7 +27,8 @@ module faststrip_contact_auto
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_strip, &
                                          normal_hertz, tangential_none, tangential_faststrip
     use faststrip_contact_solve, only: workspace_t, contact_result_t, solve_contact_normal, &
-                                       solve_contact_tangential, estimate_contact_forces
+                                       solve_contact_tangential, estimate_contact_forces, &
+                                       check_contact_friction
     use faststrip_contact_target, only: target_error, name_target, unknown_error
     use faststrip_contact_wanted, only: wanted_t, check_wanted, needs_forces, margin, &
                                         others_across, others_time
@@ -183,7 +186,15 @@ contains
             call check_resolution(case%resolution_limit, 'the resolution limit', status)
         if (.not. is_error(status)) &
             call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
+        if (.not. is_error(status)) &
+            call check_contact_friction(case, case%methods%tangential, status)
         if (is_error(status)) return
+        if (falls(case%friction) .and. needs_forces(wanted%target)) then
+            call set_status(status, st_bad_argument, 'normal method auto estimates no errors ' // &
+                            'of forces where friction falls with slip: the target must be ' // &
+                            'pmax, penetration or area')
+            return
+        end if
         is_reserved = allocated(workspace%best_strips%p0) .and. allocated(workspace%strips%p0)
         if (is_reserved) is_reserved = size(workspace%strips%p0) >= size(workspace%best_strips%p0)
         if (.not. is_reserved) call set_status(status, st_workspace_too_small, &
@@ -200,6 +211,7 @@ contains
         search%case%demand_t = case%demand_t
         search%case%material = case%material
         search%case%mu = case%mu
+        search%case%friction = case%friction
         search%case%creepage = case%creepage
         ! What is under resolved for the target is told in the end.
         search%case%resolution_limit = huge(1.0_wp)
@@ -511,8 +523,9 @@ contains
 
         asked = search%last
         call clear_status(status)
-        call estimate_force_errors(workspace%strips, search%case%material, search%case%mu, &
-                                   search%case%creepage, errors_of_fitted, &
+        call estimate_force_errors(workspace%strips, &
+                                   softened(search%case%material, search%case%friction), &
+                                   search%case%mu, search%case%creepage, errors_of_fitted, &
                                    max(search%wanted%most_strips, least_points), &
                                    certificate_t(), asked%force_errors, status, &
                                    search%wanted%most_strips/search%before%across)

@@ -4,6 +4,7 @@ module faststrip_contact_case
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_limitations, only: default_resolution
     use faststrip_normal_types, only: demand_t
@@ -19,7 +20,8 @@ module faststrip_contact_case
         type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
         type(material_t) :: material       !! moduli in MPa
         ! Tuned [1]. Origin: usual for dry rails.
-        real(wp) :: mu = 0.3_wp            !! coefficient of friction
+        real(wp) :: mu = 0.3_wp            !! coefficient of friction, the static one
+        type(friction_t) :: friction       !! how it falls with slip, factor of the initial slope
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one

@@ -10,7 +10,7 @@ module faststrip_contact_methods
     public :: contact_methods_t, check_contact_methods, normal_method, tangential_method
     public :: normal_method_name, tangential_method_name, method_name_length
     public :: method_t, normal_table, tangential_table
-    public :: gives_elements, gives_stick
+    public :: gives_elements, gives_stick, takes_falling
     public :: most_strips, most_rows
 
     !> Length of a method's name, characters.
@@ -26,6 +26,7 @@ module faststrip_contact_methods
         logical :: in_core = .true.                   !! is it in the embeddable core?
         logical :: gives_elements = .true.            !! tractions, or forces only?
         logical :: gives_stick = .true.               !! how much of the contact sticks?
+        logical :: takes_falling = .false.            !! friction that falls with slip?
     end type method_t
 
     ! Numbers of the methods, from the tables below; written by tools/methods.py.
@@ -95,17 +96,17 @@ module faststrip_contact_methods
 
     !> The tangential methods, in the order that people see.
     type(method_t), parameter :: tangential_table(*) = [ &
-        method_t(1, 'faststrip', needs='strips', &
+        method_t(1, 'faststrip', needs='strips', takes_falling=.true., &
                  help='marching in the strips: the best fast one'), &
-        method_t(11, 'faststrip-plain', needs='strips', &
+        method_t(11, 'faststrip-plain', needs='strips', takes_falling=.true., &
                  help='FASTSTRIP without its correction'), &
         method_t(3, 'faststrip-paper', needs='strips', help='TFASTSTRIP as printed'), &
         method_t(4, 'faststrip-corrected', needs='strips', help='TFASTSTRIP as corrected'), &
-        method_t(2, 'fastsim', needs='ellipses', &
+        method_t(2, 'fastsim', needs='ellipses', takes_falling=.true., &
                  help='Kalker''s FASTSIM on the patches'' ellipses'), &
-        method_t(5, 'fastsim-elliptic', needs='ellipses', &
+        method_t(5, 'fastsim-elliptic', needs='ellipses', takes_falling=.true., &
                  help='FASTSIM with the elliptic traction bound'), &
-        method_t(6, 'fastsim-weighted', needs='ellipses', &
+        method_t(6, 'fastsim-weighted', needs='ellipses', takes_falling=.true., &
                  help='FASTSIM with a single flexibility'), &
         method_t(7, 'linear', needs='ellipses', gives_elements=.false., &
                  help='Kalker''s linear theory'), &
@@ -113,9 +114,9 @@ module faststrip_contact_methods
                  help='Shen, Hedrick and Elkins'), &
         method_t(9, 'polach', needs='ellipses', gives_elements=.false., gives_stick=.false., &
                  help='Polach'), &
-        method_t(10, 'tang', needs='FFTW', in_core=.false., &
+        method_t(10, 'tang', needs='FFTW', in_core=.false., takes_falling=.true., &
                  help='TANG, Kalker''s variational method: the reference'), &
-        method_t(0, 'none', help='no forces')]
+        method_t(0, 'none', takes_falling=.true., help='no forces')]
 
     !> Most strips per patch.
     !> Tuned [strips]. Origin: capacity.
@@ -230,6 +231,13 @@ contains
 
         gives_stick = any(tangential_table%number == method .and. tangential_table%gives_stick)
     end function gives_stick
+
+    !> Does a tangential method take friction that falls with slip?
+    elemental logical function takes_falling(method)
+        integer, intent(in) :: method !! one of the `tangential_` numbers
+
+        takes_falling = any(tangential_table%number == method .and. tangential_table%takes_falling)
+    end function takes_falling
 
     !> The row of a number; number -1 if there is none.
     pure type(method_t) function row_of(table, number) result(row)

@@ -10,7 +10,8 @@ module faststrip_contact_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument, st_under_resolved, &
                                      st_workspace_too_small
-    use faststrip_base_material, only: check_material, normal_compliance
+    use faststrip_base_friction, only: check_friction, falls, softened
+    use faststrip_base_material, only: material_t, check_material, normal_compliance
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
@@ -50,7 +51,7 @@ module faststrip_contact_solve
                                          tangential_fastsim_elliptic, &
                                          tangential_fastsim_weighted, tangential_linear, &
                                          tangential_she, tangential_polach, gives_elements, &
-                                         tangential_method_name
+                                         takes_falling, tangential_method_name
     implicit none
     private
 
@@ -58,6 +59,7 @@ module faststrip_contact_solve
     public :: reserve_workspace, reserve_contact_field, set_contact_gap
     public :: solve_contact, solve_contact_normal, solve_contact_tangential
     public :: estimate_contact_errors, estimate_contact_forces, add_shape_errors
+    public :: check_contact_friction, name_falling_friction
     public :: most_gap_points
 
     ! Strips of a Hertz ellipse where the number is left to the solver.
@@ -329,9 +331,15 @@ contains
         real(wp), intent(in), optional :: finer
 
         type(status_t) :: estimate
+        type(material_t) :: material
         integer :: method, points
 
         is_estimated = .false.
+        if (case%methods%tangential == tangential_none) return
+        if (falls(case%friction)) then
+            call name_falling_friction(status)
+            return
+        end if
         points = case%methods%points_per_strip
         select case (case%methods%tangential)
         case (tangential_faststrip)
@@ -344,19 +352,43 @@ contains
         case default
             return
         end select
+        material = softened(case%material, case%friction)
         if (workspace%solved_by == normal_hertz) then
             ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
-            call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
+            call estimate_force_errors(workspace%strips, material, case%mu, case%creepage, &
                                        method, points, certificate_t(), errors, estimate, finer)
             if (.not. is_error(estimate)) call add_shape_errors(workspace, case, errors, estimate)
         else
-            call estimate_force_errors(workspace%strips, case%material, case%mu, case%creepage, &
+            call estimate_force_errors(workspace%strips, material, case%mu, case%creepage, &
                                        method, points, certificate, errors, estimate, finer)
         end if
         is_estimated = .not. is_error(estimate)
         if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
                                                      case%force_limit, status)
     end subroutine estimate_forces
+
+    !> Name that no error of forces is estimated where friction falls with slip: what the estimates
+    !> were calibrated on has constant friction.
+    pure subroutine name_falling_friction(status)
+        type(status_t), intent(inout) :: status !! limitations so far; `st_under_resolved`
+
+        call add_limitation(status, st_under_resolved, 'no error of the forces can be ' // &
+                            'estimated: friction falls with slip')
+    end subroutine name_falling_friction
+
+    !> Refuse friction that is none, and friction that falls with slip where the method cannot do.
+    pure subroutine check_contact_friction(case, method, status)
+        type(contact_case_t), intent(in) :: case !! its friction counts
+        integer, intent(in) :: method            !! one of the `tangential_` numbers
+        type(status_t), intent(out) :: status    !! those of `check_friction`; `st_bad_argument`
+
+        call check_friction(case%friction, status)
+        if (is_error(status)) return
+        if (falls(case%friction) .and. .not. takes_falling(method)) &
+            call set_status(status, st_bad_argument, trim(tangential_method_name(method)) // &
+                            ' takes no friction that falls with slip; faststrip, fastsim and ' // &
+                            'tang do')
+    end subroutine check_contact_friction
 
     !> Add to the errors of forces on the workspace's Hertz ellipse what its shape is wrong by.
     pure subroutine add_shape_errors(workspace, case, errors, status)
@@ -365,8 +397,9 @@ contains
         type(force_errors_t), intent(inout) :: errors !! of a method on the ellipse
         type(status_t), intent(inout) :: status       !! that of `kalker_coefficients`
 
-        call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), case%material, case%mu, &
-                              case%creepage, errors, status)
+        call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), &
+                              softened(case%material, case%friction), case%mu, case%creepage, &
+                              errors, status)
     end subroutine add_shape_errors
 
     subroutine solve_normal(workspace, case, normal, certificate, is_estimated, status, curve)
@@ -533,6 +566,8 @@ contains
 
         call check_contact_methods(case%methods, status)
         if (is_error(status)) return
+        call check_contact_friction(case, case%methods%tangential, status)
+        if (is_error(status)) return
         if (workspace%solved_by == 0) then
             call set_status(status, st_bad_argument, 'no normal solution in the workspace')
             return
@@ -546,28 +581,33 @@ contains
                 return
             end if
         end if
-        associate (methods => case%methods)
+        associate (methods => case%methods, material => softened(case%material, case%friction))
             select case (methods%tangential)
             case (tangential_none)
                 call clear_status(status)
             case (tangential_faststrip, tangential_faststrip_plain)
                 call faststrip_tangential_solve( &
-                    workspace%strips, case%material, case%mu, case%creepage, &
+                    workspace%strips, material, case%mu, case%creepage, &
                     methods%points_per_strip, tangential, status, field, per_strip, &
-                    with_fit=methods%tangential == tangential_faststrip)
+                    methods%tangential == tangential_faststrip, case%friction)
             case (tangential_faststrip_paper)
-                call paper_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                call paper_solve(workspace%strips, material, case%mu, case%creepage, &
                                  methods%points_per_strip, tangential, status, field)
             case (tangential_faststrip_corrected)
-                call corrected_solve(workspace%strips, case%material, case%mu, case%creepage, &
+                call corrected_solve(workspace%strips, material, case%mu, case%creepage, &
                                      methods%points_per_strip, tangential, status, field)
             case (tangential_fastsim)
-                call solve_fastsim(workspace, case, fastsim_variant_t(), tangential, status, field)
+                call solve_fastsim(workspace, case, fastsim_variant_t(friction=case%friction), &
+                                   tangential, status, field)
             case (tangential_fastsim_elliptic)
-                call solve_fastsim(workspace, case, fastsim_variant_t(elliptic_bound=.true.), &
+                call solve_fastsim(workspace, case, &
+                                   fastsim_variant_t(elliptic_bound=.true., &
+                                                     friction=case%friction), &
                                    tangential, status, field)
             case (tangential_fastsim_weighted)
-                call solve_fastsim(workspace, case, fastsim_variant_t(single_flexibility=.true.), &
+                call solve_fastsim(workspace, case, &
+                                   fastsim_variant_t(single_flexibility=.true., &
+                                                     friction=case%friction), &
                                    tangential, status, field)
             case (tangential_linear)
                 call solve_law(workspace, case, law_linear, tangential, status)
@@ -588,14 +628,14 @@ contains
         type(status_t), intent(out) :: status
         type(tangential_field_t), intent(inout), optional :: field
 
-        associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
+        associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny, &
+                   material => softened(case%material, case%friction))
             if (workspace%solved_by == normal_hertz) then
-                call fastsim_solve(workspace%hertz, case%material, case%mu, case%creepage, nx, &
-                                   ny, tangential, status, field, variant)
+                call fastsim_solve(workspace%hertz, material, case%mu, case%creepage, nx, ny, &
+                                   tangential, status, field, variant)
             else
-                call fastsim_strips_solve(workspace%strips, case%material, case%mu, &
-                                          case%creepage, nx, ny, tangential, status, field, &
-                                          variant)
+                call fastsim_strips_solve(workspace%strips, material, case%mu, case%creepage, nx, &
+                                          ny, tangential, status, field, variant)
             end if
         end associate
     end subroutine solve_fastsim
@@ -609,11 +649,11 @@ contains
         type(status_t), intent(out) :: status
 
         if (workspace%solved_by == normal_hertz) then
-            call law_solve(law, workspace%hertz, case%material, case%mu, case%creepage, &
-                           tangential, status)
+            call law_solve(law, workspace%hertz, softened(case%material, case%friction), case%mu, &
+                           case%creepage, tangential, status)
         else
-            call law_strips_solve(law, workspace%strips, case%material, case%mu, case%creepage, &
-                                  tangential, status)
+            call law_strips_solve(law, workspace%strips, softened(case%material, case%friction), &
+                                  case%mu, case%creepage, tangential, status)
         end if
     end subroutine solve_law
 

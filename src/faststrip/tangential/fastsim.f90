@@ -28,6 +28,14 @@
 !>
 !>     c = sqrt(ab): slip is then parallel to the traction, and the linear forces are Kalker's for
 !>     one creepage at a time only.
+!>
+!> And a bound that falls with slip (`faststrip_base_friction`), along with either:
+!>
+!> - **F2** The coefficient is that of the slip which there would be if it were still the one of the
+!>   element ahead: what springs of the bedding give back by its fall is no cause of a further fall.
+!>   On a bedding of springs a coefficient that is given by all of the slip has no solution that
+!>   grids agree on (CONTACT has a friction memory for that); this one needs no iteration, is unique
+!>   and converges. Particles enter with the static value; one that sticks again keeps what it has.
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
@@ -37,6 +45,7 @@ module faststrip_tangential_fastsim
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
     use faststrip_normal_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
@@ -61,6 +70,8 @@ module faststrip_tangential_fastsim
     type :: fastsim_variant_t
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
+        type(friction_t) :: friction
+            !! how the bound falls with slip; its other parts do not count here
     end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
@@ -99,6 +110,8 @@ contains
         type(kalker_coefficients_t) :: c
 
         call check_input(mu, creepage, nx, ny, 1, status, field)
+        if (is_error(status)) return
+        if (present(variant)) call check_friction(variant%friction, status)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -160,7 +173,7 @@ contains
                             ' coefficients beyond all proportion')
         else
             call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
-                             creepage, nx, ny, fastsim_variant_t(), result, areas, field)
+                             creepage, nx, ny, chosen(), result, areas, field)
             result%stick_fraction = areas%stuck/areas%covered
         end if
     end subroutine fastsim_coefficients_solve
@@ -191,6 +204,8 @@ contains
         call check_strips(strips, status)
         if (is_error(status)) return
         call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
+        if (is_error(status)) return
+        if (present(variant)) call check_friction(variant%friction, status)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -253,8 +268,9 @@ contains
 
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
         real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
-        real(wp) :: ahead_x, ahead_y
+        real(wp) :: ahead_x, ahead_y, left, fall
         integer :: i, j, state
+        logical :: is_falling
 
         a = ellipse%a
         b = ellipse%b
@@ -272,6 +288,7 @@ contains
             l3 = l1
         end if
         peak_bound = mu*ellipse%load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
+        is_falling = falls(variant%friction)
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -281,6 +298,7 @@ contains
             slope_x = cksi/l1 - y*creepage%cphi/l3
             px = 0.0_wp
             py = 0.0_wp
+            left = 1.0_wp
             do j = 1, nx
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
@@ -290,6 +308,7 @@ contains
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
                 bound = peak_bound*merge(sqrt(place), place, variant%elliptic_bound)
+                if (is_falling) bound = left*bound
                 size_squared = px*px + py*py
                 sx = 0.0_wp
                 sy = 0.0_wp
@@ -302,6 +321,13 @@ contains
                     ahead_y = py
                     px = px*(bound/sqrt(size_squared))
                     py = py*(bound/sqrt(size_squared))
+                    if (is_falling) then
+                        fall = falling_share(variant%friction, hypot(l1*(px - ahead_x), &
+                                                                     l2*(py - ahead_y))/step)/left
+                        left = left*fall
+                        px = px*fall
+                        py = py*fall
+                    end if
                     sx = l1*(px - ahead_x)/step
                     sy = l2*(py - ahead_y)/step
                 end if

@@ -56,6 +56,11 @@
 !> - **S11** **Other patches**, unless the march alone is asked for: the tractions of the other
 !>   patches give a patch creepage and a moment (`patch_coupling`). They are found without it, once
 !>   more with what follows from them, and then the forces.
+!> - **S12** **Falling friction** (`faststrip_base_friction`): the coefficient of an element is that
+!>   of the slip which there would be under the one of the element ahead, as FASTSIM's F2: nothing
+!>   is iterated and there is one solution, reached from adhesion. What was tuned or fitted for
+!>   constant friction (S2, S5, S6, S9, S10) takes its mean where the patch slides for the
+!>   coefficient: a first march finds it. What patches do to each other (S11) takes the static one.
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -71,6 +76,7 @@ module faststrip_tangential_faststrip
                                      st_workspace_too_small
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t, check_friction, falls
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
@@ -106,6 +112,7 @@ module faststrip_tangential_faststrip
 
     !> How a patch rolls.
     type, extends(rolling_t) :: patch_rolling_t
+        real(wp) :: mu_in_slip = 0.0_wp    ! mean coefficient where the patch slides (S12)
         type(creepage_t) :: given          ! creepage without what other patches do
         real(wp) :: moment = 0.0_wp        ! what they give to the moment besides, N mm
         logical :: is_corrected = .true.   ! S10, S11?
@@ -119,7 +126,8 @@ contains
     !> what S10 adds to the forces; their slip gives the friction power.
     !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
-                                               result, status, field, per_strip, with_fit)
+                                               result, status, field, per_strip, with_fit, &
+                                               friction)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -135,6 +143,8 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
+        type(friction_t), intent(in), optional :: friction
+            !! how mu falls with slip (S12); its other parts do not count here
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums
@@ -143,6 +153,8 @@ contains
         integer :: pass
 
         call check_motion(mu, creepage, status)
+        if (is_error(status)) return
+        if (present(friction)) call check_friction(friction, status)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -163,7 +175,8 @@ contains
         end if
 
         rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
-                                  given=creepage)
+                                  mu_in_slip=mu, given=creepage)
+        if (present(friction)) rolling%friction = friction
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)
@@ -252,6 +265,11 @@ contains
                                                     lateral_stiffness(law, ellipse))
             end if
             before = sums
+            if (falls(rolling%friction)) then
+                induced%mu_in_slip = rolling%mu
+                induced%mu_in_slip = rolling%mu*share_in_slip(strips, first, last, material, &
+                                                              induced)
+            end if
             call solve_patch(strips, first, last, material, induced, sums, status, field, &
                              per_strip)
             if (is_error(status)) return
@@ -262,6 +280,22 @@ contains
         end do
         call approach(found(:coupling%n), tractions(:coupling%n))
     end subroutine solve_patches
+
+    !> What is left of the static coefficient where a patch slides, the mean by its bound; one where
+    !> nothing slides.
+    pure real(wp) function share_in_slip(strips, first, last, material, rolling) result(share)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(material_t), intent(in) :: material
+        type(patch_rolling_t), intent(in) :: rolling ! with the static one
+
+        type(march_sums_t) :: sums
+        type(status_t) :: status
+
+        call solve_patch(strips, first, last, material, rolling, sums, status)
+        share = 1.0_wp
+        if (sums%slid_static > 0.0_wp) share = sums%slid/sums%slid_static
+    end function share_in_slip
 
     !> Add the forces of strips `first` to `last`, one patch.
     pure subroutine solve_patch(strips, first, last, material, rolling, sums, status, field, &
@@ -290,14 +324,15 @@ contains
                                    missing, status, field, per_strip)
         else
             ellipse = patch_ellipse(strips, first, last)
-            call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
+            call find_law(ellipse, material, rolling%mu_in_slip, rolling%creepage, law, status, &
+                          linear)
             call march_strips(law, strips, first, last, rolling%rolling_t, sums, field, per_strip)
             if (rolling%is_corrected .and. law%weight > 0.0_wp) &
                 call add_missing(patch_shape(strips, first, last, ellipse), ellipse, law, linear, &
                                  material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
-        if (rolling%is_corrected) call correct(strips, first, last, rolling%mu, before, missing, &
+        if (rolling%is_corrected) call correct(strips, first, last, rolling, before, missing, &
                                        first_element, sums, field, per_strip)
         power = work(before%result, sums%result, rolling%given)
         if (present(field)) call match_power(power, first_element, field)
@@ -336,7 +371,7 @@ contains
                 linear, [c%cksi - ellipse%y*c%cphi, c%ceta, c%cphi], ellipse%a, ellipse%b, &
                 combined_poisson_ratio(material), law%sliding, rolling%points), shape)
         end associate
-        part(:3) = rolling%mu*ellipse%load*part(:3)
+        part(:3) = rolling%mu_in_slip*ellipse%load*part(:3)
         missing = missing + [part(1), part(2), &
                              part(3)*sqrt(ellipse%a*ellipse%b) - ellipse%y*part(1), &
                              pi*ellipse%a*ellipse%b*part(4)]
@@ -345,11 +380,11 @@ contains
     !> Add what is missing to the forces of a patch, of which no more than mu N is left, and to its
     !> stick, which is no less than nothing and no more than all (S10); to the forces of its strips
     !> and elements in proportion to their loads.
-    pure subroutine correct(strips, first, last, mu, before, missing, first_element, sums, field, &
-                            per_strip)
+    pure subroutine correct(strips, first, last, rolling, before, missing, first_element, sums, &
+                            field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
-        real(wp), intent(in) :: mu
+        type(patch_rolling_t), intent(in) :: rolling
         type(march_sums_t), intent(in) :: before !! the sums without the patch
         real(wp), intent(in) :: missing(4)       !! N, N, N mm, mm^2
         integer, intent(in) :: first_element     !! of the patch
@@ -357,19 +392,22 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: force(2), change(2), load, bound
+        real(wp) :: force(2), change(2), load, bound, limit
         integer :: k
 
         load = 0.0_wp
         do k = first, last
             load = load + load_of(strips, k)
         end do
-        bound = mu*load
+        bound = rolling%mu_in_slip*load
         if (bound <= smallest_force) return
+        limit = bound
         associate (result => sums%result)
             force = [result%fx - before%result%fx, result%fy - before%result%fy]
+            ! What sticks may carry more than friction has fallen to.
+            if (falls(rolling%friction)) limit = max(bound, norm2(force))
             change = force + missing(:2)
-            if (norm2(change) > bound) change = change*(bound/norm2(change))
+            if (norm2(change) > limit) change = change*(limit/norm2(change))
             change = change - force
             result%fx = result%fx + change(1)
             result%fy = result%fy + change(2)
@@ -380,7 +418,7 @@ contains
         if (present(field)) call correct_field(change, first_element, field)
         if (.not. present(per_strip)) return
         do k = first, last
-            associate (share => load_of(strips, k)*mu/bound)
+            associate (share => load_of(strips, k)*rolling%mu_in_slip/bound)
                 per_strip%fx(k) = per_strip%fx(k) + change(1)*share
                 per_strip%fy(k) = per_strip%fy(k) + change(2)*share
             end associate
@@ -499,7 +537,8 @@ contains
                     weight = level_weight(level, next_level(around, level))
                 end associate
                 ellipse = patch_ellipse(strips, from, to, share(from:to))
-                call find_law(ellipse, material, rolling%mu, rolling%creepage, law, status, linear)
+                call find_law(ellipse, material, rolling%mu_in_slip, rolling%creepage, law, &
+                              status, linear)
                 if (is_error(status)) return
                 if (rolling%is_corrected .and. law%weight > 0.0_wp) &
                     call add_missing(patch_shape(strips, from, to, ellipse, share(from:to)), &

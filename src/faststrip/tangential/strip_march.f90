@@ -1,9 +1,10 @@
 !> The march in the strips of a patch, from the leading edge to the trailing one: several strips
-!> side by side, as lanes of the processor's vectors. The steps S2, S4 and S6 to S9 are those of
-!> `faststrip_tangential_faststrip`.
+!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6 to S9 and S12 are those
+!> of `faststrip_tangential_faststrip`.
 module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t, falls, falling_share
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_patch_law, only: patch_law_t, smallest_force
     use faststrip_tangential_full_sliding, only: slide_fully
@@ -19,7 +20,8 @@ module faststrip_tangential_strip_march
 
     !> What all strips of a contact share.
     type :: rolling_t
-        real(wp) :: mu = 0.0_wp      !! coefficient of friction
+        real(wp) :: mu = 0.0_wp      !! coefficient of friction, the static one
+        type(friction_t) :: friction !! how it falls with slip
         type(creepage_t) :: creepage !! about the reference point
         integer :: points = 0        !! along each strip, at most `most_points`
     end type rolling_t
@@ -29,6 +31,8 @@ module faststrip_tangential_strip_march
         type(tangential_result_t) :: result !! forces, N, and their friction power
         real(wp) :: stuck = 0.0_wp   !! area that sticks, mm^2
         real(wp) :: covered = 0.0_wp !! area, mm^2
+        real(wp) :: slid = 0.0_wp    !! bound where it slides, N; zero unless friction falls
+        real(wp) :: slid_static = 0.0_wp !! the same without the fall, N
     end type march_sums_t
 
     ! Strips marched side by side, and what their number is rounded up to.
@@ -57,6 +61,13 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
         real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, sticking !! over the elements
     end type block_t
+
+    !> What falls in strips side by side.
+    type :: fall_t
+        real(wp), dimension(most_lanes) :: static_bound   !! mu p0, MPa
+        real(wp), dimension(most_lanes) :: left           !! of the static coefficient
+        real(wp), dimension(most_lanes) :: bound          !! over mu p0, sum over the elements
+    end type fall_t
 
 contains
 
@@ -91,7 +102,11 @@ contains
         off_centre = off_centre/(0.25_wp*pi*points)
         do i = first, last, most_lanes
             call fill_block(law, strips, i, min(i + most_lanes - 1, last), rolling, block)
-            call march(block, bound(:points), strips, rolling%creepage, field)
+            if (falls(rolling%friction)) then
+                call march_falling(block, bound(:points), strips, rolling, sums, field)
+            else
+                call march(block, bound(:points), strips, rolling%creepage, field)
+            end if
             call add_block(law, block, off_centre, rolling, sums, per_strip)
         end do
     end subroutine march_strips
@@ -123,6 +138,79 @@ contains
         end do
         if (present(field)) field%n = field%n + n*block%n
     end subroutine march
+
+    !> March as `march` does, with a bound that falls with slip (S12); afterwards the bound of the
+    !> block is the mean of what it was.
+    pure subroutine march_falling(block, bound, strips, rolling, sums, field)
+        type(block_t), intent(inout) :: block
+        real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
+        type(contact_strips_t), intent(in) :: strips
+        type(rolling_t), intent(in) :: rolling
+        type(march_sums_t), intent(inout) :: sums
+        type(tangential_field_t), intent(inout), optional :: field
+
+        type(fall_t) :: fall
+        real(wp), dimension(most_lanes) :: ahead_x, ahead_y
+        real(wp) :: t, step
+        integer :: i, k, n
+
+        n = size(bound)
+        do k = 1, block%lanes
+            fall%static_bound(k) = block%peak_bound(k)
+            fall%left(k) = 1.0_wp
+            fall%bound(k) = 0.0_wp
+        end do
+        do i = 1, n
+            t = real(n - 2*i + 1, wp)/n
+            step = merge(1.0_wp, 2.0_wp, i == 1)/n
+            ahead_x = block%px
+            ahead_y = block%py
+            call advance(block, t, step, bound(i), rolling%creepage%ceta, rolling%creepage%cphi)
+            call follow_slip(block, rolling%friction, t, bound(i), fall, sums)
+            if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
+                                                   ahead_y, i, n, field)
+        end do
+        if (present(field)) field%n = field%n + n*block%n
+        do k = 1, block%lanes
+            block%peak_bound(k) = fall%static_bound(k)*fall%bound(k)/sum(bound)
+        end do
+    end subroutine march_falling
+
+    !> Let the bound of an element fall to that of its slip, and what lies on it with it (S12).
+    pure subroutine follow_slip(block, friction, t, bound, fall, sums)
+        type(block_t), intent(inout) :: block
+        type(friction_t), intent(in) :: friction
+        real(wp), intent(in) :: t     !! place of the element over half-length
+        real(wp), intent(in) :: bound !! over mu p0
+        type(fall_t), intent(inout) :: fall
+        type(march_sums_t), intent(inout) :: sums
+
+        real(wp) :: slip, part, static
+        integer :: k
+
+        do k = 1, block%lanes
+            if (block%excess(k) > 0.0_wp) then
+                slip = block%f(k)*hypot(block%px(k), block%py(k))/block%step(k)
+                part = falling_share(friction, slip)/fall%left(k)
+                fall%left(k) = part*fall%left(k)
+                block%peak_bound(k) = fall%left(k)*fall%static_bound(k)
+                block%inverse_peak_bound(k) = 1.0_wp/block%peak_bound(k)
+                block%sum_x(k) = block%sum_x(k) - (1.0_wp - part)*block%px(k)
+                block%sum_y(k) = block%sum_y(k) - (1.0_wp - part)*block%py(k)
+                block%arm_x(k) = block%arm_x(k) - (1.0_wp - part)*block%half_length(k)*t &
+                                                  *block%py(k)
+                block%px(k) = part*block%px(k)
+                block%py(k) = part*block%py(k)
+                block%f(k) = block%f(k)/part
+                if (k <= block%n) then
+                    static = block%cell(k)*fall%static_bound(k)*bound
+                    sums%slid = sums%slid + fall%left(k)*static
+                    sums%slid_static = sums%slid_static + static
+                end if
+            end if
+            fall%bound(k) = fall%bound(k) + fall%left(k)*bound
+        end do
+    end subroutine follow_slip
 
     !> Put element `i` of every strip of a block into the field.
     !>
