@@ -14,15 +14,18 @@ def moving(cksi=0.05, speed="speed_mm_s = 1.0e4"):
     return f"cksi = {cksi!r}\n  {speed}"
 
 
+SLIDING = moving()
+
+
 class Friction(ProgramTest):
 
-    def forces(self, friction="", motion=moving(), method="faststrip", case=None):
+    def forces(self, friction="", motion=SLIDING, method="faststrip", case=None):
         self.write("gap.csv", gap_text(parabola))
         self.write("case.nml", (case or gap_case(motion=motion)) + friction)
         return rows_of(self.run_program("contact", "case.nml", "--normal", "hertz",
                                         "--tangential", method).stdout)[0]
 
-    def refused_friction(self, friction, words, motion=moving(), method="faststrip"):
+    def refused_friction(self, friction, words, motion=SLIDING, method="faststrip"):
         self.write("gap.csv", gap_text(parabola))
         self.write("case.nml", gap_case(motion=motion) + friction)
         self.refused(1, "contact", "case.nml", "--tangential", method, says=[words])
