@@ -26,7 +26,7 @@ module faststrip_command_case_file
     implicit none
     private
 
-    public :: case_t, read_case, beside
+    public :: case_t, read_case, read_material_group, read_numerics_group, beside
 
     integer, parameter :: max_shifts = 1000
 

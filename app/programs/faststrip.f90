@@ -8,6 +8,7 @@ program faststrip_main
     use faststrip_command_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
     use faststrip_command_profile, only: run_profile
+    use faststrip_command_wheelset, only: run_wheelset
     use faststrip_command_conicity, only: run_conicity
     implicit none
 
@@ -19,6 +20,7 @@ program faststrip_main
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
     case ('profile'); call run_profile()
+    case ('wheelset'); call run_wheelset()
     case ('conicity'); call run_conicity()
     case ('--help', '-h', 'help')
         call need_nothing_more()
@@ -41,6 +43,7 @@ contains
         call say('  contact CASE.nml       one contact, from two profiles or a gap file')
         call say('  batch CASES.csv        one contact per row of a CSV file')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
+        call say('  wheelset CASE.nml      contacts of a wheelset on a track, one row a contact')
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
         call say('  conicity               contact geometry and equivalent conicity of a wheelset')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')

@@ -2,7 +2,7 @@
 
 from cli_program import LAB, ROOT, ProgramTest, gap_case, gap_text, parabola
 
-SUBCOMMANDS = ("integral", "contact", "batch", "sweep", "conicity")
+SUBCOMMANDS = ("integral", "contact", "batch", "sweep", "wheelset", "conicity")
 OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 
 
@@ -35,6 +35,7 @@ class Help(ProgramTest):
             ("integral", ("--n", "--b", "--x", "--method", "--input")),
             ("contact", ("--fields", "--strips", "--gap", "--profiles", "--shift")),
             ("batch", ("--normal", "--tangential", "--strips-per-patch")),
+            ("wheelset", ("--states",)),
             ("conicity", ("--delta-r", "--amplitudes", "--method", "--roll", "--functions")),
         ):
             text = self.check(name, "--help")

@@ -42,6 +42,7 @@ module faststrip_geometry_contact_frame
         real(wp), allocatable :: y(:)           !! y' from the reference point, increasing, mm
         real(wp), allocatable :: h(:)           !! height over the deepest point, mm
         real(wp), allocatable :: inv2r(:)       !! 1/(2 R), 1/mm
+        real(wp), allocatable :: slope(:)       !! dh/dy'
         real(wp), allocatable :: inclination(:) !! mean slope of both less the contact angle, rad
         real(wp), allocatable :: x0(:)          !! where they are nearest along x, from the
                                                 !! reference point, mm
@@ -74,9 +75,10 @@ contains
         n = size(pair%y)
         if (allocated(gap%y)) then
             if (size(gap%y) == n) return
-            deallocate (gap%y, gap%h, gap%inv2r, gap%inclination, gap%x0)
+            deallocate (gap%y, gap%h, gap%inv2r, gap%slope, gap%inclination, gap%x0)
         end if
-        allocate (gap%y(n), gap%h(n), gap%inv2r(n), gap%inclination(n), gap%x0(n), source=0.0_wp)
+        allocate (gap%y(n), gap%h(n), gap%inv2r(n), gap%slope(n), gap%inclination(n), gap%x0(n), &
+                  source=0.0_wp)
     end subroutine reserve_frame_gap
 
     !> A vector of the contact frame in the track.
@@ -135,6 +137,7 @@ contains
             gap%y(i) = gap%y(first + i - 1)
             gap%h(i) = gap%h(first + i - 1)
             gap%inv2r(i) = gap%inv2r(first + i - 1)
+            gap%slope(i) = gap%slope(first + i - 1)
             gap%inclination(i) = gap%inclination(first + i - 1)
             gap%x0(i) = gap%x0(first + i - 1)
         end do
@@ -208,6 +211,7 @@ contains
             gap%h(k) = n_rail - n_wheel
             gap%inv2r(k) = 0.5_wp*cos(alpha)/((pair%radius + pair%z(k) - pair%z_line) &
                                               *cos(outline%slope(k) - frame%angle))
+            gap%slope(k) = tan(atan(slope) - frame%angle) - tan(outline%slope(k) - frame%angle)
             gap%inclination(k) = 0.5_wp*(outline%slope(k) + atan(slope)) - frame%angle
             gap%x0(k) = outline%x(k) - frame%origin(1)
         end subroutine take

@@ -19,7 +19,7 @@ module faststrip_geometry_wheel_on_rail
     private
 
     public :: wheel_on_rail_t, outline_t
-    public :: make_wheel_on_rail, find_outline, rail_height, outline_point
+    public :: make_wheel_on_rail, reserve_outline, find_outline, rail_height, outline_point
 
     ! Tuned [mm]: distance of the outline's points along the profile. Origin: chosen: some twenty in
     ! the narrowest patch of a flange.
@@ -177,22 +177,36 @@ contains
         slope = (c1 + t*(2.0_wp*(secant - c1 - c3) + 3.0_wp*t*c3))/pair%sample_step
     end subroutine rail_height
 
+    !> Allocate for the outline of a pair.
+    subroutine reserve_outline(outline, pair)
+        type(outline_t), intent(inout) :: outline !! sized
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+
+        integer :: n
+
+        n = size(pair%y)
+        if (allocated(outline%x)) then
+            if (size(outline%x) == n) return
+            deallocate (outline%x, outline%y, outline%z, outline%slope, outline%height, &
+                        outline%is_there)
+        end if
+        allocate (outline%x(n), outline%y(n), outline%z(n), outline%slope(n), outline%height(n), &
+                  source=0.0_wp)
+        allocate (outline%is_there(n), source=.false.)
+    end subroutine reserve_outline
+
     !> The outline of a wheel, and how high each point of it stands over the rail.
     pure subroutine find_outline(pair, axes, z_state, outline)
         type(wheel_on_rail_t), intent(in) :: pair   !! made
         type(wheelset_axes_t), intent(in) :: axes   !! of the state, as a right pair
         real(wp), intent(in) :: z_state             !! z of that state, mm
-        type(outline_t), intent(inout) :: outline   !! allocated at the first time only
+        type(outline_t), intent(inout) :: outline   !! reserved
 
         real(wp) :: point(3), z, slope
-        integer :: i, n
+        integer :: i
 
-        n = size(pair%y)
-        if (.not. allocated(outline%x)) &
-            allocate (outline%x(n), outline%y(n), outline%z(n), outline%slope(n), &
-                      outline%height(n), outline%is_there(n))
         outline%z_state = z_state
-        do i = 1, n
+        do i = 1, size(pair%y)
             call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
                                outline%slope(i), outline%is_there(i))
             outline%x(i) = point(1)

@@ -12,10 +12,12 @@ module faststrip_wheelset_solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
+    use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_overlap, only: lowest_height
     use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
-    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, find_outline
+    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline, &
+                                                find_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, check_state, &
                                                  wheelset_axes
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
@@ -24,7 +26,7 @@ module faststrip_wheelset_solve
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, most_contacts
-    use faststrip_wheelset_wheel, only: solve_wheel_at, mirror_wheel
+    use faststrip_wheelset_wheel, only: solve_wheel_at, estimate_wheel, mirror_wheel
     implicit none
     private
 
@@ -61,6 +63,8 @@ contains
         left = wheelset
         left%radius = radius_left
         model%case = case
+        ! Solutions copy the case: without a gap that allocates nothing.
+        model%case%gap = gap_t()
         model%radius = 0.5_wp*(wheelset%radius + radius_left)
         call make_wheel_on_rail(wheels(side_right), rails(side_right), wheelset, track, &
                                 model%pair(side_right), status)
@@ -69,7 +73,7 @@ contains
                                 model%pair(side_left), status)
     end subroutine make_wheelset
 
-    !> Allocate for a model; the only allocation, but for outlines at the first solution.
+    !> Allocate for a model; the only allocation.
     subroutine reserve_wheelset(workspace, model, status)
         type(wheelset_workspace_t), intent(inout) :: workspace !! sized
         type(wheelset_model_t), intent(in) :: model            !! made
@@ -87,6 +91,7 @@ contains
                 end if
                 wheel%n = 0
                 call reserve_frame_gap(wheel%gap, pair)
+                call reserve_outline(wheel%outline, pair)
                 do i = 1, most_contacts
                     call reserve_workspace(wheel%contact(i), model%case%methods, size(pair%y), &
                                            status)
@@ -228,7 +233,7 @@ contains
         type(wheel_result_t), intent(inout) :: wheel
 
         call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
-                            as_right(state, side), z, .false., wheel)
+                            as_right(state, side), z, wheel)
         wheel%z = z
     end subroutine try_height
 
@@ -248,7 +253,11 @@ contains
             call set_outline(model, workspace, state, side, touch, status)
             if (is_error(status)) return
             workspace%wheel(side)%n = 0
-            result%wheel(side)%z = state%z
+            call try_height(model, workspace, state, side, state%z, result%wheel(side))
+            if (is_error(result%wheel(side)%status)) then
+                status = result%wheel(side)%status
+                return
+            end if
         end do
     end subroutine solve_at_position
 
@@ -300,7 +309,12 @@ contains
             end if
             call take_force(search, wheel%force(3))
         end do
-        if (.not. is_found(search)) call refuse_jump(load, status)
+        if (.not. is_found(search)) then
+            call refuse_jump(load, status)
+            return
+        end if
+        if (search%approach /= search%best) &
+            call try_height(model, workspace, state, side, touch + search%best, wheel)
         workspace%wheel(side)%approach = search%best
         wheel%z = touch + search%best
     end subroutine solve_load
@@ -385,9 +399,14 @@ contains
             end do
             call take_force(search, force)
         end do
-        if (.not. is_found(search)) call refuse_jump(demand%axle_load, status)
+        if (.not. is_found(search)) then
+            call refuse_jump(demand%axle_load, status)
+            return
+        end if
         do side = side_right, side_left
-            result%wheel(side)%z = minval(touch) + search%best
+            if (search%approach /= search%best) &
+                call try_height(model, workspace, state, side, minval(touch) + search%best, &
+                                result%wheel(side))
             workspace%wheel(side)%approach = result%wheel(side)%z - touch(side)
         end do
     end subroutine solve_for_height
@@ -447,7 +466,6 @@ contains
             return
         end if
         do i = side_right, side_left
-            result%wheel(i)%z = state%z
             workspace%wheel(i)%approach = state%z - touch(i)
         end do
 
@@ -564,7 +582,7 @@ contains
         call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')
     end subroutine start_balance
 
-    ! Once more where the wheelset came to rest, with estimates; left wheels out of the mirror.
+    ! How wrong all is where the wheelset came to rest; left wheels out of the mirror.
     subroutine complete(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model
         type(wheelset_workspace_t), intent(inout) :: workspace
@@ -578,15 +596,10 @@ contains
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
             associate (wheel => result%wheel(side))
-                call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
-                                    as_right(state, side), wheel%z, model%case%estimate, wheel)
+                if (model%case%estimate) &
+                    call estimate_wheel(model, workspace%wheel(side), wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll
-                associate (axes => workspace%wheel(side)%axes)
-                    wheel%force_wheelset = [dot_product(wheel%force, axes%ahead), &
-                                            dot_product(wheel%force, axes%axle), &
-                                            dot_product(wheel%force, axes%down)]
-                end associate
                 if (side == side_left) call mirror_wheel(wheel)
                 state%z = wheel%z
                 if (is_error(wheel%status)) then

@@ -70,6 +70,7 @@ module faststrip_wheelset_types
         type(creepage_t) :: creepage                !! -, -, rad/mm
         type(contact_result_t) :: figures           !! of the contact's solution
         real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, N
+        real(wp) :: force_wheelset(3) = 0.0_wp      !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp
             !! of it about the wheelset's centre, with the moment about the normal, N mm
     end type wheel_contact_t

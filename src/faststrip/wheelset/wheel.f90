@@ -3,11 +3,14 @@ module faststrip_wheelset_wheel
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: set_contact_gap, solve_contact
+    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact_errors, &
+                                       estimate_contact_forces
+    use faststrip_contact_methods, only: normal_strip, normal_hertz
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
                                                 in_track, along_normal
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
                                           region_distance, most_regions
+    use faststrip_geometry_sheared_gap, only: turn_sheared_gap
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
                                                  rigid_creepage, cross
@@ -16,18 +19,17 @@ module faststrip_wheelset_wheel
     implicit none
     private
 
-    public :: solve_wheel_at, mirror_wheel
+    public :: solve_wheel_at, estimate_wheel, mirror_wheel
 
 contains
 
-    !> All contacts of a wheel that is lowered beyond the state of its outline.
-    subroutine solve_wheel_at(model, pair, workspace, state, lowered, estimate, wheel)
+    !> All contacts of a wheel that is lowered beyond the state of its outline, without estimates.
+    subroutine solve_wheel_at(model, pair, workspace, state, lowered, wheel)
         type(wheelset_model_t), intent(in) :: model          !! made
         type(wheel_on_rail_t), intent(in) :: pair            !! of this side
         type(wheel_workspace_t), intent(inout) :: workspace  !! with the outline of the state
         type(wheelset_state_t), intent(in) :: state          !! as of a right wheel
         real(wp), intent(in) :: lowered                      !! mm
-        logical, intent(in) :: estimate                      !! are errors estimated?
         type(wheel_result_t), intent(inout) :: wheel         !! as of a right wheel; z not set
 
         type(region_t) :: regions(most_regions)
@@ -38,11 +40,12 @@ contains
         call join_near(model, regions, n)
         wheel%n = n
         wheel%force = 0.0_wp
+        wheel%force_wheelset = 0.0_wp
         wheel%moment = 0.0_wp
         call clear_status(wheel%status)
         case = model%case
         case%by_load = .false.
-        case%estimate = estimate
+        case%estimate = .false.
         case%warm_start = workspace%n == n
         workspace%n = n
         do i = 1, n
@@ -56,10 +59,39 @@ contains
                     return
                 end if
                 wheel%force = wheel%force + contact%force
+                wheel%force_wheelset = wheel%force_wheelset + contact%force_wheelset
                 wheel%moment = wheel%moment + contact%moment
             end associate
         end do
     end subroutine solve_wheel_at
+
+    !> How wrong the last solution of a wheel is; too large errors are named in its status.
+    subroutine estimate_wheel(model, workspace, wheel)
+        type(wheelset_model_t), intent(in) :: model         !! made
+        type(wheel_workspace_t), intent(in) :: workspace    !! of the solution
+        type(wheel_result_t), intent(inout) :: wheel        !! solved, as of a right wheel
+
+        type(contact_case_t) :: case
+        integer :: i
+
+        if (all(model%case%methods%normal /= [normal_strip, normal_hertz])) return
+        case = model%case
+        case%by_load = .false.
+        do i = 1, wheel%n
+            associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
+                case%penetration = figures%normal%penetration
+                case%creepage = contact%creepage
+                call estimate_contact_errors(workspace%contact(i), case, figures%normal, &
+                                             figures%certificate, figures%is_estimated, &
+                                             contact%status)
+                if (figures%is_estimated) &
+                    call estimate_contact_forces(workspace%contact(i), case, figures%certificate, &
+                                                 figures%force_errors, &
+                                                 figures%forces_are_estimated, contact%status)
+                if (worse(contact%status, wheel%status)) wheel%status = contact%status
+            end associate
+        end do
+    end subroutine estimate_wheel
 
     ! An error is worse than a limitation, that is worse than none.
     pure logical function worse(status, than)
@@ -109,6 +141,7 @@ contains
         call sample_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
                         workspace%gap, contact%status)
         if (is_error(contact%status)) return
+        call turn_sheared_gap(workspace%gap)
         associate (gap => workspace%gap)
             call set_contact_gap(workspace%contact(i), gap%y(:gap%n), gap%h(:gap%n), &
                                  gap%inv2r(:gap%n), contact%status, gap%inclination(:gap%n))
@@ -127,6 +160,9 @@ contains
         if (is_error(contact%status)) return
         associate (normal => contact%figures%normal, forces => contact%figures%tangential)
             contact%force = in_track(frame, [forces%fx, forces%fy, normal%load])
+            contact%force_wheelset = [dot_product(contact%force, axes%ahead), &
+                                      dot_product(contact%force, axes%axle), &
+                                      dot_product(contact%force, axes%down)]
             contact%moment = cross(frame%origin - axes%centre, contact%force) &
                              + in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
         end associate
@@ -168,6 +204,7 @@ contains
                 contact%creepage%ceta = -contact%creepage%ceta
                 contact%creepage%cphi = -contact%creepage%cphi
                 contact%force(2) = -contact%force(2)
+                contact%force_wheelset(2) = -contact%force_wheelset(2)
                 contact%moment([1, 3]) = -contact%moment([1, 3])
                 contact%figures%tangential%fy = -contact%figures%tangential%fy
                 contact%figures%tangential%mz = -contact%figures%tangential%mz

@@ -1,0 +1,130 @@
+!> The table of a wheelset's contacts.
+module faststrip_command_wheelset_csv
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
+    use faststrip_command_console, only: put_origin
+    implicit none
+    private
+
+    public :: put_wheelset_header, put_wheel, put_failed_state
+
+    ! In the order of `put_contact`.
+    character(len=*), parameter :: names(47) = [character(len=19) :: &
+        'case', 'side', 'contact', 'status', 'x_track_mm', 'y_track_mm', 'z_track_mm', &
+        'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', 'N_N', 'Fx_N', 'Fs_N', 'Mz_Nmm', &
+        'penetration_mm', 'pmax_MPa', 'area_mm2', 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
+        'z_mm', 'roll_rad', 'y_rail_mm', 'z_rail_mm', 'x_wheel_mm', 'y_wheel_mm', 'z_wheel_mm', &
+        'radius_mm', 'rolling_speed_mm_s', 'Fx_wheelset_N', 'Fy_wheelset_N', 'Fz_wheelset_N', &
+        'friction_power_N', 'stick_fraction', 'ymin_mm', 'ymax_mm', 'xmax_mm', 'n_patches', &
+        'strips_across', 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', &
+        'est_err_Fy', 'est_err_Mz', 'message']
+
+contains
+
+    !> Names of the columns.
+    subroutine put_wheelset_header(writer)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+
+        call put_origin(writer)
+        call put_header(writer, names)
+    end subroutine put_wheelset_header
+
+    !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
+    subroutine put_wheel(writer, case, side, wheel)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! left or right
+        type(wheel_result_t), intent(in) :: wheel   !! solved
+
+        integer :: i
+
+        do i = 1, wheel%n
+            call put_cell(writer, case)
+            call put_cell(writer, side)
+            call put_cell(writer, i)
+            call put_contact(writer, wheel, wheel%contact(i))
+        end do
+        if (wheel%n == 0) call put_empty(writer, case, side, 'ok', 'no contact')
+    end subroutine put_wheel
+
+    !> The row of a state that has no solution.
+    subroutine put_failed_state(writer, case, side, status)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! as it was given
+        type(status_t), intent(in) :: status        !! why there is none
+
+        call put_empty(writer, case, side, trim(status_word(status%code)), trim(status%message))
+    end subroutine put_failed_state
+
+    subroutine put_empty(writer, case, side, word, message)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: case, side, word, message
+
+        integer :: i
+
+        call put_cell(writer, case)
+        call put_cell(writer, side)
+        call put_cell(writer, 0)
+        call put_cell(writer, word)
+        do i = 5, size(names) - 1
+            call put_cell(writer, '')
+        end do
+        call put_cell(writer, message)
+        call end_row(writer)
+    end subroutine put_empty
+
+    subroutine put_contact(writer, wheel, contact)
+        type(csv_writer_t), intent(inout) :: writer
+        type(wheel_result_t), intent(in) :: wheel
+        type(wheel_contact_t), intent(in) :: contact
+
+        call put_cell(writer, trim(status_word(contact%status%code)))
+        call put_numbers(writer, contact%place)
+        call put_cell(writer, contact%angle)
+        call put_numbers(writer, [contact%creepage%cksi, contact%creepage%ceta, &
+                                  contact%creepage%cphi])
+        associate (normal => contact%figures%normal, forces => contact%figures%tangential)
+            call put_numbers(writer, [normal%load, forces%fx, forces%fy, forces%mz, &
+                                      normal%penetration, normal%pmax, normal%area])
+            call put_numbers(writer, contact%force)
+            call put_numbers(writer, [wheel%z, wheel%roll])
+            call put_numbers(writer, contact%rail)
+            call put_numbers(writer, contact%wheel)
+            call put_numbers(writer, [contact%radius, contact%speed])
+            call put_numbers(writer, contact%force_wheelset)
+            call put_numbers(writer, [forces%friction_power, forces%stick_fraction, &
+                                      normal%y_min, normal%y_max, normal%x_max])
+            call put_cell(writer, normal%n_patches)
+            call put_cell(writer, normal%strips_across)
+        end associate
+        associate (figures => contact%figures)
+            call put_cell(writer, figures%certificate%est_err_penetration, &
+                          is_known=figures%is_estimated)
+            call put_cell(writer, figures%certificate%est_err_pmax, is_known=figures%is_estimated)
+            call put_cell(writer, figures%certificate%est_err_area, is_known=figures%is_estimated)
+            call put_cell(writer, figures%force_errors%fx, is_known=figures%forces_are_estimated)
+            call put_cell(writer, figures%force_errors%fy, is_known=figures%forces_are_estimated)
+            call put_cell(writer, figures%force_errors%mz, is_known=figures%forces_are_estimated)
+        end associate
+        if (contact%status%code == 0 .or. is_error(contact%status)) then
+            call put_cell(writer, '')
+        else
+            call put_cell(writer, trim(contact%status%message))
+        end if
+        call end_row(writer)
+    end subroutine put_contact
+
+    subroutine put_numbers(writer, numbers)
+        type(csv_writer_t), intent(inout) :: writer
+        real(wp), intent(in) :: numbers(:)
+
+        integer :: i
+
+        do i = 1, size(numbers)
+            call put_cell(writer, numbers(i))
+        end do
+    end subroutine put_numbers
+end module faststrip_command_wheelset_csv
