@@ -83,7 +83,7 @@ contains
 
         real(wp) :: weight, total, y, y2, mean_y, mean_x, moment(0:4), right(0:2), xy, yy, scale, &
             determinant
-        integer :: i, j
+        integer :: i
 
         a = 1.0_wp
         b = 1.0_wp
