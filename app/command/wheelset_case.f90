@@ -8,6 +8,7 @@ module faststrip_command_wheelset_case
     use faststrip_wheelset_types, only: wheelset_model_t
     use faststrip_wheelset_solve, only: make_wheelset
     use faststrip_command_case_file, only: case_t, read_material_group, read_numerics_group
+    use faststrip_command_case_friction, only: read_friction_group
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, shape_t, &
                                                left_wheel_t
     use faststrip_command_case_values, only: unset, case_groups
@@ -49,6 +50,9 @@ contains
         call read_namelist_file(path, [case_groups, [character(len=len(case_groups)) :: 'state']], &
                                 content)
         call read_material_group(content, case%case_t)
+        ! Each contact has its own rolling speed.
+        case%friction%speed = 1.0_wp
+        call read_friction_group(content, case%mu, .true., case%friction)
         call read_wheel_group(content, .true., case%wheelset, case%wheel, case%left_wheel)
         call read_rail_group(content, .true., case%track, case%rail, case%left_rail)
         call read_numerics_group(content, case%case_t)

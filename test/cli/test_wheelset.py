@@ -147,6 +147,27 @@ class Wheelset(ProgramTest):
         self.write("bad.nml", CASE + "&numerics\n tangential='tang'\n/\n")
         self.refused(1, "wheelset", "bad.nml", "--states", "states.csv", says=["tang"])
 
+    def test_friction_of_tread_and_flange_and_of_slip(self):
+        state = "1,right,8,-0.0086,0.0192,2000,-4.2534857,10000"
+        plain = self.solved(state)[0]
+        used = math.hypot(float(plain["Fx_N"]), float(plain["Fs_N"])) / float(plain["N_N"])
+        # Spin turns a part of the tractions aside.
+        self.assert_close(used, 0.3, 0.01)
+        self.write("flange.nml", CASE + "&friction\n mu_flange=0.1\n tread_angle_rad=0.2\n"
+                                        " flange_angle_rad=0.6\n/\n")
+        row = self.solved(state, case="flange.nml")[0]
+        used = math.hypot(float(row["Fx_N"]), float(row["Fs_N"])) / float(row["N_N"])
+        self.assert_close(used, 0.1, 0.01)
+        # Less friction carries less of the load.
+        self.assertGreater(float(row["N_N"]), 1.1 * float(plain["N_N"]))
+        self.assert_close(float(row["Fz_track_N"]), 1.0e4, 1.0e-10)
+        self.write("falls.nml", CASE + "&friction\n kind='exponential'\n mu_kinetic=0.15\n"
+                                       " half_slip_speed_mm_s=20\n/\n")
+        row = self.solved(state, case="falls.nml")[0]
+        slip = 2000 * math.hypot(float(row["cksi"]), float(row["ceta"]))
+        used = math.hypot(float(row["Fx_N"]), float(row["Fs_N"])) / float(row["N_N"])
+        self.assert_close(used, 0.15 + 0.15 * 2 ** (-slip / 20), 0.02)
+
     def test_a_left_wheel_of_its_own(self):
         self.write("two.nml", CASE.replace("profile = 's1002'",
                                            "profile = 's1002'\n profile_left='cone40'\n"

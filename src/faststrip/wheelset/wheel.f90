@@ -1,5 +1,6 @@
 !> The contacts of one wheel at a given height: from the overlap to the forces.
 module faststrip_wheelset_wheel
+    use faststrip_base_friction, only: friction_at_angle
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_contact_case, only: contact_case_t
@@ -80,7 +81,7 @@ contains
         do i = 1, wheel%n
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
                 case%penetration = figures%normal%penetration
-                case%creepage = contact%creepage
+                call take_motion(model, contact, case)
                 call estimate_contact_errors(workspace%contact(i), case, figures%normal, &
                                              figures%certificate, figures%is_estimated, &
                                              contact%status)
@@ -155,7 +156,7 @@ contains
         point = along_normal(frame, case%penetration)
         call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed)
         call place_on_wheel(pair, axes, frame%origin, contact)
-        case%creepage = contact%creepage
+        call take_motion(model, contact, case)
         call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         if (is_error(contact%status)) return
         associate (normal => contact%figures%normal, forces => contact%figures%tangential)
@@ -167,6 +168,17 @@ contains
                              + in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
         end associate
     end subroutine solve_one
+
+    ! Creepages of a contact, and the friction of its angle and speed.
+    pure subroutine take_motion(model, contact, case)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheel_contact_t), intent(in) :: contact
+        type(contact_case_t), intent(inout) :: case
+
+        case%creepage = contact%creepage
+        case%mu = friction_at_angle(model%case%friction, model%case%mu, contact%angle)
+        case%friction%speed = contact%speed
+    end subroutine take_motion
 
     ! Where a point of the track is in the frame of the wheel's profile.
     pure subroutine place_on_wheel(pair, axes, point, contact)
