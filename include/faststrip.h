@@ -12,11 +12,11 @@
  * workspace is a number of this library's, not an address: one that was freed, or never made, is
  * told (100) in every function, however often, and its memory is not touched. Outside of workspaces
  * the library remembers which of them are in use, and nothing else. faststrip_new and
- * faststrip_copy allocate, faststrip_free frees, nothing else does (but faststrip_check_case, which
- * tries, the words of an error, made with a little memory of the Fortran run-time library, and the
- * forces of a patch with a neck of more than 128 strips). A call needs less than 64 kB of stack. No
- * function stops, prints, reads or writes a file, changes the locale, or leaves floating-point
- * flags, traps or rounding other than it found them.
+ * faststrip_copy allocate, faststrip_free frees, nothing else does (but the like of wheelsets,
+ * faststrip_check_case, which tries, the words of an error, made with a little memory of the
+ * Fortran run-time library, and the forces of a patch with a neck of more than 128 strips). A call
+ * needs less than 64 kB of stack. No function stops, prints, reads or writes a file, changes the
+ * locale, or leaves floating-point flags, traps or rounding other than it found them.
  *
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
@@ -263,6 +263,163 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
                           const double *y_rail, const double *z_rail, const double setup[9],
                           int capacity, int *n, double *y, double *h, double *inv2r,
                           double *inclination, double contact[6]);
+
+/* A wheelset on a track: from its position and velocity to the forces of every contact. x ahead, y
+ * to the right, z down, in the track, in the wheelset and in the contacts of both sides, which are
+ * turned about x by their contact angle. A wheelset has the rules of a workspace: one thread at a
+ * time, freed ones are told, faststrip_wheelset_new allocates, solutions do not.
+ *
+ * The five structs may grow in later releases, at their ends; the setup's size says which of them
+ * the caller was compiled with. */
+
+/* Dimensions, mm. Fill it in with faststrip_default_wheelset first. */
+typedef struct faststrip_wheelset_setup {
+    size_t size;          /* of this struct as the caller knows it */
+    double radius_right;  /* nominal radius at the tape circle, y = 0 of the wheel's profile */
+    double radius_left;
+    double back_spacing;  /* distance of the flange backs */
+    double tread_line;    /* flange back to tape circle */
+    double gauge;         /* distance of the gauge faces */
+    double gauge_depth;   /* below the crown, where it is measured */
+    double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
+                           * gauge */
+    double cant;          /* tangent by which both rails are turned; 0: as they were measured */
+} faststrip_wheelset_setup;
+
+/* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
+ * (1:20), cone40, of rails uic60, 60e1, 54e1; or n points along the curve, y to the field side, z
+ * down, mm, of the wheel from the tape circle. A left one of neither is as the right one. */
+typedef struct faststrip_profile {
+    const char *name; /* null: by points */
+    const double *y;
+    const double *z;
+    int n;
+} faststrip_profile;
+
+/* Position and velocity of a wheelset; all zero: in the middle, at rest. */
+typedef struct faststrip_wheelset_state {
+    double y;          /* lateral displacement, mm */
+    double z;          /* vertical displacement of the centre, mm; where it is prescribed */
+    double roll;       /* right wheel down, rad; where it is not free */
+    double yaw;        /* nose to the right, rad */
+    double speed;      /* along the track, mm/s, not negative */
+    double y_rate;     /* mm/s */
+    double z_rate;     /* mm/s */
+    double roll_rate;  /* rad/s */
+    double yaw_rate;   /* relative to the track, rad/s */
+    double pitch_rate; /* about the axle, negative for rolling ahead, rad/s */
+    double curvature;  /* of the track, positive to the right, 1/mm */
+} faststrip_wheelset_state;
+
+enum faststrip_demand {
+    FASTSTRIP_BY_POSITION = 0, /* z and roll are those of the state */
+    FASTSTRIP_BY_LOADS = 1,    /* each wheel has a vertical force, and a z of its own unless the
+                                * roll is free */
+    FASTSTRIP_BY_AXLE_LOAD = 2 /* both wheels carry the axle load together; z is found */
+};
+
+enum faststrip_wheels {
+    FASTSTRIP_BOTH_WHEELS = 0,
+    FASTSTRIP_RIGHT_WHEEL = 1,
+    FASTSTRIP_LEFT_WHEEL = 2
+};
+
+/* What is prescribed. */
+typedef struct faststrip_wheelset_demand {
+    int kind;           /* enum faststrip_demand */
+    int wheels;         /* enum faststrip_wheels */
+    int roll_is_free;   /* 1: the roll is found; of both wheels and their loads only */
+    int warm_start;     /* 1: start from the last solution, if there is one, which is faster; the
+                         * last digits then depend on it */
+    double load_right;  /* vertical forces, N */
+    double load_left;
+    double axle_load;   /* N */
+    double roll_moment; /* about the wheelset's centre along the track, that the frame exerts on it;
+                         * with an axle load and a free roll, N mm */
+} faststrip_wheelset_demand;
+
+/* Contacts of both wheels at most. */
+#define FASTSTRIP_MOST_CONTACTS 16
+
+/* One contact. Forces and moments act on the rail. */
+typedef struct faststrip_wheelset_contact {
+    int side;              /* FASTSTRIP_RIGHT_WHEEL or FASTSTRIP_LEFT_WHEEL */
+    int status;            /* of its solution, a named limitation or 0 */
+    int n_patches;
+    int strips_across;
+    int is_estimated;      /* as in faststrip_result */
+    int forces_are_estimated;
+    double place[3];       /* of the reference point in the track, mm */
+    double angle;          /* contact angle, rad */
+    double rail[2];        /* y, z of it on the rail's profile, mm */
+    double wheel[3];       /* x, y, z of it in the frame of the wheel's profile, mm */
+    double radius;         /* rolling radius, mm */
+    double speed;          /* rolling speed, mm/s */
+    double cksi;           /* creepages from rigid-body kinematics */
+    double ceta;
+    double cphi;           /* rad/mm */
+    double load;           /* normal force, N */
+    double penetration;    /* mm */
+    double area;           /* mm^2 */
+    double pmax;           /* MPa */
+    double y_min;          /* ends of the contact from the reference point, mm */
+    double y_max;
+    double x_max;          /* mm */
+    double fx;             /* longitudinal force, N */
+    double fy;             /* in the tangent plane, to the right, N */
+    double mz;             /* about the normal, N mm */
+    double friction_power; /* N */
+    double stick_fraction;
+    double force[3];       /* in the track, N */
+    double force_wheelset[3]; /* the same in the wheelset's frame, N */
+    double moment[3];      /* about the wheelset's centre, in the track, N mm */
+    double est_err_penetration; /* these six as in faststrip_result */
+    double est_err_pmax;
+    double est_err_area;
+    double est_err_fx;
+    double est_err_fy;
+    double est_err_mz;
+} faststrip_wheelset_contact;
+
+/* What the contacts of each wheel come to, right and left; zero for one that was not asked for. */
+typedef struct faststrip_wheelset_result {
+    int status[2];     /* the worst of its contacts */
+    int n_contacts[2];
+    int n_solutions[2]; /* contact problems that were solved */
+    double z[2];       /* of the wheelset's centre, mm */
+    double roll;       /* rad */
+    double force[2][3]; /* on the rail, in the track, N */
+    double force_wheelset[2][3]; /* the same in the wheelset's frame, N */
+    double moment[2][3]; /* about the wheelset's centre, in the track, N mm */
+} faststrip_wheelset_result;
+
+typedef struct faststrip_wheelset faststrip_wheelset;
+
+/* Standard gauge, wheels of 460 mm, rails canted by 1:40. length is sizeof setup. */
+int faststrip_default_wheelset(faststrip_wheelset_setup *setup, size_t length);
+
+/* Make a wheelset of its profiles, right and left; of the case material, friction, methods and
+ * estimates count. FASTSTRIP_NORMAL_AUTO is refused. *wheelset is null when there is an error;
+ * text, if not null, says why. */
+int faststrip_wheelset_new(const faststrip_wheelset_setup *setup,
+                           const faststrip_profile wheels[2], const faststrip_profile rails[2],
+                           const faststrip_case *contact, faststrip_wheelset **wheelset,
+                           char *text, size_t length);
+
+/* Free a wheelset, as faststrip_free. */
+int faststrip_wheelset_free(faststrip_wheelset **wheelset);
+
+/* Solve the contacts, those of the right wheel first. *n becomes their number, with 110 those that
+ * capacity lacks; FASTSTRIP_MOST_CONTACTS are enough. A limitation of any contact is the status. A
+ * wheelset that is lifted off both rails, by its position, has no contacts and status 0. */
+int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheelset_state *state,
+                             const faststrip_wheelset_demand *demand, int capacity, int *n,
+                             faststrip_wheelset_contact *contacts,
+                             faststrip_wheelset_result *result);
+
+/* What the wheelset's last call had to say; empty when all was well. */
+int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *text,
+                                    size_t length);
 
 #ifdef __cplusplus
 }

@@ -74,7 +74,8 @@ TIME_OUT = "time-out"
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
 FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
-         "test/embed/test_callers.py", "test/embed/test_legacy.py"]
+         "test/embed/test_callers.py", "test/embed/test_legacy.py",
+         "test/embed/test_wheelsets.py"]
 FORTRAN_ROOMS = ("base", "numerics", "influence", "geometry", "normal", "tangential", "contact",
                  "wheelset", "files", "kalker", "tables")
 OWN_STAGES = {

@@ -2,6 +2,7 @@
  * `host WHAT` prints one line per finding; the test reads them. */
 #define _GNU_SOURCE
 #include "contacts.h"
+#include "wheelsets.h"
 
 #include <fcntl.h>
 #include <fenv.h>
@@ -58,6 +59,34 @@ enum { HOSTILE = sizeof hostile / sizeof hostile[0], EXAMPLES = 40 };
 
 /* Made before anything is watched: making them is arithmetic of the host's own. */
 static example examples[EXAMPLES];
+static faststrip_wheelset_state states[ASKED];
+static faststrip_wheelset_demand demands[ASKED];
+
+/* A wheelset that is made, solved with every number in turn hostile, and freed. */
+static long every_wheelset(void)
+{
+    faststrip_wheelset *wheelset = make_wheelset(1);
+    faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
+    faststrip_wheelset_result result;
+    char text[FASTSTRIP_TEXT];
+    long failures = 0;
+    int i, n, status;
+
+    for (i = 0; i < 15; i++) {
+        faststrip_wheelset_state state = states[i % 6];
+        faststrip_wheelset_demand demand = demands[i % 6];
+        double *field = i < 11 ? &state.y + i : &demand.load_right + (i - 11);
+
+        *field = hostile[i % HOSTILE];
+        failures += faststrip_wheelset_solve(wheelset, &state, &demand, FASTSTRIP_MOST_CONTACTS,
+                                             &n, contacts, &result) >= 100;
+        faststrip_wheelset_last_message(wheelset, text, sizeof text);
+        wheelset_bits(wheelset, &states[i % ASKED], &demands[i % ASKED], &status);
+        failures += status >= 100;
+    }
+    failures += faststrip_wheelset_free(&wheelset) >= 100;
+    return failures;
+}
 
 /* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
 static long every_call(faststrip_workspace *workspace)
@@ -109,7 +138,7 @@ static long every_call(faststrip_workspace *workspace)
         failures += faststrip_kalker(x, 0.3, c) >= 100;
         failures += faststrip_kalker(1.0, x, c) >= 100;
     }
-    return failures;
+    return failures + every_wheelset();
 }
 
 /* Flags, traps and rounding before and after, with the host trapping all that is serious. */
@@ -167,6 +196,8 @@ static void quiet(void)
     faststrip_workspace *workspace = make_workspace();
     char line[100];
     long before, solving = 0, solved = 0, limited = 0, rough = 0, missed = 0, made, files, failures;
+    long rolling = 0, rolled = 0;
+    faststrip_wheelset *wheelset = make_wheelset(0);
     int i, n, status;
 
     /* The linear algebra library sets itself up in its first call. */
@@ -181,9 +212,17 @@ static void quiet(void)
         rough += status == FASTSTRIP_UNDER_RESOLVED;
         missed += status == FASTSTRIP_TARGET_MISSED;
     }
+    for (i = 0; i < ASKED; i++) {
+        before = allocations;
+        wheelset_bits(wheelset, &states[i], &demands[i], &status);
+        if (status >= FASTSTRIP_FIRST_ERROR) continue;
+        rolling += allocations - before;
+        rolled++;
+    }
     before = file_calls;
     failures = every_call(workspace);
     faststrip_free(&workspace);
+    faststrip_wheelset_free(&wheelset);
     workspace = make_workspace();
     files = file_calls - before;
     faststrip_free(&workspace);
@@ -196,6 +235,8 @@ static void quiet(void)
     if (write(1, line, (size_t)n) != n) exit(2);
     n = snprintf(line, sizeof line, "limited %ld\nrough %ld\nmissed %ld\n", limited, rough,
                  missed);
+    if (write(1, line, (size_t)n) != n) exit(2);
+    n = snprintf(line, sizeof line, "rolled %ld\nrolling %ld\n", rolled, rolling);
     if (write(1, line, (size_t)n) != n) exit(2);
     n = snprintf(line, sizeof line, "making %ld\nwritten %ld\n", made, file_calls);
     if (write(1, line, (size_t)n) != n) exit(2);
@@ -366,6 +407,152 @@ static void wanted_errors(faststrip_workspace *workspace)
     EXPECT(0, n);
 }
 
+/* What a wheelset cannot be made of. */
+static void wheelsets_that_are_none(void)
+{
+    faststrip_wheelset *none = NULL;
+    faststrip_wheelset_setup setup;
+    faststrip_profile wheels[2] = {{"s1002", NULL, NULL, 0}, {NULL, NULL, NULL, 0}};
+    faststrip_profile rails[2] = {{"60e1", NULL, NULL, 0}, {NULL, NULL, NULL, 0}};
+    const double y[3] = {-1.0, 0.0, 1.0}, z[3] = {0.0, NAN, 0.0};
+    faststrip_case contact;
+    char text[FASTSTRIP_TEXT];
+
+#define MAKES(status, words) \
+    do { \
+        EXPECT(status, faststrip_wheelset_new(&setup, wheels, rails, &contact, &none, text, \
+                                              sizeof text)); \
+        EXPECT(1, none == NULL && strstr(text, words) != NULL); \
+    } while (0)
+    EXPECT(0, faststrip_default_case(&contact, sizeof contact));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(NULL, sizeof setup));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup - 8));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup + 8));
+    EXPECT(0, faststrip_default_wheelset(&setup, sizeof setup));
+    EXPECT(1, setup.radius_right == 460.0 && setup.radius_left == 460.0 && setup.cant == 0.025);
+    EXPECT(1, setup.back_spacing == 1360.0 && setup.tread_line == 70.0 && setup.gauge == 1435.0);
+    EXPECT(1, setup.gauge_depth == 14.0 && setup.rail_distance == 0.0);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_new(NULL, wheels, rails, &contact, &none, NULL, 0));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_new(&setup, NULL, rails, &contact, &none, NULL, 0));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_new(&setup, wheels, NULL, &contact, &none, NULL, 0));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_new(&setup, wheels, rails, NULL, &none, NULL, 0));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_new(&setup, wheels, rails, &contact, NULL, NULL, 0));
+    setup.size += 8;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the header is newer");
+    setup.size -= 16;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the size that faststrip_default_wheelset set, got 64");
+    setup.size += 8;
+    setup.gauge = NAN;
+    MAKES(FASTSTRIP_NOT_FINITE, "finite");
+    setup.gauge = 1435.0;
+    setup.radius_left = 0.0;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "nominal radius");
+    setup.radius_left = 460.0;
+    wheels[0].name = NULL;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the right wheel profile must have a name, or y and z");
+    wheels[0].n = 3;
+    wheels[0].y = y;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the right wheel profile must have");
+    wheels[0].z = z;
+    MAKES(FASTSTRIP_NOT_FINITE, "finite");
+    wheels[0].name = "";
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "must be s1002, cone20 or cone40");
+    wheels[0].name = "s1002";
+    rails[1].n = -1;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the left rail profile must have");
+    rails[1].name = "a name that is longer than any";
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "must be uic60, 60e1 or 54e1, got a name that is l");
+    rails[1].name = "54e1";
+    contact.normal = FASTSTRIP_NORMAL_AUTO;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "must not be auto");
+    contact.normal = 99;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "normal");
+    contact.normal = FASTSTRIP_NORMAL_STRIP;
+    EXPECT(0, faststrip_wheelset_new(&setup, wheels, rails, &contact, &none, text, sizeof text));
+    EXPECT(0, strlen(text));
+    EXPECT(0, faststrip_wheelset_free(&none));
+#undef MAKES
+}
+
+/* Every pointer of a wheelset null in turn, and what cannot be asked. */
+static void wheelset_errors(faststrip_workspace *workspace)
+{
+    faststrip_wheelset *wheelset = make_wheelset(0), *none = NULL, *kept = wheelset;
+    faststrip_wheelset *wrong = (faststrip_wheelset *)workspace;
+    faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
+    faststrip_wheelset_state state;
+    faststrip_wheelset_demand demand;
+    faststrip_wheelset_result result;
+    char text[FASTSTRIP_TEXT];
+    int n = -1;
+
+    memset(&state, 0, sizeof state);
+    memset(&demand, 0, sizeof demand);
+    demand.kind = FASTSTRIP_BY_LOADS;
+    demand.load_right = demand.load_left = 5e4;
+    EXPECT(0, faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(1, n == 2 && result.n_contacts[0] == 1 && result.force[1][2] > 4.9e4);
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(0, strlen(text));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 1, &n, contacts, &result));
+    EXPECT(1, n == 2 && result.n_contacts[0] == 0 && result.force[1][2] == 0.0);
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(1, strstr(text, "more contacts than fit: 2") != NULL);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, -1, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(none, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wrong, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, NULL, &demand, 2, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, NULL, 2, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, NULL, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, NULL, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, NULL));
+    demand.wheels = 3;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(0, n);
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(1, strstr(text, "got 3") != NULL);
+    demand.wheels = FASTSTRIP_LEFT_WHEEL;
+    EXPECT(0, faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(1, n == 1 && contacts[0].side == 2 && result.n_contacts[0] == 0);
+    EXPECT(1, result.force[0][2] == 0.0 && result.z[0] == 0.0 && result.force[1][2] > 4.9e4);
+    demand.roll_is_free = 1;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, &result));
+    demand.wheels = FASTSTRIP_BOTH_WHEELS;
+    state.y = 500.0;
+    EXPECT(FASTSTRIP_NO_CONTACT,
+           faststrip_wheelset_solve(wheelset, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(1, n == 0 && result.force[1][2] == 0.0);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_last_message(none, text, sizeof text));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_last_message(wrong, text, sizeof text));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_last_message((faststrip_workspace *)wheelset, text, sizeof text));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_free(NULL));
+    EXPECT(0, faststrip_wheelset_free(&none));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_free(&wrong));
+    EXPECT(0, faststrip_wheelset_free(&wheelset));
+    EXPECT(1, wheelset == NULL);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_wheelset_solve(kept, &state, &demand, 2, &n, contacts, &result));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_last_message(kept, text, sizeof text));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_free(&kept));
+}
+
 /* Every pointer null in turn, wrong sizes, no workspace: is the status what it should be? */
 static void errors(void)
 {
@@ -489,6 +676,8 @@ static void errors(void)
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_get_elements(workspace, 400, &n, a, a, a, a, a, a, a, a, NULL));
     wanted_errors(workspace);
+    wheelsets_that_are_none();
+    wheelset_errors(workspace);
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(workspace, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(NULL, workspace));
     EXPECT(0, faststrip_copy(workspace, workspace));
@@ -701,6 +890,11 @@ int main(int argc, char **argv)
     int i;
 
     for (i = 0; i < EXAMPLES; i++) make_example((uint64_t)i, &examples[i]);
+    make_points();
+    for (i = 0; i < ASKED; i++) {
+        ask_wheelset(i + 1, &states[i], &demands[i]);
+        states[i].z = 0.1;
+    }
 
     if (strcmp(what, "arithmetic") == 0) arithmetic();
     else if (strcmp(what, "locale") == 0) locale_kept();

@@ -1,6 +1,7 @@
 /* The same contacts by one thread, by POSIX threads and by a host's OpenMP team: the same bits.
  * `threads NUMBER [posix]`: so many contacts, with posix without OpenMP. */
 #include "contacts.h"
+#include "wheelsets.h"
 
 #include <omp.h>
 #include <pthread.h>
@@ -12,14 +13,31 @@ enum { THREADS = 8 };
 static int contacts;
 static uint64_t *found;
 
+/* One contact; the first ones are those of wheelsets, too. */
+static uint64_t solve(faststrip_workspace *workspace, faststrip_wheelset *wheelset, int i,
+                      int *status)
+{
+    faststrip_wheelset_state state;
+    faststrip_wheelset_demand demand;
+    uint64_t bits = 0;
+
+    if (i < ASKED) {
+        memset(&state, 0, sizeof state);
+        ask_wheelset(i + 1, &state, &demand);
+        bits = wheelset_bits(wheelset, &state, &demand, status);
+    }
+    return bits ^ solve_example(workspace, (uint64_t)i, status);
+}
+
 static void *work(void *argument)
 {
     faststrip_workspace *workspace = make_workspace();
+    faststrip_wheelset *wheelset = make_wheelset(0);
     int first = (int)(intptr_t)argument, status, i;
 
     if (workspace == NULL) return NULL;
-    for (i = first; i < contacts; i += THREADS)
-        found[i] = solve_example(workspace, (uint64_t)i, &status);
+    for (i = first; i < contacts; i += THREADS) found[i] = solve(workspace, wheelset, i, &status);
+    faststrip_wheelset_free(&wheelset);
     faststrip_free(&workspace);
     return NULL;
 }
@@ -37,16 +55,18 @@ static int compare(const uint64_t *serial, const char *what)
 int main(int argc, char **argv)
 {
     faststrip_workspace *workspace = make_workspace();
+    faststrip_wheelset *wheelset = make_wheelset(0);
     uint64_t *serial;
     pthread_t thread[THREADS];
     int i, status, solved = 0;
 
+    make_points();
     contacts = argc > 1 ? atoi(argv[1]) : 10000;
     serial = calloc((size_t)contacts, sizeof *serial);
     found = calloc((size_t)contacts, sizeof *found);
     if (workspace == NULL || serial == NULL || found == NULL) return 2;
     for (i = 0; i < contacts; i++) {
-        serial[i] = solve_example(workspace, (uint64_t)i, &status);
+        serial[i] = solve(workspace, wheelset, i, &status);
         solved += status < FASTSTRIP_FIRST_ERROR;
     }
     printf("solved %d\n", solved);
@@ -57,13 +77,16 @@ int main(int argc, char **argv)
 #pragma omp parallel num_threads(THREADS) if (contacts > 0)
     {
         faststrip_workspace *own = make_workspace();
+        faststrip_wheelset *own_wheelset = make_wheelset(0);
         int own_status, k;
 #pragma omp for schedule(dynamic, 7)
         for (k = contacts - 1; k >= 0; k--)
-            found[k] = solve_example(own, (uint64_t)k, &own_status);
+            found[k] = solve(own, own_wheelset, k, &own_status);
+        faststrip_wheelset_free(&own_wheelset);
         faststrip_free(&own);
     }
     compare(serial, "openmp");
+    faststrip_wheelset_free(&wheelset);
     faststrip_free(&workspace);
     free(serial);
     free(found);

@@ -62,6 +62,8 @@ class Hosts(HostTest):
         found = self.findings("./counting quiet")
         self.assertGreater(found["solved"][0], 450)
         self.assertEqual(found["solving"], [0])
+        self.assertGreater(found["rolled"][0], 8)
+        self.assertEqual(found["rolling"], [0])
         # Not for the words of limitations either.
         self.assertGreater(found["rough"][0], 20)
         self.assertGreater(found["missed"][0], 5)

@@ -16,7 +16,8 @@ FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
-                " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast".split())
+                " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
+                " fswdft fswnew fswslv fswfre".split())
 
 # What only the laboratory says, its modules' names and its commands, and where it reads.
 LABORATORY = ("faststrip_lab", "fuzz", "bench", "trade", "scenes", "reference/", "example/")

@@ -27,6 +27,9 @@ module faststrip_geometry_wheel_on_rail
     ! Tuned [mm]: distance of the rail's samples, of which regions of overlap are found. Origin:
     ! chosen: between them a cubic.
     real(wp), parameter :: rail_step = 0.05_wp
+    ! Tuned [1]: slope of the rail beyond which its ends are left out. Origin: safeguard: no wheel
+    ! touches a flank that stands upright, nor is there a cubic through it.
+    real(wp), parameter :: steepest = 50.0_wp
     ! Tuned [points]: most points of an outline and of a rail. Origin: capacity.
     integer, parameter :: most_points = 200000
 
@@ -135,22 +138,44 @@ contains
     subroutine sample_rail(pair)
         type(wheel_on_rail_t), intent(inout) :: pair
 
-        real(wp) :: y, d2z
+        real(wp) :: y, y_first, y_last, d2z
         type(status_t) :: inside
         integer :: i, n
 
         associate (rail => pair%rail)
-            n = min(ceiling((rail%y_last - rail%y_first)/rail_step), most_points)
-            pair%sample_step = (rail%y_last - rail%y_first)/n
-            pair%y_sample = pair%y_rail + rail%y_first
+            y_first = touchable_end(rail, rail%y_first, rail_step)
+            y_last = touchable_end(rail, rail%y_last, -rail_step)
+            n = max(1, min(ceiling((y_last - y_first)/rail_step), most_points))
+            pair%sample_step = (y_last - y_first)/n
+            pair%y_sample = pair%y_rail + y_first
             allocate (pair%sample(0:n), pair%sample_slope(0:n))
             do i = 0, n
-                y = min(rail%y_first + i*pair%sample_step, rail%y_last)
+                y = min(y_first + i*pair%sample_step, y_last)
                 call profile_at(rail, y, pair%sample(i), pair%sample_slope(i), d2z, inside)
             end do
             pair%sample = pair%sample + pair%z_rail
         end associate
     end subroutine sample_rail
+
+    ! The first place from an end on where a rail is not too steep; the end if there is none.
+    real(wp) function touchable_end(rail, y_end, step)
+        type(profile_t), intent(in) :: rail
+        real(wp), intent(in) :: y_end, step
+
+        real(wp) :: y, z, dz, d2z
+        type(status_t) :: inside
+
+        touchable_end = y_end
+        y = y_end
+        do while (y >= rail%y_first .and. y <= rail%y_last)
+            call profile_at(rail, y, z, dz, d2z, inside)
+            if (abs(dz) <= steepest) then
+                touchable_end = y
+                return
+            end if
+            y = y + step
+        end do
+    end function touchable_end
 
     !> Height and slope of the rail between its samples.
     pure subroutine rail_height(pair, y, z, slope, is_there)

@@ -27,6 +27,7 @@ module faststrip_interop_c
     public :: faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
     public :: faststrip_profile_gap
+    public :: put_text
 
     character(len=*), parameter :: version = '0.1.0'
 

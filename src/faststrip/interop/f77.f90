@@ -64,6 +64,7 @@ module faststrip_interop_f77
                                       strip_count, read_strips, read_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
     use faststrip_geometry_gap, only: gap_t
     implicit none
     private
@@ -71,6 +72,7 @@ module faststrip_interop_f77
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast, fsprof
     public :: fswant, fstakn, fsstep
+    public :: n_iopt, n_par, n_iwork, set_number, number_of
 
     ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
     ! whether it is known and the strips across.
@@ -217,10 +219,7 @@ contains
         call new_handle(flat_methods(iopt), max_points, wants_elements(iopt), number, status)
         info = status%code
         if (is_error(status)) return
-        iwork(1) = first_mark
-        iwork(2:n_iwork - 1) = transfer([number, 0_c_intptr_t, 0_c_intptr_t], iwork(:1), &
-                                         n_iwork - 2)
-        iwork(n_iwork) = last_mark
+        call set_number(iwork(:n_iwork), number)
     end subroutine fsinit
 
     !> CALL FSGAP(IWORK, N, Y, H, A, INFO)
@@ -523,18 +522,24 @@ contains
 
     !> CALL FSLAST(IWORK, TEXT)
     !>
-    !> The words of the workspace's last call, with the offending value; blank when all was well.
+    !> The words of the last call of a workspace, also of FSWNEW, with the offending value; blank
+    !> when all was well.
     subroutine fslast(iwork, text, length) bind(c, name='fslast_')
         integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSINIT
         character(kind=c_char), intent(out) :: text(*) !! CHARACTER*(*), blank-padded
         integer(c_size_t), value :: length             !! passed by the compiler
 
         type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
+        type(status_t) :: status
         integer(c_int) :: info
 
         call find(iwork, handle, info)
+        call find_wheelset(number_of(iwork), wheelset, status)
         if (associated(handle)) then
             call put_text(trim(handle%status%message), text, length)
+        else if (associated(wheelset)) then
+            call put_text(trim(wheelset%status%message), text, length)
         else
             call put_text('no workspace, or one that was freed', text, length)
         end if
@@ -552,8 +557,20 @@ contains
         info = status%code
     end subroutine find
 
+    !> Put the number of a handle between its marks.
+    pure subroutine set_number(iwork, number)
+        integer(c_int), intent(out) :: iwork(n_iwork) !! the caller's workspace array
+        integer(c_intptr_t), intent(in) :: number     !! of the handle
+
+        iwork(1) = first_mark
+        iwork(2:n_iwork - 1) = transfer([number, 0_c_intptr_t, 0_c_intptr_t], iwork(:1), &
+                                         n_iwork - 2)
+        iwork(n_iwork) = last_mark
+    end subroutine set_number
+
+    !> The number between the marks; 0 if there are none.
     pure integer(c_intptr_t) function number_of(iwork)
-        integer(c_int), intent(in) :: iwork(n_iwork)
+        integer(c_int), intent(in) :: iwork(n_iwork) !! the caller's workspace array
 
         number_of = 0
         if (iwork(1) == first_mark .and. iwork(n_iwork) == last_mark) &

@@ -11,7 +11,8 @@ module faststrip_interop_handle
                                        reserve_workspace, reserve_contact_field, solve_contact, &
                                        set_contact_gap
     use faststrip_contact_wanted, only: wanted_t
-    use faststrip_interop_register, only: enter_register, leave_register, look_up_register
+    use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
+                                          kind_contact
     use faststrip_base_kinds, only: wp
     implicit none
     private
@@ -54,7 +55,8 @@ contains
         call reserve_workspace(handle%workspace, methods, max_points, status)
         if (with_field .and. .not. is_error(status)) &
             call reserve_contact_field(handle%field, methods, status)
-        if (.not. is_error(status)) call enter_register(c_loc(handle), number, status)
+        if (.not. is_error(status)) &
+            call enter_register(c_loc(handle), kind_contact, number, status)
         if (is_error(status)) deallocate (handle)
     end subroutine new_handle
 
@@ -66,7 +68,7 @@ contains
         type(handle_t), pointer :: handle
         type(c_ptr) :: address
 
-        call leave_register(number, address, status)
+        call leave_register(number, kind_contact, address, status)
         if (is_error(status)) return
         call c_f_pointer(address, handle)
         deallocate (handle)
@@ -81,7 +83,7 @@ contains
         type(c_ptr) :: address
 
         handle => null()
-        call look_up_register(number, address, status)
+        call look_up_register(number, kind_contact, address, status)
         if (.not. is_error(status)) call c_f_pointer(address, handle)
     end subroutine find_handle
 

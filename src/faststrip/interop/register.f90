@@ -16,6 +16,11 @@ module faststrip_interop_register
     private
 
     public :: enter_register, leave_register, look_up_register
+    public :: kind_contact, kind_wheelset
+
+    !> What a handle can stand for: one of a kind is none of another.
+    !> Given: numbers of kinds.
+    integer, parameter :: kind_contact = 1, kind_wheelset = 2
 
     ! Bits of a handle for the place; the rest, but the sign, counts how often it was given out.
     integer, parameter :: place_bits = 20
@@ -31,6 +36,7 @@ module faststrip_interop_register
     type :: place_t
         integer(c_intptr_t) :: handle = 0 ! that is in use; 0: none
         integer(c_intptr_t) :: count = 0  ! how often the place was given out
+        integer :: kind = 0               ! of what is at the address
         type(c_ptr) :: address = c_null_ptr
         integer :: next_free = 0
     end type place_t
@@ -65,8 +71,9 @@ module faststrip_interop_register
 contains
 
     !> Make a handle for what is at an address.
-    subroutine enter_register(address, handle, status)
+    subroutine enter_register(address, kind, handle, status)
         type(c_ptr), intent(in) :: address              !! of a workspace
+        integer, intent(in) :: kind                     !! of it
         integer(c_intptr_t), intent(out) :: handle      !! never given out before; 0 when there is
                                                         !! an error
         type(status_t), intent(out) :: status           !! `st_workspace_too_small`
@@ -89,6 +96,7 @@ contains
             place%count = max(iand(place%count + 1, count_mask), 1_c_intptr_t)
             handle = ior(ishft(place%count, place_bits), int(number, c_intptr_t))
             place%address = address
+            place%kind = kind
             place%handle = handle
         else
             call set_status(status, st_workspace_too_small, 'no capacity for another workspace')
@@ -97,15 +105,16 @@ contains
     end subroutine enter_register
 
     !> Take a handle out; from here on it is none.
-    subroutine leave_register(handle, address, status)
+    subroutine leave_register(handle, kind, address, status)
         integer(c_intptr_t), intent(in) :: handle !! as the caller passed it
+        integer, intent(in) :: kind               !! that it has to be of
         type(c_ptr), intent(out) :: address       !! what it stood for; null if it is no handle
         type(status_t), intent(out) :: status     !! `st_bad_argument`: no handle, or freed
 
         type(place_t), pointer :: place
 
         call lock()
-        call look_up_register(handle, address, status)
+        call look_up_register(handle, kind, address, status)
         if (c_associated(address)) then
             call find_place(int(iand(handle, place_mask)), place)
             place%handle = 0
@@ -117,8 +126,9 @@ contains
     end subroutine leave_register
 
     !> What a handle stands for.
-    subroutine look_up_register(handle, address, status)
+    subroutine look_up_register(handle, kind, address, status)
         integer(c_intptr_t), intent(in) :: handle !! as the caller passed it
+        integer, intent(in) :: kind               !! that it has to be of
         type(c_ptr), intent(out) :: address       !! null if it is no handle
         type(status_t), intent(out) :: status     !! `st_bad_argument`: no handle, or freed
 
@@ -130,7 +140,7 @@ contains
         if (handle > 0 .and. iand(handle, place_mask) > 0) &
             call find_place(int(iand(handle, place_mask)), place)
         if (associated(place)) then
-            if (place%handle == handle) address = place%address
+            if (place%handle == handle .and. place%kind == kind) address = place%address
         end if
         if (.not. c_associated(address)) &
             call set_status(status, st_bad_argument, 'no workspace, or one that was freed')

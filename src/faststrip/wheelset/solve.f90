@@ -90,8 +90,10 @@ contains
                     return
                 end if
                 wheel%n = 0
+                wheel%approach = 0.0_wp
                 call reserve_frame_gap(wheel%gap, pair)
                 call reserve_outline(wheel%outline, pair)
+                if (.not. allocated(wheel%contact)) allocate (wheel%contact(most_contacts))
                 do i = 1, most_contacts
                     call reserve_workspace(wheel%contact(i), model%case%methods, size(pair%y), &
                                            status)

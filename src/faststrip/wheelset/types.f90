@@ -98,7 +98,7 @@ module faststrip_wheelset_types
     type :: wheel_workspace_t
         type(outline_t) :: outline                    !! of the last state
         type(frame_gap_t) :: gap                      !! of the last contact
-        type(workspace_t) :: contact(most_contacts)   !! one a contact
+        type(workspace_t), allocatable :: contact(:)  !! one a contact
         integer :: n = 0                              !! contacts of the last solution, 0: none
         real(wp) :: approach = 0.0_wp                 !! of the last solution, from first touch, mm
         type(region_t) :: region(most_contacts)       !! of the last solution

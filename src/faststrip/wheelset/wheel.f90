@@ -201,6 +201,7 @@ contains
     pure subroutine mirror_wheel(wheel)
         type(wheel_result_t), intent(inout) :: wheel !! of the left wheel
 
+        real(wp) :: ends(2)
         integer :: i
 
         wheel%roll = -wheel%roll
@@ -220,6 +221,11 @@ contains
                 contact%moment([1, 3]) = -contact%moment([1, 3])
                 contact%figures%tangential%fy = -contact%figures%tangential%fy
                 contact%figures%tangential%mz = -contact%figures%tangential%mz
+                associate (normal => contact%figures%normal)
+                    ends = [normal%y_min, normal%y_max]
+                    normal%y_min = -ends(2)
+                    normal%y_max = -ends(1)
+                end associate
             end associate
         end do
     end subroutine mirror_wheel

@@ -1,0 +1,89 @@
+C     Wheelsets from fixed-form Fortran: every figure of every contact,
+C     as bits.
+      PROGRAM WHLSTS
+      INTEGER NPTS, NCASE
+      PARAMETER (NPTS = 61, NCASE = 12)
+      INTEGER IOPT(9), NPROF(4), IWORK(8), IDMND(4), N, INFO, I, K, IC
+      INTEGER ISIDE
+      DOUBLE PRECISION PAR(9), SETUP(9), Y(2*NPTS), Z(2*NPTS), S(11)
+      DOUBLE PRECISION DMND(4), CONT(47, 16), WRES(27)
+      DATA DMND /6.0D4, 5.0D4, 1.2D5, 1.0D6/
+      DO 90 IC = 1, 2
+        CALL FSDFLT(IOPT, PAR)
+        CALL FSWDFT(SETUP)
+        PAR(5) = 0.35D0
+        IOPT(3) = 9
+        SETUP(2) = 460.25D0
+        SETUP(8) = 0.05D0
+        DO 10 I = 1, 4
+          NPROF(I) = 0
+   10   CONTINUE
+        NPROF(1) = -1
+        NPROF(3) = -2
+        IF (IC .EQ. 2) THEN
+          DO 20 I = 1, NPTS
+            Y(I) = I - 31
+            Z(I) = -Y(I)*Y(I)/2000.0D0 - Y(I)/20.0D0
+            Y(NPTS + I) = Y(I)
+            Z(NPTS + I) = Y(I)*Y(I)/600.0D0
+   20     CONTINUE
+          SETUP(7) = 1500.0D0
+          NPROF(1) = NPTS
+          NPROF(2) = -3
+          NPROF(3) = NPTS
+        END IF
+        CALL FSWNEW(IOPT, PAR, SETUP, NPROF, Y, Z, IWORK, 8, INFO)
+        IF (INFO .NE. 0) STOP 1
+        DO 30 I = 1, 11
+          S(I) = 0.0D0
+   30   CONTINUE
+        DO 80 I = 1, NCASE
+          S(1) = 0.5D0*I - 3.0D0
+          S(4) = 0.001D0*I
+          S(5) = 20000.0D0
+          S(6) = 10.0D0*I
+          S(7) = 1.0D0
+          S(8) = 0.001D0
+          S(9) = 0.01D0*I
+          S(10) = -20000.0D0/460.0D0
+          S(11) = 1.0D-6
+          IDMND(1) = MOD(I, 3)
+          IDMND(2) = 0
+          IF (MOD(I, 3) .LT. 2 .AND. I .GE. 9) IDMND(2) = 2 - MOD(I, 2)
+          IDMND(3) = 0
+          IF (MOD(I, 3) .GT. 0 .AND. I .LT. 7) IDMND(3) = 1
+          IDMND(4) = MOD(I, 2)
+          CALL FSWSLV(IWORK, S, IDMND, DMND, 16, N, CONT, WRES, INFO)
+          WRITE (*, '(A, 2(1X, I0))') 'solved', INFO, N
+          DO 70 ISIDE = 1, 2
+            IF (INFO .GE. 100 .OR. IDMND(2) .EQ. 3 - ISIDE) GO TO 70
+            WRITE (*, '(A, 3(1X, I0))') 'wheel', NINT(WRES(21+ISIDE)),
+     &        NINT(WRES(23 + ISIDE)), NINT(WRES(25 + ISIDE))
+            WRITE (*, '(11(Z16.16, :, 1X))') WRES(ISIDE), WRES(3),
+     &        (WRES(3*ISIDE + K), K = 1, 3),
+     &        (WRES(6 + 3*ISIDE + K), K = 1, 3),
+     &        (WRES(12 + 3*ISIDE + K), K = 1, 3)
+            DO 60 K = 1, N
+              IF (NINT(CONT(1, K)) .EQ. ISIDE) CALL SHOW(CONT(1, K))
+   60       CONTINUE
+            S(2) = WRES(ISIDE)
+            S(3) = WRES(3)
+   70     CONTINUE
+   80   CONTINUE
+        CALL FSWFRE(IWORK, INFO)
+        IF (INFO .NE. 0) STOP 1
+   90 CONTINUE
+      END
+
+C     One contact, in the rows of the other languages' programs.
+      SUBROUTINE SHOW(C)
+      DOUBLE PRECISION C(47)
+      INTEGER I, K, LAST(11)
+      DATA LAST /15, 20, 23, 26, 29, 31, 38, 41, 43, 45, 47/
+      WRITE (*, '(A, 6(1X, I0))') 'contact', (NINT(C(I)), I = 1, 6)
+      K = 7
+      DO 10 I = 1, 11
+        WRITE (*, '(9(Z16.16, :, 1X))') C(K:LAST(I))
+        K = LAST(I) + 1
+   10 CONTINUE
+      END

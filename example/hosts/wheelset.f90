@@ -1,0 +1,125 @@
+!> Wheelsets by `use faststrip`: every figure of every contact, as bits.
+program wheelsets
+    use faststrip
+    implicit none
+    integer, parameter :: cases = 12
+    type(wheelset_model_t) :: model
+    type(wheelset_workspace_t) :: workspace
+    type(wheelset_result_t) :: result
+    type(wheelset_demand_t) :: demand
+    type(wheelset_state_t) :: state
+    type(status_t) :: status
+    integer :: setup, i, side, k
+
+    do setup = 1, 2
+        call make(setup)
+        state = wheelset_state_t()
+        do i = 1, cases
+            call ask(i)
+            call solve_wheelset(model, workspace, state, demand, result, status)
+            do side = 1, 2
+                if (is_error(status)) demand%wants(side) = .false.
+            end do
+            print '(a, 2(1x, i0))', 'solved', status%code, sum(result%wheel%n, mask=demand%wants)
+            do side = 1, 2
+                if (.not. demand%wants(side)) cycle
+                associate (wheel => result%wheel(side))
+                    print '(a, 3(1x, i0))', 'wheel', wheel%status%code, wheel%n, wheel%solutions
+                    call show([wheel%z, wheel%roll, wheel%force, wheel%force_wheelset, &
+                               wheel%moment])
+                    do k = 1, wheel%n
+                        call show_contact(side, wheel%contact(k))
+                    end do
+                    state%z = wheel%z
+                    state%roll = wheel%roll
+                end associate
+            end do
+        end do
+    end do
+
+contains
+
+    !> The first wheelset has profiles of names, the second one of points.
+    subroutine make(setup)
+        integer, intent(in) :: setup
+        type(profile_t) :: wheels(2), rails(2)
+        type(touchable_t) :: part
+        type(contact_case_t) :: case
+        type(track_t) :: track
+        real(wp) :: y(61)
+        integer :: i
+
+        case%mu = 0.35_wp
+        case%methods%strips_per_patch = 9
+        if (setup == 1) then
+            call make_wheel_profile('s1002', wheels(1), status)
+            call make_rail_profile('60e1', 0.05_wp, rails(1), status)
+        else
+            y = [(real(i - 31, wp), i=1, 61)]
+            call make_curve_profile(y, -y*y/2000.0_wp - y/20.0_wp, body_wheel, 0.0_wp, &
+                                    standard_kink_angle, wheels(1), part, status)
+            call make_curve_profile(y, y*y/600.0_wp, body_rail, 0.05_wp, standard_kink_angle, &
+                                    rails(1), part, status)
+            track%rail_distance = 1500.0_wp
+        end if
+        wheels(2) = wheels(1)
+        rails(2) = rails(1)
+        if (setup == 2) call make_wheel_profile('cone40', wheels(2), status)
+        call make_wheelset(wheels, rails, wheelset_t(), 460.25_wp, track, case, model, status)
+        call reserve_wheelset(workspace, model, status)
+    end subroutine make
+
+    subroutine ask(i)
+        integer, intent(in) :: i
+
+        state%y = 0.5_wp*i - 3.0_wp
+        state%yaw = 0.001_wp*i
+        state%speed = 20000.0_wp
+        state%y_rate = 10.0_wp*i
+        state%z_rate = 1.0_wp
+        state%roll_rate = 0.001_wp
+        state%yaw_rate = 0.01_wp*i
+        state%pitch_rate = -20000.0_wp/460.0_wp
+        state%curvature = 1.0e-6_wp
+        demand = wheelset_demand_t(modulo(i, 3))
+        demand%load = [60000.0_wp, 50000.0_wp]
+        demand%axle_load = 120000.0_wp
+        demand%roll_moment = 1000000.0_wp
+        demand%roll_is_free = modulo(i, 3) > 0 .and. i < 7
+        if (modulo(i, 3) < 2 .and. i >= 9) demand%wants(modulo(i, 2) + 1) = .false.
+        if (modulo(i, 2) == 0) then
+            workspace%has_last = .false.
+            workspace%wheel%n = 0
+            workspace%wheel%approach = 0.0_wp
+        end if
+    end subroutine ask
+
+    subroutine show_contact(side, contact)
+        integer, intent(in) :: side
+        type(wheel_contact_t), intent(in) :: contact
+
+        associate (figures => contact%figures, creepage => contact%creepage)
+            print '(a, 6(1x, i0))', 'contact', side, contact%status%code, &
+                figures%normal%n_patches, figures%normal%strips_across, &
+                merge(1, 0, figures%is_estimated), merge(1, 0, figures%forces_are_estimated)
+            call show([contact%place, contact%angle, contact%rail, contact%wheel])
+            call show([contact%radius, contact%speed, creepage%cksi, creepage%ceta, creepage%cphi])
+            call show([figures%normal%load, figures%normal%penetration, figures%normal%area])
+            call show([figures%normal%pmax, figures%normal%y_min, figures%normal%y_max])
+            call show([figures%normal%x_max, figures%tangential%fx, figures%tangential%fy])
+            call show([figures%tangential%mz, figures%tangential%friction_power])
+            call show([figures%tangential%stick_fraction, contact%force, contact%force_wheelset])
+            call show(contact%moment)
+            call show([figures%certificate%est_err_penetration, figures%certificate%est_err_pmax])
+            call show([figures%certificate%est_err_area, figures%force_errors%fx])
+            call show([figures%force_errors%fy, figures%force_errors%mz])
+        end associate
+    end subroutine show_contact
+
+    !> Numbers as bits.
+    subroutine show(numbers)
+        real(wp), intent(in) :: numbers(:)
+
+        print '(*(z16.16, :, 1x))', numbers
+    end subroutine show
+end program wheelsets

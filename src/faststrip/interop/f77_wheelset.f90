@@ -1,0 +1,185 @@
+!> The wheelsets of the F77 face, with the conventions of `faststrip_interop_f77`: `IOPT` and `PAR`
+!> from there, of which methods, material and friction count; `IWORK` is as long as FSINIT says.
+!>
+!> ```
+!> SETUP(1), SETUP(2) nominal radius of the right and left wheel, mm
+!> SETUP(3) distance of the flange backs, mm           SETUP(4) flange back to tape circle, mm
+!> SETUP(5) gauge, mm                                  SETUP(6) its depth below the crown, mm
+!> SETUP(7) distance of the origins of the rails' profiles, mm; 0: as the gauge says
+!> SETUP(8) tangent by which both rails are turned     SETUP(9) limit of estimated errors; 0: none
+!> NPROF(1), NPROF(2) points of the right and left wheel, NPROF(3), NPROF(4) of the rails; a left
+!>        one of 0 is as the right one; or, below 0, a standard profile: wheels -1 S1002, -2 a cone
+!>        of 1:20, -3 of 1:40; rails -1 UIC60, -2 60E1, -3 54E1
+!> YPROF, ZPROF their points, one profile after the other, as FSPROF takes them, mm
+!> STATE(1) y, mm           STATE(2) z, mm             STATE(3) roll, right wheel down, rad
+!> STATE(4) yaw, nose to the right, rad                STATE(5) speed, mm/s
+!> STATE(6), STATE(7) rates of y and z, mm/s           STATE(8), STATE(9) of roll and yaw, rad/s
+!> STATE(10) pitch rate, negative for rolling ahead    STATE(11) curvature of the track, 1/mm
+!> IDMND(1) prescribed are: 0 z and roll, 1 the vertical force of each wheel, 2 the axle load
+!> IDMND(2) wheels: 0 both, 1 right, 2 left            IDMND(3) 1: the roll is free, and found
+!> IDMND(4) 1: warm start
+!> DMND(1), DMND(2) vertical force of the right and left wheel, N      DMND(3) axle load, N
+!> DMND(4) moment about the wheelset's centre along the track that the frame exerts on it, N mm
+!> CONT(1,K) side of contact K: 1 right, 2 left        CONT(2,K) its status
+!> CONT(3,K) patches        CONT(4,K) strips across    CONT(5,K) 1: CONT(42) to CONT(44) are known
+!> CONT(6,K) 1: CONT(45) to CONT(47) are known         CONT(7) to CONT(9) place in the track, mm
+!> CONT(10,K) contact angle, rad                       CONT(11), CONT(12) y, z on the rail, mm
+!> CONT(13) to CONT(15) x, y, z on the wheel, mm       CONT(16,K) rolling radius, mm
+!> CONT(17,K) rolling speed, mm/s                      CONT(18) to CONT(20) creepages, -, -, rad/mm
+!> CONT(21,K) normal force, N       CONT(22,K) penetration, mm         CONT(23,K) area, mm^2
+!> CONT(24,K) largest pressure, MPa CONT(25), CONT(26) ends, mm        CONT(27,K) half-length, mm
+!> CONT(28), CONT(29) Fx, Fy in the tangent plane, N   CONT(30,K) Mz, N mm, all on the rail
+!> CONT(31,K) friction power, N     CONT(32,K) share in adhesion
+!> CONT(33) to CONT(35) force in the track, N
+!> CONT(36) to CONT(38) the same in the wheelset's frame
+!> CONT(39) to CONT(41) moment about the wheelset's centre in the track, N mm
+!> CONT(42) to CONT(47) as ERR(1) to ERR(3), FERR(1) to FERR(3)
+!> WRES(1), WRES(2) z of the wheelset's centre, right and left, mm     WRES(3) roll, rad
+!> WRES(4) to WRES(6) force on the right rail in the track, WRES(7) to WRES(9) on the left, N
+!> WRES(10) to WRES(15) the same in the wheelset's frame
+!> WRES(16) to WRES(21) moments about the wheelset's centre, N mm
+!> WRES(22), WRES(23) status of each wheel             WRES(24), WRES(25) contacts
+!> WRES(26), WRES(27) contact problems that were solved
+!> ```
+module faststrip_interop_f77_wheelset
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument, &
+                                     st_workspace_too_small
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_interop_f77, only: n_iopt, n_par, n_iwork, set_number, number_of
+    use faststrip_interop_flat, only: fill_case
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_dimensions => n_setup, &
+                                                 n_state, n_choices, n_loads, n_counts, &
+                                                 n_numbers, n_totals, n_sums, free_wheelset, &
+                                                 find_wheelset, wheelset_solve, contact_count, &
+                                                 read_contact, read_totals
+    use faststrip_interop_wheelset_new, only: profile_source_t, default_setup, new_wheelset
+    implicit none
+    private
+
+    public :: fswdft, fswnew, fswslv, fswfre
+
+    integer, parameter :: n_setup = n_dimensions + 1
+    integer, parameter :: n_cont = n_counts + n_numbers, n_wres = n_totals + n_sums
+    ! Given: names of profiles, in the order of their numbers.
+    character(len=6), parameter :: wheel_names(3) = ['s1002 ', 'cone20', 'cone40']
+    character(len=6), parameter :: rail_names(3) = ['uic60 ', '60e1  ', '54e1  ']
+
+contains
+
+    !> CALL FSWDFT(SETUP)
+    !>
+    !> Standard gauge, wheels of 460 mm, rails canted by 1:40.
+    subroutine fswdft(setup) bind(c, name='fswdft_')
+        real(c_double), intent(out) :: setup(n_setup) !! as above
+
+        type(contact_case_t) :: case
+
+        call default_setup(setup(:n_dimensions))
+        setup(n_setup) = case%resolution_limit
+    end subroutine fswdft
+
+    !> CALL FSWNEW(IOPT, PAR, SETUP, NPROF, YPROF, ZPROF, IWORK, LIWORK, INFO)
+    !>
+    !> Make a wheelset on its track. Methods but auto, IOPT(1) = 6.
+    subroutine fswnew(iopt, par, setup, n_profile, y_profile, z_profile, iwork, liwork, info) &
+        bind(c, name='fswnew_')
+        integer(c_int), intent(in) :: iopt(n_iopt)     !! choices
+        real(c_double), intent(in) :: par(n_par)       !! numbers
+        real(c_double), intent(in) :: setup(n_setup)   !! as above
+        integer(c_int), intent(in) :: n_profile(4)     !! as above
+        real(c_double), intent(in), target :: y_profile(*), z_profile(*) !! mm
+        integer(c_int), intent(inout) :: iwork(*)      !! the caller's workspace array
+        integer(c_int), intent(in) :: liwork           !! its length
+        integer(c_int), intent(out) :: info            !! status
+
+        type(profile_source_t) :: sources(4)
+        type(contact_case_t) :: case
+        type(status_t) :: status
+        integer(c_intptr_t) :: number
+        integer :: i, first
+
+        info = st_workspace_too_small
+        if (liwork < n_iwork) return
+        iwork(:n_iwork) = 0
+        first = 1
+        do i = 1, size(sources)
+            associate (n => n_profile(i))
+                if (n > 0) then
+                    sources(i)%y => y_profile(first:first + n - 1)
+                    sources(i)%z => z_profile(first:first + n - 1)
+                    first = first + n
+                else if (n < 0) then
+                    info = st_bad_argument
+                    if (n < -size(wheel_names)) return
+                    sources(i)%name = merge(wheel_names(-n), rail_names(-n), i <= 2)
+                end if
+            end associate
+        end do
+        call fill_case(iopt, [par(:6), par(6:)], case)
+        case%estimate = abs(setup(n_setup)) > 0.0_c_double
+        if (case%estimate) then
+            case%resolution_limit = setup(n_setup)
+            case%force_limit = setup(n_setup)
+        end if
+        call new_wheelset(sources(:2), sources(3:), setup(:n_dimensions), case, number, status)
+        info = status%code
+        if (.not. is_error(status)) call set_number(iwork(:n_iwork), number)
+    end subroutine fswnew
+
+    !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
+    !>
+    !> Solve the contacts of both wheels, those of the right one first. INFO 110: M below N.
+    subroutine fswslv(iwork, state, idmnd, dmnd, capacity, n, cont, wres, info) &
+        bind(c, name='fswslv_')
+        integer(c_int), intent(in) :: iwork(n_iwork)    !! made by FSWNEW
+        real(c_double), intent(in) :: state(n_state)    !! as above
+        integer(c_int), intent(in) :: idmnd(n_choices)  !! as above
+        real(c_double), intent(in) :: dmnd(n_loads)     !! as above
+        integer(c_int), intent(in) :: capacity          !! contacts that CONT has columns for
+        integer(c_int), intent(out) :: n                !! number of contacts
+        real(c_double), intent(inout) :: cont(n_cont, *) !! as above, written up to N
+        real(c_double), intent(out) :: wres(n_wres)     !! as above; zero when there is an error
+        integer(c_int), intent(out) :: info             !! status
+
+        type(wheelset_handle_t), pointer :: handle
+        type(status_t) :: status
+        integer(c_int) :: counts(n_counts), sums(n_sums)
+        integer :: i
+
+        n = 0
+        wres = 0.0_c_double
+        call find_wheelset(number_of(iwork), handle, status)
+        info = status%code
+        if (is_error(status)) return
+        call wheelset_solve(handle, state, idmnd, dmnd)
+        n = contact_count(handle)
+        if (n > capacity) then
+            call set_status(handle%status, st_workspace_too_small, &
+                            'there are more contacts than fit: ' // count_text(n))
+            handle%has = .false.
+        else
+            do i = 1, n
+                call read_contact(handle, i, counts, cont(n_counts + 1:, i))
+                cont(:n_counts, i) = counts
+            end do
+        end if
+        call read_totals(handle, sums, wres(:n_totals))
+        wres(n_totals + 1:) = sums
+        info = handle%status%code
+    end subroutine fswslv
+
+    !> CALL FSWFRE(IWORK, INFO)
+    !>
+    !> Free what FSWNEW allocated.
+    subroutine fswfre(iwork, info) bind(c, name='fswfre_')
+        integer(c_int), intent(inout) :: iwork(n_iwork) !! made by FSWNEW; zero afterwards
+        integer(c_int), intent(out) :: info             !! status
+
+        type(status_t) :: status
+
+        call free_wheelset(number_of(iwork), status)
+        info = status%code
+        iwork = 0
+    end subroutine fswfre
+end module faststrip_interop_f77_wheelset

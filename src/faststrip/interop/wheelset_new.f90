@@ -1,0 +1,126 @@
+!> The making of the C and F77 faces' wheelsets, from the dimensions and where profiles come from.
+module faststrip_interop_wheelset_new
+    use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t, c_loc
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_bad_argument, st_not_finite
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_auto
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                          make_curve_profile, standard_cant
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
+    use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
+    use faststrip_interop_register, only: enter_register, kind_wheelset
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, n_setup
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset
+    use faststrip_wheelset_types, only: side_right, side_left
+    implicit none
+    private
+
+    public :: profile_source_t, source_name_length, default_setup, new_wheelset
+
+    !> Characters of a profile's name.
+    !> Given: capacity.
+    integer, parameter :: source_name_length = 16
+
+    !> Where a profile comes from: a name, or points; neither for one that is as the right one.
+    type :: profile_source_t
+        character(len=source_name_length) :: name = ''
+        real(wp), pointer :: y(:) => null() !! to the field side, mm
+        real(wp), pointer :: z(:) => null() !! down, mm
+    end type profile_source_t
+
+contains
+
+    !> Standard gauge, wheels of 460 mm, rails canted by 1:40.
+    pure subroutine default_setup(setup)
+        real(c_double), intent(out) :: setup(n_setup) !! dimensions
+
+        type(wheelset_t) :: wheelset
+        type(track_t) :: track
+
+        setup = [wheelset%radius, wheelset%radius, wheelset%back_spacing, wheelset%tread_line, &
+                 track%gauge, track%gauge_depth, track%rail_distance, standard_cant]
+    end subroutine default_setup
+
+    !> Make a wheelset on its track. The one allocation.
+    subroutine new_wheelset(wheels, rails, setup, case, number, status)
+        type(profile_source_t), intent(in) :: wheels(2) !! right and left, both as a right wheel
+        type(profile_source_t), intent(in) :: rails(2)  !! right and left, both as a right rail
+        real(c_double), intent(in) :: setup(n_setup)    !! dimensions
+        type(contact_case_t), intent(in) :: case        !! material, friction, methods
+        integer(c_intptr_t), intent(out) :: number      !! of the handle; 0 when there is an error
+        type(status_t), intent(out) :: status
+            !! those of `make_wheelset`, `reserve_wheelset` and of profiles
+
+        type(wheelset_handle_t), pointer :: handle
+        type(environment_t) :: environment
+
+        number = 0
+        call allocate_wheelset(handle, status)
+        if (is_error(status)) return
+        call hold_environment(environment)
+        call fill_handle(wheels, rails, setup, case, handle, status)
+        call restore_environment(environment)
+        if (.not. is_error(status)) &
+            call enter_register(c_loc(handle), kind_wheelset, number, status)
+        if (is_error(status)) deallocate (handle)
+    end subroutine new_wheelset
+
+    subroutine fill_handle(wheels, rails, setup, case, handle, status)
+        type(profile_source_t), intent(in) :: wheels(2), rails(2)
+        real(c_double), intent(in) :: setup(n_setup)
+        type(contact_case_t), intent(in) :: case
+        type(wheelset_handle_t), intent(inout) :: handle
+        type(status_t), intent(out) :: status
+
+        type(profile_t), allocatable :: wheel(:), rail(:)
+
+        call clear_status(status)
+        allocate (wheel(2), rail(2))
+        if (.not. all(ieee_is_finite(setup))) then
+            call set_status(status, st_not_finite, 'the setup must be finite numbers')
+        else if (case%methods%normal == normal_auto) then
+            call set_status(status, st_bad_argument, 'the normal method of a wheelset must not ' &
+                            // 'be auto')
+        end if
+        if (.not. is_error(status)) call make_profiles(wheels, body_wheel, 0.0_wp, wheel, status)
+        if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
+        if (.not. is_error(status)) &
+            call make_wheelset(wheel, rail, wheelset_t(setup(3), setup(4), setup(1)), setup(2), &
+                               track_t(setup(5), setup(6), setup(7)), case, handle%model, status)
+        if (.not. is_error(status)) &
+            call reserve_wheelset(handle%workspace, handle%model, status)
+    end subroutine fill_handle
+
+    ! The right and the left profile of one body.
+    subroutine make_profiles(sources, body, cant, profiles, status)
+        type(profile_source_t), intent(in) :: sources(2)
+        integer, intent(in) :: body
+        real(wp), intent(in) :: cant
+        type(profile_t), intent(inout) :: profiles(2)
+        type(status_t), intent(out) :: status
+
+        type(touchable_t) :: part
+        integer :: side
+
+        do side = side_right, side_left
+            associate (source => sources(side))
+                if (associated(source%y)) then
+                    call make_curve_profile(source%y, source%z, body, cant, standard_kink_angle, &
+                                            profiles(side), part, status)
+                else if (side == side_left .and. source%name == '') then
+                    profiles(side_left) = profiles(side_right)
+                else if (body == body_wheel) then
+                    call make_wheel_profile(trim(source%name), profiles(side), status)
+                else
+                    call make_rail_profile(trim(source%name), cant, profiles(side), status)
+                end if
+            end associate
+            if (is_error(status)) return
+        end do
+    end subroutine make_profiles
+end module faststrip_interop_wheelset_new
