@@ -83,7 +83,7 @@ OWN_STAGES = {
     "interop": [("installed", FACES)],
     "command": [("python", ["test/cli"])],
     "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
-    "python": [("installed", FACES[:3])],
+    "python": [("installed", [*FACES[:3], FACES[-1]])],
     "plots": [("python", ["test/plots"])],
 }
 TABLES = ["test/tools/test_generated_modules.py"]

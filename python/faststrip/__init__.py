@@ -27,6 +27,7 @@ from ._contact import (
 )
 from ._library import FaststripError, LibraryNotFound
 from ._profile import Gap, Profile, ProgramNotFound, profile_gap
+from ._wheelset import WheelContact, Wheelset, WheelsetResult
 
 __all__ = [
     "Contact",
@@ -40,6 +41,9 @@ __all__ = [
     "Result",
     "Step",
     "Strips",
+    "WheelContact",
+    "Wheelset",
+    "WheelsetResult",
     "fastsim",
     "hertz",
     "kalker",

@@ -226,7 +226,8 @@ _NAMES_OF_NORMAL = {number: name for name, number in NORMAL.items()}
 _NAMES_OF_TANGENTIAL = {number: name for name, number in TANGENTIAL.items()}
 
 
-def _number_of(names: Dict[str, int], name: Any, what: str) -> int:
+def number_of(names: Dict[str, int], name: Any, what: str) -> int:
+    """The number of a name, of those there are."""
     if not isinstance(name, str) or name not in names:
         raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
                              f"{what} must be one of {', '.join(names)}, got {name!r}")
@@ -250,7 +251,8 @@ def _three_creepages(creepage: Any) -> Tuple[Any, ...]:
     return several("creepage", creepage, "longitudinal, lateral and spin", (3,))
 
 
-def _grid_of(name: str, grid: Any) -> Tuple[int, int]:
+def grid_of(name: str, grid: Any) -> Tuple[int, int]:
+    """Points along a row, and rows."""
     nx, ny = several(name, grid, "points along a row and rows", (2,))
     return whole(name, nx, 1, MOST_ROWS), whole(name, ny, 1, MOST_ROWS)
 
@@ -297,13 +299,13 @@ class Contact:
         self._material: Any = Material  # that is in the case; none yet
         case = self._case = Case()
         check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
-        case.normal = _number_of(NORMAL, normal, "normal")
-        case.tangential = _number_of(TANGENTIAL, tangential, "tangential")
+        case.normal = number_of(NORMAL, normal, "normal")
+        case.tangential = number_of(TANGENTIAL, tangential, "tangential")
         auto = isinstance(strips_per_patch, str) and strips_per_patch == "auto"
         case.strips_per_patch = 0 if auto else whole("strips_per_patch", strips_per_patch, 1,
                                                      MOST_STRIPS, ", or 'auto'")
         case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
-        case.fastsim_nx, case.fastsim_ny = _grid_of("fastsim_grid", fastsim_grid)
+        case.fastsim_nx, case.fastsim_ny = grid_of("fastsim_grid", fastsim_grid)
         case.with_elements = flag("with_elements", with_elements)
         case.estimate = flag("estimate", estimate)
         case.resolution_limit = above_zero("resolution_limit", resolution_limit)
@@ -457,7 +459,7 @@ class Contact:
                 if value is not None:
                     raise refused(name, "None unless normal is 'auto'", value)
             return
-        case.target = TARGETS["forces"] if target is None else _number_of(TARGETS, target, "target")
+        case.target = TARGETS["forces"] if target is None else number_of(TARGETS, target, "target")
         case.budget_us = 0.0 if budget_us is None else from_zero("budget_us", budget_us)
         if tolerance is not None:
             case.tolerance = from_zero("tolerance", tolerance)
@@ -520,7 +522,7 @@ def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
     Fx, Fy (N) and Mz (N mm) on the rail."""
     forces = (c_double * 3)()
     c = several("coefficients", coefficients, "C11, C22, C23", (3, 4))
-    nx, ny = _grid_of("grid", grid)
+    nx, ny = grid_of("grid", grid)
     values = numbers(FASTSIM_NAMES, (a, b, shear_modulus, c[0], c[1], c[2],
                                      *_three_creepages(creepage), mu, load))
     if nx * ny > LONG_GRID:

@@ -142,6 +142,10 @@ def _declare(library: ctypes.CDLL) -> None:
         "kalker": [number, number, POINTER(number)],
         "profile_gap": [c_int, *[c_void_p] * 2, c_int, *[c_void_p] * 3, c_int, POINTER(c_int),
                         *[c_void_p] * 5],
+        "wheelset_new": [*[c_void_p] * 3, POINTER(Case), POINTER(handle), c_char_p, c_size_t],
+        "wheelset_free": [POINTER(handle)],
+        "wheelset_solve": [handle, *[c_void_p] * 2, c_int, POINTER(c_int), *[c_void_p] * 2],
+        "wheelset_last_message": [handle, c_char_p, c_size_t],
     }
     for name, types in arguments.items():
         try:

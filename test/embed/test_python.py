@@ -32,7 +32,7 @@ class Package(HostTest):
         names = sorted(path.name for path in (self.folder / "site" / "faststrip").iterdir())
         self.assertEqual([name for name in names if name != "__pycache__"],
                          ["__init__.py", "_arguments.py", "_contact.py", "_interrupt.py",
-                          "_library.py", "_profile.py", "py.typed"])
+                          "_library.py", "_profile.py", "_wheelset.py", "py.typed"])
 
     def test_the_example_of_its_help(self):
         self.python("import doctest, faststrip, sys; "

@@ -36,7 +36,7 @@ module faststrip_geometry_rigid_contact
         ! Given: dimensions of the track.
         real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
         real(wp) :: rail_distance = 0.0_wp !! distance of the origins of the two rail profiles, mm;
-                                           !! 0: as the gauge says
+                                           !! 0 where the gauge counts
     end type track_t
 
     !> One point of contact.

@@ -1,0 +1,321 @@
+"""Wheelsets on a track: from position and velocity to the forces of every contact."""
+
+from __future__ import annotations
+
+import _thread
+import ctypes
+import operator
+from ctypes import c_char_p, c_double, c_int, c_size_t, c_void_p
+from typing import Any, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arguments import above_zero, flag, number, numbers, refused, several, whole
+from ._contact import (
+    MATERIAL_NAMES,
+    MOST_POINTS,
+    MOST_STRIPS,
+    NORMAL,
+    TANGENTIAL,
+    Material,
+    grid_of,
+    number_of,
+)
+from ._library import (
+    BAD_ARGUMENT,
+    FIRST_ERROR,
+    TEXT,
+    Case,
+    FaststripError,
+    check,
+    library,
+    word_of,
+)
+from ._profile import Profile
+
+Array = npt.NDArray[np.float64]
+WHEELS = {"both": 0, "right": 1, "left": 2}
+SIDES = "right", "left"
+MOST_CONTACTS = 16
+STEEL = Material()
+BY_POSITION, BY_LOADS, BY_AXLE_LOAD = 0, 1, 2
+
+
+class Setup(ctypes.Structure):
+    """``faststrip_wheelset_setup`` of the header."""
+
+    _fields_ = [("size", c_size_t), *((name, c_double) for name in (
+        "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
+        "rail_distance", "cant"))]
+
+
+class Points(ctypes.Structure):
+    """``faststrip_profile`` of the header."""
+
+    _fields_ = [("name", c_char_p), ("y", c_void_p), ("z", c_void_p), ("n", c_int)]
+
+
+class State(ctypes.Structure):
+    """``faststrip_wheelset_state`` of the header."""
+
+    _fields_ = [(name, c_double) for name in (
+        "y", "z", "roll", "yaw", "speed", "y_rate", "z_rate", "roll_rate", "yaw_rate",
+        "pitch_rate", "curvature")]
+
+
+class Demand(ctypes.Structure):
+    """``faststrip_wheelset_demand`` of the header."""
+
+    _fields_ = [*((name, c_int) for name in ("kind", "wheels", "roll_is_free", "warm_start")),
+                *((name, c_double) for name in ("load_right", "load_left", "axle_load",
+                                                "roll_moment"))]
+
+
+THREE = c_double * 3
+FIGURES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
+           "friction_power", "stick_fraction")
+
+
+class Row(ctypes.Structure):
+    """``faststrip_wheelset_contact`` of the header."""
+
+    _fields_ = [
+        *((name, c_int) for name in ("side", "status", "n_patches", "strips_across",
+                                     "is_estimated", "forces_are_estimated")),
+        ("place", THREE), ("angle", c_double), ("rail", c_double * 2), ("wheel", THREE),
+        *((name, c_double) for name in ("radius", "speed", "cksi", "ceta", "cphi", *FIGURES)),
+        ("force", THREE), ("force_wheelset", THREE), ("moment", THREE),
+        *((name, c_double) for name in (
+            "est_err_penetration", "est_err_pmax", "est_err_area", "est_err_fx", "est_err_fy",
+            "est_err_mz")),
+    ]
+
+
+class Totals(ctypes.Structure):
+    """``faststrip_wheelset_result`` of the header."""
+
+    _fields_ = [*((name, c_int * 2) for name in ("status", "n_contacts", "n_solutions")),
+                ("z", c_double * 2), ("roll", c_double),
+                *((name, THREE * 2) for name in ("force", "force_wheelset", "moment"))]
+
+
+class WheelContact(NamedTuple):
+    """One contact of a wheel; forces and moments act on the rail."""
+
+    side: str  #: ``right`` or ``left``
+    word: str  #: ``ok``, or the name of a limitation
+    n_patches: int
+    strips_across: int
+    place: Tuple[float, ...]  #: x, y, z of the reference point in the track, mm
+    contact_angle: float  #: rad
+    rail: Tuple[float, ...]  #: y, z of it on the rail's profile, mm
+    wheel: Tuple[float, ...]  #: x, y, z of it in the frame of the wheel's profile, mm
+    radius: float  #: rolling radius, mm
+    speed: float  #: rolling speed, mm/s
+    cksi: float
+    ceta: float
+    cphi: float  #: rad/mm
+    load: float  #: normal force, N
+    penetration: float
+    area: float
+    pmax: float
+    y_min: float
+    y_max: float
+    x_max: float
+    fx: float
+    fy: float
+    mz: float
+    friction_power: float
+    stick_fraction: float
+    force: Tuple[float, ...]  #: in the track, N
+    force_wheelset: Tuple[float, ...]  #: the same in the wheelset's frame, N
+    moment: Tuple[float, ...]  #: about the wheelset's centre, in the track, N mm
+    est_err_penetration: Optional[float]
+    est_err_pmax: Optional[float]
+    est_err_area: Optional[float]
+    est_err_fx: Optional[float]
+    est_err_fy: Optional[float]
+    est_err_mz: Optional[float]
+
+
+_MOTION = operator.attrgetter("radius", "speed", "cksi", "ceta", "cphi", *FIGURES)
+_ESTIMATES = operator.attrgetter("est_err_penetration", "est_err_pmax", "est_err_area")
+_FORCE_ERRORS = operator.attrgetter("est_err_fx", "est_err_fy", "est_err_mz")
+_NONE = (None,) * 3
+
+
+def _contact_of(row: Row) -> WheelContact:
+    return WheelContact(
+        SIDES[row.side - 1], word_of(row.status), row.n_patches, row.strips_across,
+        tuple(row.place), row.angle, tuple(row.rail), tuple(row.wheel), *_MOTION(row),
+        tuple(row.force), tuple(row.force_wheelset), tuple(row.moment),
+        *(_ESTIMATES(row) if row.is_estimated else _NONE),
+        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE))
+
+
+class WheelsetResult(NamedTuple):
+    """What came of both wheels, right and left; zero for one that was not asked for."""
+
+    status: int
+    word: str
+    contacts: Tuple[WheelContact, ...]  #: those of the right wheel first
+    z: Tuple[float, ...]  #: of the wheelset's centre, mm
+    roll: float  #: rad
+    force: Array  #: of each wheel on its rail in the track, 2 x 3, N
+    force_wheelset: Array  #: the same in the wheelset's frame
+    moment: Array  #: about the wheelset's centre in the track, 2 x 3, N mm
+    n_solutions: Tuple[int, ...]  #: contact problems that were solved
+
+
+def _points(name: str, profile: Any, kind: str) -> Points:
+    if isinstance(profile, str):
+        return Points(profile.encode("ascii", "replace"))
+    if not isinstance(profile, Profile) or profile.kind not in (kind, "unknown"):
+        raise refused(name, f"a Profile of a {kind} or a name", profile)
+    return Points(None, profile.y.ctypes.data, profile.z.ctypes.data, len(profile.y))
+
+
+class _Handle:
+    """A wheelset of the library, freed with the last that holds it: so not during a call."""
+
+    def __init__(self) -> None:
+        self.handle = c_void_p()
+        self.in_use = _thread.allocate_lock()
+
+    def __del__(self, free: Any = library.faststrip_wheelset_free,
+                byref: Any = ctypes.byref) -> None:
+        free(byref(self.handle))
+
+
+class Wheelset:
+    """A wheelset on its track: profiles, dimensions, methods, the last solution.
+
+    wheel and rail are a `Profile` or a name (``s1002``, ``cone20``, ``cone40``; ``uic60``,
+    ``60e1``, ``54e1``), both sides as one of the right side; the left ones are alike unless told
+    otherwise, radius_left too. Lengths in mm; rail_distance, of the origins of the rails' profiles,
+    counts in the gauge's place; cant is the tangent by which both rails are turned. Methods and
+    estimates are those of a `Contact`. Use one Wheelset per thread.
+
+    >>> result = Wheelset(mu=0.4).solve(y=3.0, yaw=2e-3, speed=2e4, pitch_rate=-2e4 / 460.0,
+    ...                                 axle_load=1.2e5)
+    >>> [contact.side for contact in result.contacts], round(result.force[:, 2].sum())
+    (['right', 'left'], 120000)
+    """
+
+    def __init__(self, wheel: Union[str, Profile] = "s1002", rail: Union[str, Profile] = "60e1", *,
+                 wheel_left: Union[None, str, Profile] = None,
+                 rail_left: Union[None, str, Profile] = None, radius: float = 460.0,
+                 radius_left: Optional[float] = None, back_spacing: float = 1360.0,
+                 tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
+                 rail_distance: Optional[float] = None, cant: float = 0.025, mu: float = 0.3,
+                 material: Material = STEEL, normal: str = "strip",
+                 tangential: str = "faststrip", strips_per_patch: int = 15,
+                 points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
+                 estimate: bool = True, resolution_limit: float = 0.1,
+                 force_limit: float = 0.1) -> None:
+        self._handle: Optional[_Handle] = None
+        case = Case()
+        check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
+        case.normal = number_of(NORMAL, normal, "normal")
+        case.tangential = number_of(TANGENTIAL, tangential, "tangential")
+        case.strips_per_patch = whole("strips_per_patch", strips_per_patch, 1, MOST_STRIPS)
+        case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
+        case.fastsim_nx, case.fastsim_ny = grid_of("fastsim_grid", fastsim_grid)
+        case.estimate = flag("estimate", estimate)
+        case.resolution_limit = above_zero("resolution_limit", resolution_limit)
+        case.force_limit = above_zero("force_limit", force_limit)
+        case.mu = number("mu", mu)
+        if not isinstance(material, Material):
+            raise refused("material", "a faststrip.Material", material)
+        case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = numbers(
+            MATERIAL_NAMES, (material.e_wheel, material.e_rail, material.nu_wheel,
+                             material.nu_rail))
+        left = radius if radius_left is None else radius_left
+        distance = 0.0 if rail_distance is None else above_zero("rail_distance", rail_distance)
+        setup = Setup(ctypes.sizeof(Setup), *numbers(
+            ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
+             "rail_distance", "cant"),
+            (radius, left, back_spacing, tread_line, gauge, gauge_depth, distance, cant)))
+        wheels = (Points * 2)(_points("wheel", wheel, "wheel"), Points() if wheel_left is None
+                              else _points("wheel_left", wheel_left, "wheel"))
+        rails = (Points * 2)(_points("rail", rail, "rail"), Points() if rail_left is None
+                             else _points("rail_left", rail_left, "rail"))
+        handle, text = _Handle(), ctypes.create_string_buffer(TEXT)
+        status = library.faststrip_wheelset_new(
+            ctypes.byref(setup), wheels, rails, ctypes.byref(case), ctypes.byref(handle.handle),
+            text, TEXT)
+        if status >= FIRST_ERROR:
+            raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+        self._handle = handle
+
+    def close(self) -> None:
+        """Give the memory back; the wheelset cannot be used afterwards."""
+        self._handle = None
+
+    def __enter__(self) -> "Wheelset":
+        return self
+
+    def __exit__(self, *problem: Any) -> None:
+        self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Wheelset cannot be copied or pickled: make one in every process")
+
+    def solve(self, *, y: float = 0.0, z: Optional[float] = None, roll: Optional[float] = None,
+              yaw: float = 0.0, speed: float = 0.0, y_rate: float = 0.0, z_rate: float = 0.0,
+              roll_rate: float = 0.0, yaw_rate: float = 0.0, pitch_rate: float = 0.0,
+              curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
+              axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
+              warm_start: bool = False) -> WheelsetResult:
+        """Solve for a position z (mm), a load of each wheel (N; one, or right and left) or an
+        axle_load (N): one of the three.
+
+        y in mm to the right, roll (right wheel down) and yaw (nose to the right) in rad, speed in
+        mm/s, rates per s, pitch_rate negative for rolling ahead, curvature of the track in 1/mm,
+        positive to the right. A roll that is not given is found, of both wheels and their loads;
+        else it is 0. roll_moment, N mm, is what the frame exerts about the wheelset's centre.
+        wheels is ``both``, ``right`` or ``left``. warm_start begins with the last solution, if
+        there is one. Raises FaststripError where there is no result.
+        """
+        if sum(value is not None for value in (z, load, axle_load)) != 1:
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 "one of z, load and axle_load must be given")
+        demand = Demand(wheels=number_of(WHEELS, wheels, "wheels"),
+                        warm_start=flag("warm_start", warm_start),
+                        roll_moment=number("roll_moment", roll_moment))
+        if axle_load is not None:
+            demand.kind, demand.axle_load = BY_AXLE_LOAD, number("axle_load", axle_load)
+        elif load is not None:
+            loads = (load, load) if np.ndim(load) == 0 else several("load", load,
+                                                                    "right and left", (2,))
+            demand.kind = BY_LOADS
+            demand.load_right, demand.load_left = numbers(("load[0]", "load[1]"), loads)
+        demand.roll_is_free = roll is None and z is None and demand.wheels == 0
+        names = [name for name, _ in State._fields_]
+        state = State(*numbers(names, (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate,
+                                       roll_rate, yaw_rate, pitch_rate, curvature)))
+        rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
+        status = self._call(ctypes.byref(state), ctypes.byref(demand), MOST_CONTACTS,
+                            ctypes.byref(n), rows, ctypes.byref(totals))
+        return WheelsetResult(
+            status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),
+            totals.roll, np.array(totals.force), np.array(totals.force_wheelset),
+            np.array(totals.moment), tuple(totals.n_solutions))
+
+    def _call(self, *arguments: Any) -> int:
+        handle = self._handle
+        if handle is None:
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), "the wheelset is closed")
+        if not handle.in_use.acquire(False):
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 "the wheelset is in use by another thread")
+        try:
+            status = library.faststrip_wheelset_solve(handle.handle, *arguments)
+            if status >= FIRST_ERROR:
+                text = ctypes.create_string_buffer(TEXT)
+                library.faststrip_wheelset_last_message(handle.handle, text, TEXT)
+                raise FaststripError(status, word_of(status), text.value.decode("ascii"))
+            return status
+        finally:
+            handle.in_use.release()
