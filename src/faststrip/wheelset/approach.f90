@@ -8,13 +8,19 @@ module faststrip_wheelset_approach
     implicit none
     private
 
-    public :: approach_search_t, start_search, take_force, is_found, usual_approach
+    public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
 
     ! Tuned [1]: equilibrium, of the load. Origin: above the digits of a contact's solution.
     real(wp), parameter :: exact = 7.0e-11_wp
     ! Tuned [1]: a force as near as this to its load is found, where no step comes nearer. Origin:
     ! chosen: some digits of a contact's solution.
     real(wp), parameter :: near_enough = 1.0e-8_wp
+    ! Tuned [1]: a bracket that is closed, of its upper end: there the force jumps. Origin: chosen:
+    ! the force of a smooth contact changes by less than near_enough within it.
+    real(wp), parameter :: least_bracket = 1.0e-9_wp
+    ! Tuned [1]: largest misfit of a force that jumps which still is an answer. Origin: chosen: as
+    ! large as errors that are named.
+    real(wp), parameter :: largest_jump = 0.1_wp
     ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
     ! near_enough.
     real(wp), parameter :: telling = 1.0e-6_wp
@@ -76,7 +82,8 @@ contains
             search%best = search%approach
         end if
         if (misfit <= exact .or. search%steps == most_steps &
-            .or. search%high - search%low <= spacing(search%high)) then
+            .or. misfit > near_enough &
+            .and. search%high - search%low <= least_bracket*search%high) then
             search%goes_on = .false.
             return
         end if
@@ -110,4 +117,11 @@ contains
 
         is_found = search%misfit <= near_enough
     end function is_found
+
+    !> Did the force jump over the load, by so little that the height nearest to it is an answer?
+    pure logical function is_near(search)
+        type(approach_search_t), intent(in) :: search !! that has ended
+
+        is_near = search%misfit <= largest_jump
+    end function is_near
 end module faststrip_wheelset_approach

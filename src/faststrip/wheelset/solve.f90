@@ -8,7 +8,8 @@ module faststrip_wheelset_solve
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_no_contact, st_no_convergence
+                                     st_bad_argument, st_no_contact, st_no_convergence, &
+                                     st_target_missed
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -20,8 +21,9 @@ module faststrip_wheelset_solve
                                                 find_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, check_state, &
                                                  wheelset_axes
+    use faststrip_normal_limitations, only: add_limitation
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, usual_approach
+                                           is_found, is_near, usual_approach
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
@@ -272,12 +274,15 @@ contains
         type(wheelset_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
+        type(status_t) :: jumped
         integer :: side
 
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
+            call clear_status(jumped)
             call solve_load(model, workspace, state, side, demand%load(side), &
-                            result%wheel(side), status)
+                            result%wheel(side), jumped)
+            if (jumped%code /= 0) status = jumped
             if (is_error(status)) return
         end do
     end subroutine solve_loads
@@ -293,41 +298,55 @@ contains
         type(status_t), intent(inout) :: status
 
         type(approach_search_t) :: search
-        real(wp) :: touch, approach
+        real(wp) :: touch
+        logical :: is_warm
 
         call set_outline(model, workspace, state, side, touch, status)
         if (is_error(status)) return
-        approach = workspace%wheel(side)%approach
-        if (.not. workspace%has_last .or. .not. approach > 0.0_wp) then
-            workspace%wheel(side)%n = 0
-            approach = usual_approach(load)
-        end if
-        call start_search(search, load, approach)
-        do while (search%goes_on)
-            call try_height(model, workspace, state, side, touch + search%approach, wheel)
-            if (is_error(wheel%status)) then
-                status = wheel%status
-                return
+        is_warm = workspace%has_last .and. workspace%wheel(side)%approach > 0.0_wp
+        do
+            if (is_warm) then
+                call start_search(search, load, workspace%wheel(side)%approach)
+            else
+                workspace%wheel(side)%n = 0
+                call start_search(search, load, usual_approach(load))
             end if
-            call take_force(search, wheel%force(3))
+            do while (search%goes_on)
+                call try_height(model, workspace, state, side, touch + search%approach, wheel)
+                if (is_error(wheel%status)) exit
+                call take_force(search, wheel%force(3))
+            end do
+            if (is_found(search) .or. .not. is_warm) exit
+            ! Afresh, where the last solution leads nowhere.
+            is_warm = .false.
         end do
-        if (.not. is_found(search)) then
-            call refuse_jump(load, status)
+        if (is_error(wheel%status)) then
+            status = wheel%status
             return
         end if
+        if (.not. is_found(search)) call name_jump(search, status)
+        if (is_error(status)) return
         if (search%approach /= search%best) &
             call try_height(model, workspace, state, side, touch + search%best, wheel)
         workspace%wheel(side)%approach = search%best
         wheel%z = touch + search%best
     end subroutine solve_load
 
-    subroutine refuse_jump(load, status)
-        real(wp), intent(in) :: load
+    ! A force that jumps over the load, as where a rough profile is answered now by strips, now by
+    ! the lattice.
+    subroutine name_jump(search, status)
+        type(approach_search_t), intent(in) :: search
         type(status_t), intent(out) :: status
 
-        call set_status(status, st_no_convergence, 'no height of the wheelset carries the ' // &
-                        trim(number_text(load)) // ' N: the force jumps')
-    end subroutine refuse_jump
+        if (is_near(search)) then
+            call set_status(status, st_target_missed, 'the force jumps over the load; its ' // &
+                            'vertical part misses it by ' // &
+                            trim(number_text(search%misfit)) // ' of it')
+        else
+            call set_status(status, st_no_convergence, 'no height of the wheelset carries the ' // &
+                            trim(number_text(search%load)) // ' N: the force jumps')
+        end if
+    end subroutine name_jump
 
     ! Both wheels with loads of their own, and the roll at which they have the same height.
     subroutine solve_for_roll(model, workspace, state, demand, result, status)
@@ -350,6 +369,7 @@ contains
         before = 0.0_wp
         apart_before = 0.0_wp
         do i = 1, most_steps
+            call clear_status(status)
             call solve_loads(model, workspace, state, demand, result, status)
             if (is_error(status)) return
             workspace%has_last = .true.
@@ -401,10 +421,8 @@ contains
             end do
             call take_force(search, force)
         end do
-        if (.not. is_found(search)) then
-            call refuse_jump(demand%axle_load, status)
-            return
-        end if
+        if (.not. is_found(search)) call name_jump(search, status)
+        if (is_error(status)) return
         do side = side_right, side_left
             if (search%approach /= search%best) &
                 call try_height(model, workspace, state, side, minval(touch) + search%best, &
@@ -593,8 +611,11 @@ contains
         type(wheelset_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
-        integer :: side
+        type(status_t) :: jump
+        integer :: side, i
 
+        ! A force that jumped over the load concerns every contact.
+        jump = status
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
             associate (wheel => result%wheel(side))
@@ -606,6 +627,11 @@ contains
                 state%z = wheel%z
                 if (is_error(wheel%status)) then
                     status = wheel%status
+                else if (jump%code /= 0) then
+                    do i = 1, wheel%n
+                        call add_limitation(wheel%contact(i)%status, jump%code, jump%message)
+                    end do
+                    wheel%status = jump
                 else if (status%code == 0) then
                     status = wheel%status
                 end if
