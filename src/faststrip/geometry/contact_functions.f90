@@ -200,12 +200,12 @@ contains
         end function on_rail
 
         !> How deep the axle's middle lies if this point of the wheel touches.
-        pure real(wp) function distance(y)
+        pure real(wp) function distance(y) result(value)
             real(wp), intent(in) :: y
 
             real(wp) :: slope_there
 
-            call distance_and_slope(y, distance, slope_there)
+            call distance_and_slope(y, value, slope_there)
         end function distance
 
         pure subroutine distance_and_slope(y, value, slope_there)
@@ -225,7 +225,7 @@ contains
             slope_there = dz_rail*(cos(roll) - dz_wheel*sin(roll)) - sin(roll) - dz_wheel*cos(roll)
         end subroutine distance_and_slope
 
-        pure real(wp) function dip(from, to)
+        pure real(wp) function dip(from, to) result(at)
             real(wp), intent(in) :: from, to
 
             real(wp) :: first, last, value, slope_there
@@ -234,12 +234,12 @@ contains
             first = from
             last = to
             do k = 1, n_bisections
-                dip = 0.5_wp*(first + last)
-                call distance_and_slope(dip, value, slope_there)
+                at = 0.5_wp*(first + last)
+                call distance_and_slope(at, value, slope_there)
                 if (slope_there < 0.0_wp) then
-                    first = dip
+                    first = at
                 else
-                    last = dip
+                    last = at
                 end if
             end do
         end function dip
