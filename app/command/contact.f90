@@ -1,10 +1,10 @@
 !> `faststrip contact`: one contact of a case file.
 module faststrip_command_contact
-    use faststrip_base_status, only: status_t, is_error, st_ok
-    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
+    use faststrip_base_status, only: status_t, st_ok
+    use faststrip_files_csv, only: csv_writer_t
     use faststrip_command_console, only: fail_on_error, concerns_gap, note, usage_error
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
-                                         option_number
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_number
+    use faststrip_command_outputs, only: open_outputs, close_outputs
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
@@ -77,7 +77,7 @@ contains
         call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
         call note_wear(outcome, '')
-        call open_outputs(command, writer)
+        call open_outputs(command, outputs, writer)
         call put_sweep_header(writer(1), case)
         call put_sweep_row(writer(1), case, case%numerics, prepared, outcome, status)
         if (given(command, '--strips')) &
@@ -88,58 +88,7 @@ contains
         if (given(command, '--gap')) call put_gap(writer(4), solver%case%gap, &
                                                   case%numerics%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
-        call close_outputs(command, writer)
+        call close_outputs(command, outputs, writer)
         call release_solver(solver)
     end subroutine run_contact
-
-    !> Open all files before anything is written: if one cannot be, the others stay as they were.
-    subroutine open_outputs(command, writer)
-        type(command_t), intent(in) :: command
-        type(csv_writer_t), intent(out) :: writer(:)
-
-        type(status_t) :: status
-        integer :: i
-
-        do i = 1, size(outputs)
-            if (.not. is_wanted(command, i)) cycle
-            call open_csv(writer(i), option_text(command, trim(outputs(i)), '-'), status)
-            call drop_on_error(writer, status)
-        end do
-    end subroutine open_outputs
-
-    subroutine close_outputs(command, writer)
-        type(command_t), intent(in) :: command
-        type(csv_writer_t), intent(inout) :: writer(:)
-
-        type(status_t) :: status
-        integer :: i
-
-        do i = size(outputs), 1, -1
-            if (.not. is_wanted(command, i)) cycle
-            call close_csv(writer(i), status)
-            call drop_on_error(writer, status)
-        end do
-    end subroutine close_outputs
-
-    !> The result is always written, to stdout if nothing else is said.
-    logical function is_wanted(command, i)
-        type(command_t), intent(in) :: command
-        integer, intent(in) :: i
-
-        is_wanted = i == 1
-        if (i > 1) is_wanted = given(command, trim(outputs(i)))
-    end function is_wanted
-
-    subroutine drop_on_error(writer, status)
-        type(csv_writer_t), intent(inout) :: writer(:)
-        type(status_t), intent(in) :: status
-
-        integer :: i
-
-        if (.not. is_error(status)) return
-        do i = 1, size(writer)
-            call abort_csv(writer(i))
-        end do
-        call fail_on_error(status)
-    end subroutine drop_on_error
 end module faststrip_command_contact

@@ -8,11 +8,24 @@ module faststrip_command_result_csv
     use faststrip_command_console, only: note, put_origin
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: outcome_t
-    use faststrip_command_wear_figures, only: wear_choice_t, strip_wear_t, make_strip_wear
+    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, &
+                                              strip_wear_t, make_strip_wear
     implicit none
     private
 
     public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear
+    public :: wear_columns, put_wear, put_wear_source, strip_columns, put_strip
+
+    !> Names of the columns of wear, in the order of `put_wear`.
+    character(len=*), parameter :: wear_columns(6) = [character(len=26) :: &
+        't_gamma_N', 't_gamma_spin_N', 't_gamma_per_area_N_per_mm2', 'fatigue_index', &
+        'wear_ug_per_m', 'wear_mm3_per_m']
+
+    !> Names of a strip's columns, in the order of `put_strip`.
+    character(len=*), parameter :: strip_columns(15) = [character(len=26) :: &
+        'patch', 'strip', 'y_left_mm', 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', &
+        'load_N', 'Fx_N', 'Fy_N', 'friction_power_N', 't_gamma_per_area_N_per_mm2', &
+        'wear_ug_per_m', 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km']
 
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(32) = [character(len=26) :: &
@@ -21,9 +34,7 @@ module faststrip_command_result_csv
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
         'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
         'est_err_Mz', 'gap_change_um', &
-        'choice', 'strips_across', &
-        't_gamma_N', 't_gamma_spin_N', 't_gamma_per_area_N_per_mm2', 'fatigue_index', &
-        'wear_ug_per_m', 'wear_mm3_per_m']
+        'choice', 'strips_across', wear_columns]
 
 contains
 
@@ -77,15 +88,22 @@ contains
         else
             call put_cell(writer, '')
         end if
-        associate (figures => outcome%wear)
-            call put_cell(writer, figures%t_gamma, is_known=outcome%has_forces)
-            call put_cell(writer, figures%t_gamma_spin, is_known=outcome%has_forces)
-            call put_cell(writer, figures%t_gamma_per_area, is_known=outcome%has_forces)
-            call put_cell(writer, figures%fatigue_index, is_known=figures%knows_fatigue)
-            call put_cell(writer, figures%wear%mass, is_known=figures%knows_wear)
-            call put_cell(writer, figures%wear%volume, is_known=figures%knows_wear)
-        end associate
+        call put_wear(writer, outcome%wear, outcome%has_forces)
     end subroutine put_result
+
+    !> The cells of T gamma, fatigue and wear.
+    subroutine put_wear(writer, figures, has_forces)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file, in the middle of a row
+        type(wear_figures_t), intent(in) :: figures  !! of a contact
+        logical, intent(in) :: has_forces            !! are there creep forces?
+
+        call put_cell(writer, figures%t_gamma, is_known=has_forces)
+        call put_cell(writer, figures%t_gamma_spin, is_known=has_forces)
+        call put_cell(writer, figures%t_gamma_per_area, is_known=has_forces)
+        call put_cell(writer, figures%fatigue_index, is_known=figures%knows_fatigue)
+        call put_cell(writer, figures%wear%mass, is_known=figures%knows_wear)
+        call put_cell(writer, figures%wear%volume, is_known=figures%knows_wear)
+    end subroutine put_wear
 
     !> The comment lines on columns: what the friction power and T gamma are, where a wear law is
     !> from, and that gaps are smoothed, if they are.
@@ -115,8 +133,8 @@ contains
 
     !> Where a wear law is from, and whose wear it is, if there is one.
     subroutine put_wear_source(writer, choice)
-        type(csv_writer_t), intent(inout) :: writer
-        type(wear_choice_t), intent(in) :: choice
+        type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
+        type(wear_choice_t), intent(in) :: choice   !! law, or none
 
         if (choice%law%n == 0) return
         if (choice%law%of_wheel) then
@@ -137,47 +155,56 @@ contains
         real(wp), intent(in) :: radius               !! rolling radius, mm; 0: not known
 
         type(strip_wear_t) :: wear
-        integer :: k, j
+        integer :: k
 
         call make_strip_wear(choice, strips, forces, radius, wear)
         call put_origin(writer)
         call put_wear_source(writer, choice)
-        call put_header(writer, [character(len=26) :: 'case', 'patch', 'strip', 'y_left_mm', &
-                                 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', 'load_N', &
-                                 'Fx_N', 'Fy_N', 'friction_power_N', &
-                                 't_gamma_per_area_N_per_mm2', 'wear_ug_per_m', &
-                                 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km'])
+        call put_header(writer, [character(len=len(strip_columns)) :: 'case', strip_columns])
         do k = 1, strips%n
-            associate (left => strips%y_left(k), right => strips%y_right(k), &
-                       length => strips%half_length(k), p0 => strips%p0(k))
-                call put_cell(writer, case_name)
-                call put_cell(writer, strips%patch(k))
-                call put_cell(writer, k)
-                call put_cell(writer, left)
-                call put_cell(writer, right)
-                call put_cell(writer, 0.5_wp*(left + right))
-                call put_cell(writer, length)
-                call put_cell(writer, p0)
-                call put_cell(writer, strip_load(p0, length, right - left))
-                if (forces%n == strips%n) then
-                    call put_cell(writer, forces%fx(k))
-                    call put_cell(writer, forces%fy(k))
-                    call put_cell(writer, forces%friction_power(k))
-                else
-                    do j = 1, 3
-                        call put_cell(writer, '')
-                    end do
-                end if
-                call put_known(writer, wear%t_gamma_per_area, k)
-                call put_known(writer, wear%mass, k)
-                call put_known(writer, wear%pass_depth, k)
-                call put_known(writer, wear%depth_per_km, k)
-                call end_row(writer)
-            end associate
+            call put_cell(writer, case_name)
+            call put_strip(writer, strips, forces, wear, k)
+            call end_row(writer)
         end do
     end subroutine put_strips
 
-    !> One of some numbers, or an empty cell where there are none.
+    !> The cells of one strip.
+    subroutine put_strip(writer, strips, forces, wear, k)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file, in the middle of a row
+        type(contact_strips_t), intent(in) :: strips !! mm, MPa
+        type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
+        type(strip_wear_t), intent(in) :: wear       !! of the strips
+        integer, intent(in) :: k                     !! which one
+
+        integer :: j
+
+        associate (left => strips%y_left(k), right => strips%y_right(k), &
+                   length => strips%half_length(k), p0 => strips%p0(k))
+            call put_cell(writer, strips%patch(k))
+            call put_cell(writer, k)
+            call put_cell(writer, left)
+            call put_cell(writer, right)
+            call put_cell(writer, 0.5_wp*(left + right))
+            call put_cell(writer, length)
+            call put_cell(writer, p0)
+            call put_cell(writer, strip_load(p0, length, right - left))
+        end associate
+        if (forces%n == strips%n) then
+            call put_cell(writer, forces%fx(k))
+            call put_cell(writer, forces%fy(k))
+            call put_cell(writer, forces%friction_power(k))
+        else
+            do j = 1, 3
+                call put_cell(writer, '')
+            end do
+        end if
+        call put_known(writer, wear%t_gamma_per_area, k)
+        call put_known(writer, wear%mass, k)
+        call put_known(writer, wear%pass_depth, k)
+        call put_known(writer, wear%depth_per_km, k)
+    end subroutine put_strip
+
+    ! One of some numbers, or an empty cell where there are none.
     subroutine put_known(writer, numbers, k)
         type(csv_writer_t), intent(inout) :: writer
         real(wp), allocatable, intent(in) :: numbers(:)

@@ -2,17 +2,24 @@
 module faststrip_command_wheelset
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text, open_csv, &
-                                   close_csv
+    use faststrip_contact_methods, only: tangential_none
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, side_right, side_left
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_command_console, only: fail, fail_on_error, note, progress, usage_error, &
                                          exit_bad_input
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
+                                         option_number
+    use faststrip_command_outputs, only: open_outputs, close_outputs
+    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, take_wear_law, &
+                                              find_wear_figures
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
-    use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state
+    use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
+                                              put_strips_header, put_wheel_strips
+    use faststrip_command_wheelset_profiles, only: put_profiles_header, put_wheelset_profiles
     use faststrip_command_wheelset_states, only: given_state_t, state_columns_t, &
                                                  find_state_columns, read_state_row, take_state
     implicit none
@@ -20,18 +27,34 @@ module faststrip_command_wheelset
 
     public :: run_wheelset
 
+    !> The options that name files to write.
+    character(len=*), parameter :: outputs(3) = [character(len=10) :: &
+        '-o', '--strips', '--profiles']
+    character(len=*), parameter :: side_names(2) = [character(len=5) :: 'right', 'left']
+
+    !> What a run has at hand.
+    type :: run_t
+        type(wheelset_model_t) :: model
+        type(wheelset_workspace_t) :: workspace
+        type(wheel_strips_t) :: strips                   !! of the last contact
+        type(wear_choice_t) :: wear                      !! wear law, yield stress
+        logical :: wants_strips = .false.
+        logical :: wants_profiles = .false.
+        logical :: has_profiles = .false.                !! are there any?
+        character(len=:), allocatable :: profiles_of     !! state they are of; empty: not known yet
+        type(csv_writer_t) :: writer(size(outputs))
+    end type run_t
+
 contains
 
     !> Run the subcommand from the command line.
     subroutine run_wheelset()
         type(command_t) :: command
         type(wheelset_case_t) :: case
-        type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspace
+        type(run_t) :: run
         type(csv_table_t) :: table
         type(state_columns_t) :: columns
         type(given_state_t) :: state
-        type(csv_writer_t) :: writer
         type(status_t) :: status
         integer :: row, n_failed
 
@@ -51,38 +74,60 @@ contains
             ' exit code is 1.' // new_line('a')
         command%options = [ &
             option_t('--states', 'FILE.csv', 'the states', reads=.true.), &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
+            option_t('--strips', 'FILE', 'write the strips of all contacts there, with their ' // &
+                     'places', writes=.true.), &
+            option_t('--profiles', 'FILE', 'write wheels and rails in the track there, of one ' // &
+                     'state', writes=.true.), &
+            option_t('--profiles-of', 'CASE', 'of the rows of this name (default: the first ' // &
+                     'with a result)'), &
+            option_t('--yield-shear-MPa', 'MPA', 'yield stress in cyclic shear, for ' // &
+                     'fatigue_index'), &
+            option_t('--wear', 'FILE.csv', 'wear law, for wear_ug_per_m; faststrip, ' // &
+                     'faststrip-plain', reads=.true.)]
         call parse_command(command, 1)
-        call read_wheelset_case(command%arguments(1)%text, case, model)
+        call read_wheelset_case(command%arguments(1)%text, case, run%model)
         if (given(command, '--states') .eqv. case%has_state) &
             call usage_error('the states are needed, from --states or from the group &state of ' &
                              // 'the case, and not from both', command%name)
-        call reserve_wheelset(workspace, model, status)
+        if (given(command, '--profiles-of') .and. .not. given(command, '--profiles')) &
+            call usage_error('--profiles-of: it needs --profiles', command%name)
+        run%wear = case%numerics%wear
+        run%wear%yield_shear_mpa = option_number(command, '--yield-shear-MPa', &
+                                                 run%wear%yield_shear_mpa, least=0)
+        if (given(command, '--wear')) &
+            call take_wear_law(option_text(command, '--wear', ''), run%wear)
+        run%wants_strips = given(command, '--strips')
+        run%wants_profiles = given(command, '--profiles')
+        run%profiles_of = option_text(command, '--profiles-of', '')
+        call reserve_wheelset(run%workspace, run%model, status)
         call fail_on_error(status)
-        if (case%has_state) then
-            call open_csv(writer, option_text(command, '-o', '-'), status)
+        if (.not. case%has_state) then
+            call read_csv(option_text(command, '--states', ''), table, status)
             call fail_on_error(status)
-            call put_wheelset_header(writer)
-            call put_state(writer, 'case', case%state, model, workspace, status)
-            call close_output(writer, status)
+            call find_state_columns(table, columns, status)
+            call fail_on_error(status)
+        end if
+        call open_outputs(command, outputs, run%writer)
+        call put_wheelset_header(run%writer(1), run%wear)
+        if (run%wants_strips) call put_strips_header(run%writer(2), run%wear)
+        if (run%wants_profiles) call put_profiles_header(run%writer(3))
+        if (case%has_state) then
+            call put_state(run, 'case', case%state, status)
+            call refuse_absent_profiles(run)
+            call close_outputs(command, outputs, run%writer)
+            ! The files are whole also where the one state failed.
+            call fail_on_error(status)
             return
         end if
-        call read_csv(option_text(command, '--states', ''), table, status)
-        call fail_on_error(status)
-        call find_state_columns(table, columns, status)
-        call fail_on_error(status)
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_wheelset_header(writer)
         n_failed = 0
         do row = 1, table%n_rows
             call read_state_row(table, row, columns, state, status)
             if (is_error(status)) then
-                call put_failed_state(writer, cell_text(table, row, columns%case), &
+                call put_failed_state(run%writer(1), cell_text(table, row, columns%case), &
                                       cell_text(table, row, columns%side), status)
             else
-                call put_state(writer, cell_text(table, row, columns%case), state, model, &
-                               workspace, status)
+                call put_state(run, cell_text(table, row, columns%case), state, status)
             end if
             if (is_error(status)) then
                 n_failed = n_failed + 1
@@ -91,47 +136,88 @@ contains
             end if
             call progress('states', row, table%n_rows)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call refuse_absent_profiles(run)
+        call close_outputs(command, outputs, run%writer)
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(table%n_rows) // ' states failed')
     end subroutine run_wheelset
 
-    ! The file is whole also where its one state failed.
-    subroutine close_output(writer, status)
-        type(csv_writer_t), intent(inout) :: writer
-        type(status_t), intent(in) :: status
+    ! A state that was named for its profiles has to be there.
+    subroutine refuse_absent_profiles(run)
+        type(run_t), intent(in) :: run
 
-        type(status_t) :: closed
-
-        call close_csv(writer, closed)
-        call fail_on_error(closed)
-        call fail_on_error(status)
-    end subroutine close_output
+        if (run%wants_profiles .and. .not. run%has_profiles .and. len(run%profiles_of) > 0) &
+            call fail(exit_bad_input, '--profiles-of: no state of that name has a result, got ' &
+                      // run%profiles_of)
+    end subroutine refuse_absent_profiles
 
     !> Solve a state and write its contacts. Each state starts afresh: it does not hang on the one
     !> before.
-    subroutine put_state(writer, name, given, model, workspace, status)
-        type(csv_writer_t), intent(inout) :: writer
+    subroutine put_state(run, name, given, status)
+        type(run_t), intent(inout) :: run
         character(len=*), intent(in) :: name
         type(given_state_t), intent(in) :: given
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
         type(status_t), intent(out) :: status
 
         type(wheelset_state_t) :: state
         type(wheelset_demand_t) :: demand
         type(wheelset_result_t) :: result
+        logical :: wants(2)
 
-        call take_state(given, model, state, demand, status)
-        workspace%has_last = .false.
+        call take_state(given, run%model, state, demand, status)
+        run%workspace%has_last = .false.
         if (.not. is_error(status)) &
-            call solve_wheelset(model, workspace, state, demand, result, status)
+            call solve_wheelset(run%model, run%workspace, state, demand, result, status)
         if (is_error(status)) then
-            call put_failed_state(writer, name, trim(given%side), status)
+            call put_failed_state(run%writer(1), name, trim(given%side), status)
             return
         end if
-        if (given%side /= 'right') call put_wheel(writer, name, 'left', result%wheel(side_left))
-        if (given%side /= 'left') call put_wheel(writer, name, 'right', result%wheel(side_right))
+        wants = given%side == 'both' .or. given%side == side_names
+        if (wants(side_left)) call put_side(run, name, side_left, result)
+        if (wants(side_right)) call put_side(run, name, side_right, result)
+        if (.not. run%wants_profiles) return
+        if (len(run%profiles_of) == 0) run%profiles_of = name
+        if (run%profiles_of /= name) return
+        call put_wheelset_profiles(run%writer(3), name, run%model, run%workspace%last_state, &
+                                   result, wants)
+        run%has_profiles = .true.
     end subroutine put_state
+
+    ! The contacts of one wheel, and their strips if they are wanted.
+    subroutine put_side(run, name, side, result)
+        type(run_t), intent(inout) :: run
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: side
+        type(wheelset_result_t), intent(in) :: result
+
+        type(wear_figures_t) :: figures(result%wheel(side)%n)
+        type(status_t) :: status
+        logical :: has_forces
+        integer :: i
+
+        has_forces = run%model%case%methods%tangential /= tangential_none
+        do i = 1, result%wheel(side)%n
+            associate (contact => result%wheel(side)%contact(i))
+                if (run%wants_strips .or. run%wear%law%n > 0) then
+                    call find_wheel_strips(run%model, run%workspace, result, side, i, &
+                                           run%strips, status)
+                    call fail_on_error(status)
+                end if
+                if (has_forces) &
+                    call find_wear_figures(run%wear, contact%figures%normal, &
+                                           contact%figures%tangential, contact%creepage, &
+                                           run%strips%strips, run%strips%forces, figures(i))
+                if (allocated(figures(i)%words)) then
+                    if (len(figures(i)%words) > 0) &
+                        call note(name // ', ' // trim(side_names(side)) // ', contact ' &
+                                  // integer_text(i) // ': ' // figures(i)%words)
+                end if
+                if (run%wants_strips) &
+                    call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
+                                          contact%radius, run%strips, run%wear)
+            end associate
+        end do
+        call put_wheel(run%writer(1), name, trim(side_names(side)), result%wheel(side), figures, &
+                       has_forces)
+    end subroutine put_side
 end module faststrip_command_wheelset

@@ -2,13 +2,18 @@
 module faststrip_command_wheelset_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word
-    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
     use faststrip_command_console, only: put_origin
+    use faststrip_command_result_csv, only: put_wear, put_wear_source, wear_columns, &
+                                            put_strip, strip_columns
+    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, strip_wear_t, &
+                                              make_strip_wear
     implicit none
     private
 
-    public :: put_wheelset_header, put_wheel, put_failed_state
+    public :: put_wheelset_header, put_wheel, put_failed_state, put_strips_header, put_wheel_strips
 
     ! In the order of `put_contact`.
     character(len=*), parameter :: names(47) = [character(len=19) :: &
@@ -24,19 +29,26 @@ module faststrip_command_wheelset_csv
 contains
 
     !> Names of the columns.
-    subroutine put_wheelset_header(writer)
+    subroutine put_wheelset_header(writer, wear)
         type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(wear_choice_t), intent(in) :: wear     !! wear law, for its source
 
         call put_origin(writer)
-        call put_header(writer, names)
+        call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fs ceta|; t_gamma_spin_N adds ' &
+                         // '|Mz cphi|')
+        call put_wear_source(writer, wear)
+        call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
+                                 wear_columns])
     end subroutine put_wheelset_header
 
     !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
-    subroutine put_wheel(writer, case, side, wheel)
+    subroutine put_wheel(writer, case, side, wheel, figures, has_forces)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         character(len=*), intent(in) :: case        !! name of the state
         character(len=*), intent(in) :: side        !! left or right
         type(wheel_result_t), intent(in) :: wheel   !! solved
+        type(wear_figures_t), intent(in) :: figures(:) !! of each contact
+        logical, intent(in) :: has_forces           !! were creep forces asked for?
 
         integer :: i
 
@@ -45,6 +57,8 @@ contains
             call put_cell(writer, side)
             call put_cell(writer, i)
             call put_contact(writer, wheel, wheel%contact(i))
+            call put_wear(writer, figures(i), has_forces)
+            call end_row(writer)
         end do
         if (wheel%n == 0) call put_empty(writer, case, side, 'ok', 'no contact')
     end subroutine put_wheel
@@ -73,6 +87,9 @@ contains
             call put_cell(writer, '')
         end do
         call put_cell(writer, message)
+        do i = 1, size(wear_columns)
+            call put_cell(writer, '')
+        end do
         call end_row(writer)
     end subroutine put_empty
 
@@ -114,8 +131,44 @@ contains
         else
             call put_cell(writer, trim(contact%status%message))
         end if
-        call end_row(writer)
     end subroutine put_contact
+
+    !> Names of the columns of strips: those of `contact`, and the places.
+    subroutine put_strips_header(writer, wear)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        type(wear_choice_t), intent(in) :: wear     !! wear law, for its source
+
+        call put_origin(writer)
+        call put_wear_source(writer, wear)
+        call put_header(writer, [character(len=len(strip_columns)) :: 'case', 'side', 'contact', &
+                                 strip_columns, 'y_rail_mm', 'z_rail_mm', 'y_wheel_mm', &
+                                 'z_wheel_mm'])
+    end subroutine put_strips_header
+
+    !> One row a strip of a contact.
+    subroutine put_wheel_strips(writer, case, side, i, radius, found, choice)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! left or right
+        integer, intent(in) :: i                    !! contact of the wheel
+        real(wp), intent(in) :: radius              !! rolling radius, mm
+        type(wheel_strips_t), intent(in) :: found   !! of the contact
+        type(wear_choice_t), intent(in) :: choice   !! wear law
+
+        type(strip_wear_t) :: wear
+        integer :: k
+
+        call make_strip_wear(choice, found%strips, found%forces, radius, wear)
+        do k = 1, found%strips%n
+            call put_cell(writer, case)
+            call put_cell(writer, side)
+            call put_cell(writer, i)
+            call put_strip(writer, found%strips, found%forces, wear, k)
+            call put_numbers(writer, found%rail(:, k))
+            call put_numbers(writer, found%wheel(:, k))
+            call end_row(writer)
+        end do
+    end subroutine put_wheel_strips
 
     subroutine put_numbers(writer, numbers)
         type(csv_writer_t), intent(inout) :: writer

@@ -102,6 +102,7 @@ module faststrip
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     implicit none
     public
 end module faststrip

@@ -4,7 +4,7 @@ import csv
 import math
 import unittest
 
-from cli_program import ROOT, ProgramTest, rows_of
+from cli_program import ROOT, ProgramTest, numbers, rows_of
 
 MANCHESTER = ROOT / "reference" / "wheelset" / "manchester_a22.csv"
 CASE = """
@@ -23,6 +23,12 @@ CASE = """
 /
 """
 HEADER = "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N"
+LAW = """# source: a book, page 3
+# body: wheel
+# density_kg_per_m3: 8000
+from_N_per_mm2,to_N_per_mm2,constant_ug_per_m_mm2,slope_ug_per_m_N
+0,1000,0,4
+"""
 FORCES = ("N_N", "Fx_N", "Fs_N", "Fz_track_N")
 
 
@@ -176,6 +182,133 @@ class Wheelset(ProgramTest):
         left = next(row for row in rows if row["side"] == "left")
         self.assert_close(float(left["contact_angle_rad"]), 0.025, absolute=1.0e-3)
         self.assertLess(float(left["radius_mm"]), 459.5)
+
+    def test_strips_add_up_to_their_contacts(self):
+        """Also of left wheels, which are solved in a mirror, and with friction of the angle."""
+        self.write("f.nml", CASE + "&friction\n mu_flange=0.15\n tread_angle_rad=0.2\n"
+                                   " flange_angle_rad=0.6\n/\n")
+        self.write("law.csv", LAW)
+        self.write("states.csv", f"{HEADER}\na,left,-7,,-0.01,20000,,5e4\nb,right,6,,0.01,20000,,"
+                                 "5e4\nc,both,2,,0.002,20000,,1e5\n")
+        rows = self.good("wheelset", "f.nml", "--states", "states.csv", "--strips", "s.csv",
+                         "--wear", "law.csv", "--yield-shear-MPa", "300")
+        strips = self.read("s.csv")
+        self.assertGreaterEqual(len(rows), 4)
+        for row in rows:
+            own = [strip for strip in strips
+                   if all(strip[name] == row[name] for name in ("case", "side", "contact"))]
+            for name, total in (("load_N", "N_N"), ("Fx_N", "Fx_N"), ("Fy_N", "Fs_N"),
+                                ("friction_power_N", "friction_power_N"),
+                                ("wear_ug_per_m", "wear_ug_per_m")):
+                self.assert_close(math.fsum(numbers(own, name)), float(row[total]), 1.0e-12,
+                                  what=(row["case"], row["side"], name))
+            self.assert_close(float(row["wear_ug_per_m"]), 4 * float(row["friction_power_N"]), 1e-9)
+            plain = abs(float(row["Fx_N"]) * float(row["cksi"])) \
+                + abs(float(row["Fs_N"]) * float(row["ceta"]))
+            self.assert_close(float(row["t_gamma_N"]), plain, 1.0e-12)
+            spin = abs(float(row["Mz_Nmm"]) * float(row["cphi_rad_per_mm"]))
+            self.assert_close(float(row["t_gamma_spin_N"]), plain + spin, 1.0e-12)
+            used = math.hypot(float(row["Fx_N"]), float(row["Fs_N"])) / float(row["N_N"])
+            self.assert_close(
+                float(row["fatigue_index"]),
+                used - 200.0 * float(row["area_mm2"]) / float(row["N_N"]), 1.0e-9)
+            turns = 1e6 / (2 * math.pi * float(row["radius_mm"]))
+            for strip in own:
+                self.assert_close(float(strip["wear_depth_mm_per_km"]),
+                                  turns * float(strip["wear_depth_mm_per_pass"]), 1.0e-9)
+
+    def test_places_of_strips(self):
+        """They lie on the profiles, at their distance from the reference point."""
+        self.write("states.csv", f"{HEADER}\na,left,-6,,-0.01,20000,,5e4\nb,right,6,,0.01,20000,,"
+                                 "5e4\nc,right,2,,0,20000,,5e4\n")
+        rows = self.good("wheelset", "case.nml", "--states", "states.csv", "--strips", "s.csv",
+                         "--profiles", "p.csv")
+        strips, points = self.read("s.csv"), self.read("p.csv")
+        self.assertEqual({(p["case"], p["side"]) for p in points}, {("a", "left")})
+        profile = {body: [(float(p["y_profile_mm"]), float(p["z_profile_mm"]), float(p["y_mm"]),
+                           float(p["z_mm"])) for p in points if p["body"] == body]
+                   for body in ("wheel", "rail")}
+        gaps = []
+        for strip in strips:
+            row = next(row for row in rows if all(row[name] == strip[name] for name in
+                                                  ("case", "side", "contact")))
+            turn = float(row["contact_angle_rad"])
+            along = [
+                (float(strip[f"y_{body}_mm"]) - float(row[f"y_{body}_mm"])) * math.cos(turn)
+                + (float(strip[f"z_{body}_mm"]) - float(row[f"z_{body}_mm"])) * math.sin(turn)
+                for body in ("rail", "wheel")]
+            # Yaw turns the strips about the deepest point, by little.
+            near = 1e-9 if row["case"] == "c" else 0.02 * abs(float(strip["y_mm"])) + 0.01
+            self.assert_close(along[0], float(strip["y_mm"]), absolute=near, what=row["case"])
+            self.assert_close(along[1], float(strip["y_mm"]), absolute=0.05, what=row["case"])
+            if row["case"] == "a":
+                for body, known in profile.items():
+                    self.assert_close(height(known, float(strip[f"y_{body}_mm"]), 1),
+                                      float(strip[f"z_{body}_mm"]), absolute=2e-4)
+                wheel, rail = (height(profile[body], float(strip[f"y_{body}_mm"]), 3)
+                               for body in ("wheel", "rail"))
+                gaps.append(wheel - rail)
+        # Where they bear the wheel is in the rail, by less than the penetration.
+        deepest = max(float(row["penetration_mm"]) / math.cos(float(row["contact_angle_rad"]))
+                      for row in rows if row["case"] == "a")
+        self.assertGreater(max(gaps), 0.5 * deepest)
+        # What overlaps along the normal may stand clear upright.
+        self.assertLess(max(gaps), 1.5 * deepest)
+        # In a mirror strips lie the other way round.
+        left = [strip for strip in strips if strip["case"] == "a"]
+        right = [strip for strip in strips if strip["case"] == "b"]
+        for strip, image in zip(left, reversed(right), strict=True):
+            for name in ("y_rail_mm", "y_wheel_mm", "y_mm", "Fy_N"):
+                self.assertEqual(float(strip[name]), -float(image[name]), name)
+            for name in ("z_rail_mm", "z_wheel_mm", "p0_MPa", "half_length_mm", "Fx_N"):
+                self.assertEqual(float(strip[name]), float(image[name]), name)
+
+    def test_profiles_of_a_state(self):
+        states = f"{HEADER}\na,left,1,,0,20000,,5e4\nb,left,2,,0,20000,,5e4\n" \
+                 "b,right,2,,0,20000,,5e4\n"
+        self.write("states.csv", states)
+        self.good("wheelset", "case.nml", "--states", "states.csv", "--profiles", "p.csv",
+                  "--profiles-of", "b")
+        points = self.read("p.csv")
+        self.assertEqual({(p["case"], p["side"], p["body"]) for p in points},
+                         {("b", side, body) for side in ("left", "right")
+                          for body in ("wheel", "rail")})
+        for point in points:
+            self.assertEqual(float(point["y_mm"]) > 0, point["side"] == "right")
+        run = self.refused(1, "wheelset", "case.nml", "--states", "states.csv", "-o", "o.csv",
+                           "--profiles", "q.csv", "--profiles-of", "d",
+                           says=["--profiles-of", "got d"])
+        self.assertFalse((self.folder / "q.csv").exists(), run)
+        self.refused(2, "wheelset", "case.nml", "--states", "states.csv", "--profiles-of", "b",
+                     says=["--profiles"])
+
+    def test_figures_that_are_not_known_are_empty(self):
+        self.write("law.csv", LAW)
+        state = "1,right,2,0,0.002,2000,,1e4"
+        self.write("bad.nml", CASE + "&numerics\n tangential='fastsim'\n wear_file='law.csv'\n"
+                                     " yield_shear_MPa=300\n/\n")
+        row = self.solved(state, case="bad.nml")[0]
+        self.assertEqual(row["wear_ug_per_m"], "")
+        self.assertNotEqual(row["fatigue_index"], "")
+        self.write("none.nml", CASE + "&numerics\n tangential='none'\n/\n")
+        row = self.solved(state, case="none.nml")[0]
+        self.assertEqual((row["t_gamma_N"], row["fatigue_index"]), ("", ""))
+        # A law that ends below is said so, with the contact.
+        self.write("short.csv", LAW.replace("1000", "1e-6"))
+        run = self.run_program("wheelset", "case.nml", "--states", "states.csv", "--wear",
+                               "short.csv", "-o", "o.csv")
+        self.assertEqual(run.returncode, 0)
+        self.assertIn("1, right, contact 1: no wear: the wear law ends", run.stderr)
+        self.assertEqual(self.read("o.csv")[0]["wear_ug_per_m"], "")
+
+
+def height(profile, y, column):
+    """A profile's height at y, between its points."""
+    for before, after in zip(profile, profile[1:]):
+        if min(before[0], after[0]) <= y <= max(before[0], after[0]):
+            part = (y - before[0]) / (after[0] - before[0])
+            return before[column] + part * (after[column] - before[column])
+    raise ValueError(f"{y} is not on the profile")
 
 
 if __name__ == "__main__":

@@ -38,6 +38,7 @@ module faststrip_geometry_contact_frame
     !> The gap of a contact; the first `n` entries count.
     type :: frame_gap_t
         integer :: n = 0                        !! number of points
+        integer :: first = 0                    !! the outline's point that is the first of them
         real(wp) :: overlap = 0.0_wp            !! largest, along the normal, mm
         real(wp), allocatable :: y(:)           !! y' from the reference point, increasing, mm
         real(wp), allocatable :: h(:)           !! height over the deepest point, mm
@@ -132,6 +133,7 @@ contains
         first = reached(-1)
         last = reached(1)
         gap%n = last - first + 1
+        gap%first = first
         ! The points are those of the outline: to the front of the arrays.
         do i = 1, gap%n
             gap%y(i) = gap%y(first + i - 1)

@@ -20,7 +20,7 @@ module faststrip_wheelset_wheel
     implicit none
     private
 
-    public :: solve_wheel_at, estimate_wheel, mirror_wheel
+    public :: solve_wheel_at, estimate_wheel, mirror_wheel, take_motion
 
 contains
 
@@ -49,6 +49,7 @@ contains
         case%estimate = .false.
         case%warm_start = workspace%n == n
         workspace%n = n
+        workspace%region(:n) = regions(:n)
         do i = 1, n
             associate (contact => wheel%contact(i))
                 contact = wheel_contact_t()
@@ -169,11 +170,11 @@ contains
         end associate
     end subroutine solve_one
 
-    ! Creepages of a contact, and the friction of its angle and speed.
+    !> Creepages of a contact, and the friction of its angle and speed.
     pure subroutine take_motion(model, contact, case)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheel_contact_t), intent(in) :: contact
-        type(contact_case_t), intent(inout) :: case
+        type(wheelset_model_t), intent(in) :: model  !! made
+        type(wheel_contact_t), intent(in) :: contact !! its creepages, angle and speed are known
+        type(contact_case_t), intent(inout) :: case  !! gets what follows of them
 
         case%creepage = contact%creepage
         case%mu = friction_at_angle(model%case%friction, model%case%mu, contact%angle)

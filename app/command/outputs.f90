@@ -1,0 +1,68 @@
+!> Files that a subcommand writes: all of them, or none.
+module faststrip_command_outputs
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
+    use faststrip_command_console, only: fail_on_error
+    use faststrip_command_options, only: command_t, given, option_text
+    implicit none
+    private
+
+    public :: open_outputs, close_outputs
+
+contains
+
+    !> Open all files before anything is written: if one cannot be, the others stay as they were.
+    !> The first option's file is always written, to stdout if nothing else is said.
+    subroutine open_outputs(command, names, writer)
+        type(command_t), intent(in) :: command         !! parsed
+        character(len=*), intent(in) :: names(:)       !! options that name files to write
+        type(csv_writer_t), intent(out) :: writer(:)   !! one each
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = 1, size(names)
+            if (.not. is_wanted(command, names, i)) cycle
+            call open_csv(writer(i), option_text(command, trim(names(i)), '-'), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine open_outputs
+
+    !> Finish all files.
+    subroutine close_outputs(command, names, writer)
+        type(command_t), intent(in) :: command          !! parsed
+        character(len=*), intent(in) :: names(:)        !! as they were opened
+        type(csv_writer_t), intent(inout) :: writer(:)  !! opened
+
+        type(status_t) :: status
+        integer :: i
+
+        do i = size(names), 1, -1
+            if (.not. is_wanted(command, names, i)) cycle
+            call close_csv(writer(i), status)
+            call drop_on_error(writer, status)
+        end do
+    end subroutine close_outputs
+
+    logical function is_wanted(command, names, i)
+        type(command_t), intent(in) :: command
+        character(len=*), intent(in) :: names(:)
+        integer, intent(in) :: i
+
+        is_wanted = i == 1
+        if (i > 1) is_wanted = given(command, trim(names(i)))
+    end function is_wanted
+
+    subroutine drop_on_error(writer, status)
+        type(csv_writer_t), intent(inout) :: writer(:)
+        type(status_t), intent(in) :: status
+
+        integer :: i
+
+        if (.not. is_error(status)) return
+        do i = 1, size(writer)
+            call abort_csv(writer(i))
+        end do
+        call fail_on_error(status)
+    end subroutine drop_on_error
+end module faststrip_command_outputs

@@ -1,0 +1,194 @@
+!> The strips of a wheel's contact, what each of them transmits, and where they are on the profiles
+!> of wheel and rail.
+!>
+!> A strip's place is that of its middle: the points of both profiles that lie above each other
+!> there along the contact's normal. Where the gap was turned into its principal axes the strip's
+!> place is that of the gap's point it came from.
+module faststrip_wheelset_strips
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_bad_argument
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: contact_methods_t, tangential_faststrip, &
+                                         tangential_faststrip_plain
+    use faststrip_contact_solve, only: solve_contact_tangential
+    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
+    use faststrip_geometry_profile, only: profile_at
+    use faststrip_geometry_sheared_gap, only: turn_sheared_gap
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, copy_strips, mirror_strips
+    use faststrip_numerics_reversal, only: reverse, reverse_negated
+    use faststrip_tangential_types, only: tangential_result_t, strip_forces_t, reserve_strip_forces
+    use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
+                                        wheelset_result_t, wheel_workspace_t, side_left
+    use faststrip_wheelset_wheel, only: take_motion
+    implicit none
+    private
+
+    public :: wheel_strips_t, find_wheel_strips
+
+    ! Tuned [steps]: to a point of the rail. Origin: capacity; Newton's method takes three.
+    integer, parameter :: most_steps = 30
+    ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
+    real(wp), parameter :: exact = 1.0e-12_wp
+
+    !> Strips of one contact, in its frame, and their places.
+    type :: wheel_strips_t
+        type(contact_strips_t) :: strips       !! mm, MPa
+        type(strip_forces_t) :: forces         !! N; empty if the method has none
+        real(wp), allocatable :: rail(:, :)    !! y, z of it on the rail's profile, mm
+        real(wp), allocatable :: wheel(:, :)   !! y, z of it on the wheel's profile, mm
+    end type wheel_strips_t
+
+contains
+
+    !> The strips of a contact of the last solution. Allocates where `found` is too small.
+    subroutine find_wheel_strips(model, workspace, result, side, i, found, status)
+        type(wheelset_model_t), intent(in) :: model            !! made
+        type(wheelset_workspace_t), intent(inout) :: workspace !! of the solution; its gap is
+                                                               !! sampled again
+        type(wheelset_result_t), intent(in) :: result          !! of the same solution
+        integer, intent(in) :: side                            !! `side_right`, `side_left`
+        integer, intent(in) :: i                               !! contact of that wheel
+        type(wheel_strips_t), intent(inout) :: found           !! as they are, not in a mirror
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`: no such contact; those of `solve_contact_tangential`
+
+        type(contact_case_t) :: case
+        type(tangential_result_t) :: again
+
+        call clear_status(status)
+        if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last) then
+            call set_status(status, st_bad_argument, 'there is no such contact of the wheel')
+            return
+        end if
+        call reserve_found(size(workspace%wheel(side)%contact(i)%strips%p0), found, status)
+        if (is_error(status)) return
+        call copy_strips(workspace%wheel(side)%contact(i)%strips, found%strips)
+        if (has_strip_forces(model%case%methods)) then
+            case = model%case
+            case%by_load = .false.
+            call take_motion(model, result%wheel(side)%contact(i), case)
+            if (side == side_left) then
+                case%creepage%ceta = -case%creepage%ceta
+                case%creepage%cphi = -case%creepage%cphi
+            end if
+            call solve_contact_tangential(workspace%wheel(side)%contact(i), case, again, status, &
+                                          per_strip=found%forces)
+            if (is_error(status)) return
+        end if
+        call find_places(model, model%pair(side), workspace%wheel(side), i, &
+                         result%wheel(side)%z, found, status)
+        if (side == side_left) call mirror(found)
+    end subroutine find_wheel_strips
+
+    ! Only the march along strips sums over them.
+    pure logical function has_strip_forces(methods)
+        type(contact_methods_t), intent(in) :: methods
+
+        has_strip_forces = any(methods%tangential == [tangential_faststrip, &
+                                                      tangential_faststrip_plain])
+    end function has_strip_forces
+
+    subroutine reserve_found(capacity, found, status)
+        integer, intent(in) :: capacity
+        type(wheel_strips_t), intent(inout) :: found
+        type(status_t), intent(out) :: status
+
+        call reserve_strips(found%strips, capacity, status)
+        if (is_error(status)) return
+        call reserve_strip_forces(found%forces, capacity, status)
+        if (is_error(status)) return
+        if (allocated(found%rail)) then
+            if (size(found%rail, 2) == capacity) return
+            deallocate (found%rail, found%wheel)
+        end if
+        allocate (found%rail(2, capacity), found%wheel(2, capacity), source=0.0_wp)
+    end subroutine reserve_found
+
+    ! Where the middles of the strips are. The strips lie along the gap as it was solved; its points
+    ! are those of the outline, which are those of the wheel's profile.
+    subroutine find_places(model, pair, workspace, i, lowered, found, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(wheel_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: i
+        real(wp), intent(in) :: lowered
+        type(wheel_strips_t), intent(inout) :: found
+        type(status_t), intent(out) :: status
+
+        type(contact_frame_t) :: frame
+        type(status_t) :: inside
+        real(wp) :: y, part, dz, d2z
+        integer :: k, j
+
+        associate (gap => workspace%gap, strips => found%strips)
+            call place_frame(pair, workspace%region(i), frame)
+            call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
+                            model%gap_height, gap, status)
+            if (is_error(status)) return
+            call turn_sheared_gap(gap)
+            ! For now the number of the gap's point, and how far it is to the next.
+            j = 1
+            do k = 1, strips%n
+                y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+                do while (j < gap%n - 1 .and. y > gap%y(j + 1))
+                    j = j + 1
+                end do
+                found%wheel(1, k) = j + (y - gap%y(j))/(gap%y(j + 1) - gap%y(j))
+            end do
+            call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
+                            model%gap_height, gap, status)
+            if (is_error(status)) return
+            do k = 1, strips%n
+                j = min(max(int(found%wheel(1, k)), 1), gap%n - 1)
+                part = found%wheel(1, k) - j
+                found%rail(:, k) = rail_point(pair, frame, gap%y(j) &
+                                              + part*(gap%y(j + 1) - gap%y(j)))
+                j = gap%first + j - 1
+                y = pair%y(j) + part*(pair%y(j + 1) - pair%y(j))
+                found%wheel(1, k) = y
+                call profile_at(pair%wheel, y, found%wheel(2, k), dz, d2z, inside)
+            end do
+        end associate
+    end subroutine find_places
+
+    ! The point of the rail's profile at a y' of the frame.
+    pure function rail_point(pair, frame, along) result(point)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(contact_frame_t), intent(in) :: frame
+        real(wp), intent(in) :: along
+        real(wp) :: point(2)
+
+        real(wp) :: y, z, slope, residual
+        logical :: is_there
+        integer :: i
+
+        associate (c => cos(frame%angle), s => sin(frame%angle))
+            y = frame%origin(2) + along*c
+            do i = 1, most_steps
+                call rail_height(pair, y, z, slope, is_there)
+                residual = along - (y - frame%origin(2))*c - (z - frame%origin(3))*s
+                if (.not. is_there .or. abs(residual) <= exact*(1.0_wp + abs(along))) exit
+                y = y + residual/(c + slope*s)
+            end do
+        end associate
+        point = [y - pair%y_rail, z - pair%z_rail]
+    end function rail_point
+
+    ! Strips that were found in a mirror, as they are.
+    pure subroutine mirror(found)
+        type(wheel_strips_t), intent(inout) :: found
+
+        associate (n => found%strips%n, forces => found%forces)
+            call mirror_strips(found%strips)
+            call reverse(forces%fx(:forces%n))
+            call reverse_negated(forces%fy(:forces%n))
+            call reverse(forces%friction_power(:forces%n))
+            call reverse_negated(found%rail(1, :n))
+            call reverse(found%rail(2, :n))
+            call reverse_negated(found%wheel(1, :n))
+            call reverse(found%wheel(2, :n))
+        end associate
+    end subroutine mirror
+end module faststrip_wheelset_strips
