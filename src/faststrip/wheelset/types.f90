@@ -39,8 +39,9 @@ module faststrip_wheelset_types
                                                 !! creepages are not used
         ! Tuned [mm]: Origin: chosen: as CONTACT separates patches.
         real(wp) :: join_distance = 8.0_wp      !! regions nearer than this are one contact, mm
-        ! Tuned [mm]. Origin: chosen: as CONTACT combines patches.
-        real(wp) :: near_distance = 4.0_wp      !! regions nearer than this are nothing else, mm
+        ! Tuned [mm]. Origin: chosen: half as far again.
+        real(wp) :: turn_distance = 12.0_wp
+            !! contacts nearer than this turn towards the angle they will have as one, mm
         ! Tuned [mm]. Origin: chosen: over ten times the usual penetration.
         real(wp) :: gap_height = 0.3_wp         !! how high gaps are sampled, mm
     end type wheelset_model_t

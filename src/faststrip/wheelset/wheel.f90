@@ -120,7 +120,33 @@ contains
             end if
         end do
         n = kept
+        call turn_near(model, regions, n)
     end subroutine join_near
+
+    ! Contacts turn towards their common angle the nearer they come, so that forces do not jump where
+    ! they become one.
+    pure subroutine turn_near(model, regions, n)
+        type(wheelset_model_t), intent(in) :: model
+        type(region_t), intent(inout) :: regions(:)
+        integer, intent(in) :: n
+
+        type(region_t) :: whole
+        real(wp) :: turn(most_regions), share
+        integer :: i
+
+        turn = 0.0_wp
+        do i = 1, n - 1
+            share = (model%turn_distance - region_distance(regions(i), regions(i + 1))) &
+                    /(model%turn_distance - model%join_distance)
+            if (.not. share > 0.0_wp) cycle
+            whole = join_regions(regions(i), regions(i + 1))
+            turn(i) = turn(i) + share*(whole%angle - regions(i)%angle)
+            turn(i + 1) = turn(i + 1) + share*(whole%angle - regions(i + 1)%angle)
+        end do
+        do i = 1, n
+            regions(i)%angle = regions(i)%angle + turn(i)
+        end do
+    end subroutine turn_near
 
     subroutine solve_one(model, pair, workspace, i, region, state, lowered, case, contact)
         type(wheelset_model_t), intent(in) :: model
