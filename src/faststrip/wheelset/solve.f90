@@ -123,6 +123,11 @@ contains
         call check_demand(state, demand, status)
         if (is_error(status)) return
         found = state
+        if (.not. workspace%has_last) then
+            ! What an earlier solution left behind must not count.
+            workspace%wheel%n = 0
+            workspace%wheel%approach = 0.0_wp
+        end if
         select case (demand%kind)
         case (demand_position)
             call solve_at_position(model, workspace, found, demand, result, status)

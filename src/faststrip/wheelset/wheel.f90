@@ -123,8 +123,8 @@ contains
         call turn_near(model, regions, n)
     end subroutine join_near
 
-    ! Contacts turn towards their common angle the nearer they come, so that forces do not jump where
-    ! they become one.
+    ! Contacts turn towards their common angle the nearer they come, so that forces do not jump
+    ! where they become one.
     pure subroutine turn_near(model, regions, n)
         type(wheelset_model_t), intent(in) :: model
         type(region_t), intent(inout) :: regions(:)
