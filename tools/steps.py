@@ -74,6 +74,12 @@ python plots/patches.py --shift {shift} --norm out/norm_shift_{shift}.csv
 DEMO_END = """
 python plots/sweep.py
 python plots/overview.py
+== a wheelset on its track, from side to side
+faststrip wheelset example/wheelset_states.nml --states example/wheelset_states.csv \
+    -o out/wheelset.csv --strips out/wheelset_strips.csv --profiles out/wheelset_profiles.csv \
+    --profiles-of 29
+python plots/wheelset.py --states example/wheelset_states.csv
+python plots/wear.py
 == accuracy
 python plots/accuracy.py
 == done: tables and pictures are in out/, the accuracy table in out/accuracy.md

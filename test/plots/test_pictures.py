@@ -38,12 +38,36 @@ FILES = {
     "out/conicity.csv": "# faststrip 0.1.0 rev abc\namplitude_mm,tan_gamma_e,regression,method\n"
                         "1,0.05,0.04,klingel\n2,,,klingel\n3,0.06,0.07,klingel\n",
 }
+WHEELSET = ("# faststrip 0.1.0 rev abc\n# compiler\n"
+            "case,side,contact,status,y_track_mm,z_track_mm,contact_angle_rad,N_N,Fx_N,Fs_N,"
+            "radius_mm,Fy_track_N,Fz_track_N,y_wheel_mm,y_rail_mm\n"
+            "1,left,1,ok,-750,0,0.05,5e4,1e3,2e3,460,1e3,5e4,5,3\n"
+            "1,right,1,under_resolved,750,0,-0.05,5e4,1e3,2e3,460,-1e3,5e4,-5,-3\n"
+            "2,left,1,ok,-751,0,0.06,4e4,1e3,2e3,460,1e3,4e4,6,4\n"
+            "2,right,1,ok,749,0,-0.06,4e4,1e3,2e3,460,-1e3,4e4,-6,-4\n"
+            "2,right,2,ok,720,9,-1.1,1e4,1e3,2e3,460,-1e3,1e4,-36,-30\n"
+            "3,both,0,no_contact,,,,,,,,,,,\n")
+WHEELSET_STATES = "case,y_mm\n1,0\n2,1\n3,2\n"
+WHEELSET_PROFILES = "case,body,side,y_mm,z_mm,y_profile_mm,z_profile_mm\n" + "".join(
+    f"2,{body},{side},{sign * (750 + y)},{bend * y * y},{sign * y},{bend * y * y}\n"
+    for body, bend in (("wheel", -0.001), ("rail", 0.002))
+    for side, sign in (("left", -1), ("right", 1)) for y in range(-40, 41, 4))
+WHEELSET_STRIPS = ("# faststrip 0.1.0 rev abc\n# wear of the wheel by law.csv\n"
+                   "case,side,contact,y_left_mm,y_right_mm,"
+                   "y_rail_mm,y_wheel_mm,t_gamma_per_area_N_per_mm2,wear_depth_mm_per_pass,"
+                   "wear_depth_mm_per_km\n") + "".join(
+    f"{case},{side},1,{y},{y + 1},{y},{y + case},{9 - y * y},{9 - y * y}e-6,{9 - y * y}e-3\n"
+    for case in (1, 2) for side in ("left", "right") for y in range(-3, 4))
+FILES |= {"out/wheelset.csv": WHEELSET, "out/wheelset_profiles.csv": WHEELSET_PROFILES,
+          "out/wheelset_strips.csv": WHEELSET_STRIPS, "states.csv": WHEELSET_STATES}
 PICTURES = {
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
     "overview": ("out/overview.png",),
     "conicity": ("out/conicity.png",),
+    "wheelset": ("out/wheelset.png",),
+    "wear": ("out/wear.png",),
 }
 COLUMNS = {
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
@@ -51,6 +75,8 @@ COLUMNS = {
     "sweep": ("out/sweep.csv", "Mz_Nmm"),
     "overview": ("out/fields_shift_0.csv", "pn_MPa"),
     "conicity": ("out/functions.csv", "delta_r_mm"),
+    "wheelset": ("out/wheelset.csv", "radius_mm"),
+    "wear": ("out/wheelset_strips.csv", "wear_depth_mm_per_km"),
 }
 
 
@@ -76,6 +102,22 @@ class Pictures(unittest.TestCase):
         for command in PICTURES:
             with self.subTest(command):
                 self.drawn(command)
+
+    def test_wheelsets_over_the_shift_and_wear_without_a_law(self):
+        self.drawn("wheelset", "--states", "states.csv",
+                   pictures=("out/wheelset.png", "out/wheelset_sweep.png"))
+        bare = "".join(line.rsplit(",", 2)[0] + ",,\n" if line[0] in "12" else line + "\n"
+                       for line in WHEELSET_STRIPS.splitlines())
+        self.drawn("wear", "--body", "rail", files=FILES | {"out/wheelset_strips.csv": bare})
+        with Folder(FILES | {"states.csv": "case,y_mm\n1,0\n"}) as folder:
+            status, _, err = folder.run("wheelset", "--states", "states.csv")
+            self.assertEqual(status, 1)
+            self.assertIn("no such state: 2 (states.csv)", err)
+        none = WHEELSET_STRIPS.splitlines()[2] + "\n1,left,1,0,1,0,0,,,\n"
+        with Folder(FILES | {"out/wheelset_strips.csv": none}) as folder:
+            status, _, err = folder.run("wear")
+            self.assertEqual((status, err.count("\n")), (1, 1))
+            self.assertIn("no strip has wear or T gamma", err)
 
     def test_profiles_with_the_gap_and_another_name(self):
         self.drawn("profiles", "--gap", "gap.csv", "-o", "new/p.png", pictures=["new/p.png"])

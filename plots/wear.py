@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Draw wear beneath both profiles: what `faststrip wheelset --strips` wrote with a wear law, over
+the lateral place on the body it wears; without a law T gamma over the area."""
+
+import sys
+
+import numpy as np
+
+from faststrip_plots import command, style
+from faststrip_plots.results import revision
+from faststrip_plots.tables import InputError, read_table
+
+STRIPS = ("case", "side", "contact", "y_left_mm", "y_right_mm", "y_rail_mm", "y_wheel_mm",
+          "t_gamma_per_area_N_per_mm2", "wear_depth_mm_per_pass", "wear_depth_mm_per_km")
+PROFILES = ("body", "side", "y_mm", "z_mm", "y_profile_mm", "z_profile_mm")
+# Column, label, factor to its unit; the first that is there is drawn.
+QUANTITIES = (("wear_depth_mm_per_km", "wear depth in µm per km", 1e3),
+              ("wear_depth_mm_per_pass", "wear depth in nm per pass", 1e6),
+              ("t_gamma_per_area_N_per_mm2", "$T\\gamma/A$ in N/mm²", 1.0))
+MOST_NAMES = 6  # states told apart by a legend
+
+
+def main(arguments=None):
+    parser = command.parser(__doc__)
+    parser.add_argument("--strips", default="out/wheelset_strips.csv", metavar="CSV",
+                        help="what `faststrip wheelset --strips` wrote")
+    parser.add_argument("--profiles", default="out/wheelset_profiles.csv", metavar="CSV",
+                        help="what `faststrip wheelset --profiles` wrote")
+    parser.add_argument("--body", choices=("wheel", "rail"),
+                        help="over whose profile (default: the one the law wears, or the wheel)")
+    parser.add_argument("-o", "--output", default="out/wear.png", metavar="PNG",
+                        help="picture to write")
+    options = parser.parse_args(arguments)
+    strips = read_table(options.strips, STRIPS)
+    profiles = read_table(options.profiles, PROFILES)
+    body = options.body or worn_body(strips)
+    draw(options.output, strips, profiles, body)
+    print(options.output)
+
+
+def worn_body(strips):
+    """The body the comments name."""
+    return "rail" if any(line.startswith("wear of the rail") for line in strips.comments) \
+        else "wheel"
+
+
+def quantity(strips):
+    """The first quantity that any strip has."""
+    for name, label, factor in QUANTITIES:
+        values = factor * strips.numbers(name, missing=True)
+        if np.any(np.isfinite(values)):
+            return values, label
+    raise InputError(f"no strip has wear or T gamma: {strips.path}")
+
+
+def draw(path, strips, profiles, body):
+    """A column for each side: profiles above, wear beneath."""
+    values, label = quantity(strips)
+    case, side = np.array(strips.words("case")), np.array(strips.words("side"))
+    contact = np.array(strips.words("contact"))
+    place = strips.numbers(f"y_{body}_mm")
+    width = strips.numbers("y_right_mm") - strips.numbers("y_left_mm")
+    sides = [name for name in ("left", "right") if name in profiles.words("side")]
+    cases = list(dict.fromkeys(case))
+    colours = style.plt.get_cmap(style.MAP)(np.linspace(0.15, 1.0, len(cases)))
+    figure = style.new_figure(max(6.4, 5.0 * len(sides)), 6.8)
+    grid = figure.subplots(2, len(sides), squeeze=False, sharex="col", sharey="row")
+    for column, name in enumerate(sides):
+        upper, lower = grid[:, column]
+        draw_profiles(upper, profiles, name, body)
+        style.title(upper, f"{name} wheel and rail")
+        for colour, state in zip(colours, cases):
+            for number in sorted(set(contact[(case == state) & (side == name)])):
+                own = (case == state) & (side == name) & (contact == number)
+                lower.stairs(*steps(place[own], width[own], values[own]), color=colour,
+                             linewidth=1.5, label=f"state {state}")
+        near = place[side == name]
+        if len(near):
+            middle, half = 0.5 * (near.min() + near.max()), 0.5 * np.ptp(near) + 8.0
+            lower.set_xlim(middle - half, middle + half)
+        lower.set_xlabel(f"$y$ on the profile of the {body} in mm, to the right")
+    low, high = shown_heights(grid[0])
+    grid[0, 0].set_ylim(high, low)
+    grid[0, 0].set_ylabel("$z$ in mm, down")
+    grid[1, 0].set_ylabel(label)
+    grid[1, 0].set_ylim(bottom=0.0)
+    grid[1, 0].invert_yaxis()
+    grid[0, -1].legend(loc="best")
+    if 1 < len(cases) <= MOST_NAMES:
+        style.legend_above(figure, *grid[1])
+    note = "" if len(cases) <= MOST_NAMES else \
+        f"states from {cases[0]}, light, to {cases[-1]}, dark"
+    style.save(figure, path, [revision(strips), revision(profiles)], note)
+
+
+def draw_profiles(axes, profiles, side, body):
+    """Both outlines, turned with the track so that the body's profile is as it was given."""
+    bodies, sides = np.array(profiles.words("body")), np.array(profiles.words("side"))
+    track = profiles.numbers("y_mm") + 1j * profiles.numbers("z_mm")
+    given = profiles.numbers("y_profile_mm") + 1j * profiles.numbers("z_profile_mm")
+    own = (bodies == body) & (sides == side)
+    turn, shift = np.polyfit(track[own], given[own], 1)
+    for name, colour in (("wheel", "#222222"), ("rail", style.GREY)):
+        chosen = (bodies == name) & (sides == side)
+        line = given[chosen] if name == body else turn * track[chosen] + shift
+        axes.plot(line.real, line.imag, color=colour, linewidth=1.6, label=name)
+
+
+def shown_heights(row):
+    """Heights of the outlines within the limits along y, with room."""
+    heights = [z for axes in row for line in axes.lines
+               for y, z in zip(*line.get_data()) if axes.get_xlim()[0] <= y <= axes.get_xlim()[1]]
+    room = 0.06 * (max(heights) - min(heights)) + 1.0
+    return min(heights) - room, max(heights) + room
+
+
+def steps(place, width, values):
+    """Values and edges of steps about places: between two strips the edge is between them."""
+    order = np.argsort(place)
+    place, width, values = place[order], width[order], values[order]
+    inner = 0.5 * (place[1:] + place[:-1])
+    edges = np.concatenate([[place[0] - 0.5 * width[0]], inner, [place[-1] + 0.5 * width[-1]]])
+    return values, edges
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))
