@@ -64,6 +64,8 @@ contains
         if (.not. in_core(tangential_table, case%numerics%tangential)) &
             call refuse(content, group, 'tangential', 'must be a method of the library for a ' // &
                         'wheelset', trim(tangential_method_name(case%numerics%tangential)))
+        if (sets(content, group, 'yield_MPa')) &
+            call refuse(content, group, 'yield_MPa', 'must not be given for a wheelset', '')
         if (sets(content, group, 'smoothing_um')) &
             call refuse(content, group, 'smoothing_um', 'must not be given for a wheelset', '')
         if (sets(content, group, 'gap_step_mm')) &

@@ -43,6 +43,17 @@ module faststrip_wheelset_solve
     real(wp), parameter :: hertz_power = 1.5_wp
     ! Tuned [1]: most by which an approach grows or shrinks in a step. Origin: safeguard.
     real(wp), parameter :: most_growth = 4.0_wp
+    ! Tuned [1]: where no step gains any more, this part of the load may be missing. Origin: chosen:
+    ! some digits of a contact's solution.
+    real(wp), parameter :: near_enough = 1.0e-8_wp
+    ! Tuned [1]: slopes are measured anew where more than this is left of what was missing. Origin:
+    ! chosen: Broyden's method gains a digit in a step.
+    real(wp), parameter :: least_progress = 0.5_wp
+    ! Tuned [1]: of the approach, for measured slopes. Origin: chosen: far above the digits of a
+    ! solution, far below the approach.
+    real(wp), parameter :: difference = 1.0e-4_wp
+    ! Tuned [steps]: halvings of a step. Origin: capacity.
+    integer, parameter :: most_halvings = 8
     ! Tuned [rad]: step of the roll. Origin: safeguard.
     real(wp), parameter :: most_roll_step = 0.02_wp
 
@@ -446,7 +457,9 @@ contains
         type(wheelset_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
-        real(wp) :: touch(2), now(2), left(2), step(2), change(2), jacobian(2, 2), scale(2), part
+        real(wp) :: touch(2), now(2), left(2), before(2), step(2), change(2), jacobian(2, 2), &
+            scale(2), part
+        logical :: gains, ends, is_measured
         integer :: i, j
 
         call start_balance(model, workspace, state, demand, touch, status)
@@ -456,25 +469,48 @@ contains
         call misfit(left)
         if (is_error(status)) return
         call first_jacobian()
+        is_measured = .false.
         do i = 1, most_steps
             if (all(abs(left) <= exact*scale)) exit
             step = newton_step()
-            step(2) = max(-most_roll_step, min(step(2), most_roll_step))
-            part = 1.0_wp
-            ! A wheel may come to carry much less in a step, but not nothing.
-            do j = 1, most_steps
+            part = min(1.0_wp, most_roll_step/max(abs(step(2)), tiny(1.0_wp)))
+            before = left
+            gains = .false.
+            ! A wheel may come to carry much less in a step, but not nothing; and what is missing
+            ! must not grow.
+            do j = 1, most_halvings
                 state%z = now(1) + part*step(1)
                 state%roll = now(2) + part*step(2)
-                if (touches_enough()) exit
+                if (touches_enough()) then
+                    call misfit(left)
+                    gains = missing(left) < missing(before)
+                end if
+                if (gains .or. is_error(status)) exit
                 part = 0.5_wp*part
             end do
             if (is_error(status)) return
-            step = part*step
-            change = -left
-            call misfit(left)
-            if (is_error(status)) return
-            now = now + step
-            change = change + left - matmul(jacobian, step)
+            if (gains) then
+                step = part*step
+                now = now + step
+            else
+                ! Back to where it was.
+                left = before
+            end if
+            ! Digits of the solutions end there.
+            ends = missing(left) <= near_enough .and. missing(left) > least_progress*missing(before)
+            if (missing(left) > least_progress*missing(before)) then
+                if (ends .or. is_measured .and. .not. gains) then
+                    call solve_here()
+                    exit
+                end if
+                ! The slopes are not those of the wheels alone: friction on a flange rolls, too.
+                call measure_jacobian()
+                if (is_error(status)) return
+                is_measured = .true.
+                cycle
+            end if
+            is_measured = .false.
+            change = left - before - matmul(jacobian, step)
             ! In units of the roll's lever, so that both unknowns are lengths.
             associate (weighted => step*[1.0_wp, model%pair(side_right)%y_line**2])
                 if (norm2(step) > 0.0_wp) then
@@ -485,9 +521,11 @@ contains
                 end if
             end associate
         end do
-        if (.not. all(abs(left) <= exact*scale)) then
+        if (is_error(status)) return
+        if (missing(left) > near_enough) then
             call set_status(status, st_no_convergence, 'no height and roll carry the axle load ' &
-                            // 'of ' // trim(number_text(demand%axle_load)) // ' N')
+                            // 'of ' // trim(number_text(demand%axle_load)) // ' N and the roll ' &
+                            // 'moment: a wheel would lift')
             return
         end if
         do i = side_right, side_left
@@ -530,6 +568,46 @@ contains
                 jacobian(2, 2) = jacobian(2, 2) + stiffness*lever**2
             end do
         end subroutine first_jacobian
+
+        ! The larger of what is missing of load and moment, of what is asked for.
+        real(wp) function missing(left)
+            real(wp), intent(in) :: left(2)
+
+            missing = maxval(abs(left)/scale)
+        end function missing
+
+        ! Both wheels where the unknowns are now.
+        subroutine solve_here()
+            integer :: side
+
+            state%z = now(1)
+            state%roll = now(2)
+            do side = side_right, side_left
+                call set_outline(model, workspace, state, side, touch(side), status)
+                if (is_error(status)) return
+            end do
+            call misfit(left)
+        end subroutine solve_here
+
+        ! The slopes by differences, about the last state, which is solved once more.
+        subroutine measure_jacobian()
+            real(wp) :: moved(2), here(2), length
+            integer :: unknown
+
+            here = left
+            length = difference*minval(now(1) - touch)
+            do unknown = 1, 2
+                moved = 0.0_wp
+                moved(unknown) = length
+                if (unknown == 2) moved(2) = length/model%pair(side_right)%y_line
+                now = now + moved
+                call solve_here()
+                now = now - moved
+                if (is_error(status)) return
+                jacobian(:, unknown) = (left - here)/moved(unknown)
+            end do
+            call solve_here()
+        end subroutine measure_jacobian
 
         function newton_step() result(step)
             real(wp) :: step(2)
