@@ -85,7 +85,6 @@ contains
             determinant
         integer :: i
 
-        a = 1.0_wp
         b = 1.0_wp
         s = 0.0_wp
         total = 0.0_wp

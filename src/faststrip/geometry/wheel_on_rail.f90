@@ -59,7 +59,6 @@ module faststrip_geometry_wheel_on_rail
         real(wp), allocatable :: slope(:)   !! angle of the outline in the track, rad
         real(wp), allocatable :: height(:)  !! of the wheel's point over the rail, mm
         logical, allocatable :: is_there(:) !! is there an outline, over the rail?
-        real(wp) :: z_state = 0.0_wp        !! the state's z it was found for, mm
     end type outline_t
 
 contains
@@ -221,16 +220,14 @@ contains
     end subroutine reserve_outline
 
     !> The outline of a wheel, and how high each point of it stands over the rail.
-    pure subroutine find_outline(pair, axes, z_state, outline)
+    pure subroutine find_outline(pair, axes, outline)
         type(wheel_on_rail_t), intent(in) :: pair   !! made
         type(wheelset_axes_t), intent(in) :: axes   !! of the state, as a right pair
-        real(wp), intent(in) :: z_state             !! z of that state, mm
         type(outline_t), intent(inout) :: outline   !! reserved
 
         real(wp) :: point(3), z, slope
         integer :: i
 
-        outline%z_state = z_state
         do i = 1, size(pair%y)
             call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
                                outline%slope(i), outline%is_there(i))

@@ -37,7 +37,6 @@ module faststrip_interop_wheelset_handle
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
-    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
@@ -114,7 +113,6 @@ contains
         integer(c_int), intent(in) :: choices(n_choices) !! what is prescribed
         real(c_double), intent(in) :: loads(n_loads)     !! the same
 
-        type(environment_t) :: environment
         type(wheelset_demand_t) :: demand
 
         handle%has = .false.
@@ -125,18 +123,12 @@ contains
         end if
         demand = wheelset_demand_t(choices(1), choices(2) /= [2, 1], loads(:2), loads(3), &
                                    choices(3) /= 0, loads(4))
-        call hold_environment(environment)
-        if (choices(4) == 0) then
-            ! As if it had never been solved.
-            handle%workspace%has_last = .false.
-            handle%workspace%wheel%n = 0
-            handle%workspace%wheel%approach = 0.0_wp
-        end if
+        ! As if it had never been solved.
+        if (choices(4) == 0) handle%workspace%has_last = .false.
         call solve_wheelset(handle%model, handle%workspace, &
                             wheelset_state_t(state(1), state(2), state(3), state(4), state(5), &
                                              state(6), state(7), state(8), state(9), state(10), &
                                              state(11)), demand, handle%result, handle%status)
-        call restore_environment(environment)
         if (.not. is_error(handle%status)) handle%has = demand%wants
     end subroutine wheelset_solve
 

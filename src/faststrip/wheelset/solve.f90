@@ -9,53 +9,37 @@ module faststrip_wheelset_solve
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_no_convergence, &
-                                     st_target_missed
+                                     st_target_missed, st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_geometry_overlap, only: lowest_height
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
-    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline, &
-                                                find_outline
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, check_state, &
-                                                 wheelset_axes
+    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach
+    use faststrip_wheelset_balance, only: solve_for_balance
+    use faststrip_wheelset_height, only: set_outline, try_height
+    use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, most_contacts
-    use faststrip_wheelset_wheel, only: solve_wheel_at, estimate_wheel, mirror_wheel
+    use faststrip_wheelset_wheel, only: estimate_wheel, mirror_wheel
     implicit none
     private
 
     public :: make_wheelset, reserve_wheelset, solve_wheelset
 
-    ! Tuned [1]: equilibrium of two wheels, of the load; of heights, of the radius. Origin: above
-    ! the digits of a contact's solution.
+    ! Tuned [1]: equal heights of two wheels, of the radius. Origin: above the digits of a contact's
+    ! solution.
     real(wp), parameter :: exact = 9.0e-11_wp
-    ! Tuned [steps]. Origin: capacity; five are usual.
+    ! Tuned [steps]: of the roll. Origin: capacity; five are usual.
     integer, parameter :: most_steps = 80
-    ! Given: Hertz' law of a point contact.
-    real(wp), parameter :: hertz_power = 1.5_wp
-    ! Tuned [1]: most by which an approach grows or shrinks in a step. Origin: safeguard.
-    real(wp), parameter :: most_growth = 4.0_wp
-    ! Tuned [1]: where no step gains any more, this part of the load may be missing. Origin: chosen:
-    ! some digits of a contact's solution.
-    real(wp), parameter :: near_enough = 1.0e-8_wp
-    ! Tuned [1]: slopes are measured anew where more than this is left of what was missing. Origin:
-    ! chosen: Broyden's method gains a digit in a step.
-    real(wp), parameter :: least_progress = 0.5_wp
-    ! Tuned [1]: of the approach, for measured slopes. Origin: chosen: far above the digits of a
-    ! solution, far below the approach.
-    real(wp), parameter :: difference = 1.0e-4_wp
-    ! Tuned [steps]: halvings of a step. Origin: capacity.
-    integer, parameter :: most_halvings = 8
-    ! Tuned [rad]: step of the roll. Origin: safeguard.
-    real(wp), parameter :: most_roll_step = 0.02_wp
 
 contains
 
@@ -125,14 +109,52 @@ contains
         type(wheelset_demand_t), intent(in) :: demand          !! what is prescribed
         type(wheelset_result_t), intent(inout) :: result       !! of the wheels asked for
         type(status_t), intent(out) :: status
-            !! `st_bad_argument`, `st_no_contact`, `st_no_convergence`, those of contacts
+            !! `st_bad_argument`, `st_workspace_too_small`, `st_no_contact`, `st_no_convergence`,
+            !! those of contacts; `st_target_missed`: the force jumps over the load
 
-        type(wheelset_state_t) :: found
+        type(environment_t) :: environment
 
         result%wheel%n = 0
         result%wheel%solutions = 0
         call check_demand(state, demand, status)
         if (is_error(status)) return
+        call check_workspace(model, workspace, status)
+        if (is_error(status)) return
+        call hold_environment(environment)
+        call solve_checked(model, workspace, state, demand, result, status)
+        call restore_environment(environment)
+    end subroutine solve_wheelset
+
+    ! A workspace that was reserved for another model, or not at all, is refused.
+    subroutine check_workspace(model, workspace, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(in) :: workspace
+        type(status_t), intent(inout) :: status
+
+        integer :: side
+        logical :: fits
+
+        do side = side_right, side_left
+            associate (wheel => workspace%wheel(side), pair => model%pair(side))
+                fits = allocated(wheel%outline%x) .and. allocated(pair%y)
+                if (fits) fits = size(wheel%outline%x) == size(pair%y)
+            end associate
+            if (.not. fits) &
+                call set_status(status, st_workspace_too_small, &
+                                'no workspace was reserved for this wheelset')
+        end do
+    end subroutine check_workspace
+
+    subroutine solve_checked(model, workspace, state, demand, result, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        type(wheelset_result_t), intent(inout) :: result
+        type(status_t), intent(inout) :: status
+
+        type(wheelset_state_t) :: found
+
         found = state
         if (.not. workspace%has_last) then
             ! What an earlier solution left behind must not count.
@@ -161,7 +183,7 @@ contains
             return
         end if
         call complete(model, workspace, found, demand, result, status)
-    end subroutine solve_wheelset
+    end subroutine solve_checked
 
     subroutine check_demand(state, demand, status)
         type(wheelset_state_t), intent(in) :: state
@@ -210,52 +232,6 @@ contains
                                 // 'got ' // trim(number_text(load)) // ' N')
         end subroutine check_load
     end subroutine check_demand
-
-    ! The outline of a wheel, with z = 0, and at which z it first touches.
-    subroutine set_outline(model, workspace, state, side, touch, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(in) :: state
-        integer, intent(in) :: side
-        real(wp), intent(out) :: touch
-        type(status_t), intent(inout) :: status
-
-        type(wheelset_state_t) :: at_zero
-
-        at_zero = as_right(state, side)
-        at_zero%z = 0.0_wp
-        associate (wheel => workspace%wheel(side))
-            wheel%axes = wheelset_axes(at_zero, model%radius)
-            call find_outline(model%pair(side), wheel%axes, 0.0_wp, wheel%outline)
-            touch = lowest_height(wheel%outline)
-        end associate
-        if (touch >= huge(touch)) &
-            call set_status(status, st_no_contact, 'wheel and rail do not overlap at y ' // &
-                            trim(number_text(state%y)) // ' mm of the wheelset')
-    end subroutine set_outline
-
-    ! The state as a right wheel has it.
-    pure type(wheelset_state_t) function as_right(state, side)
-        type(wheelset_state_t), intent(in) :: state
-        integer, intent(in) :: side
-
-        as_right = state
-        if (side == side_left) as_right = mirrored_state(state)
-    end function as_right
-
-    ! One wheel at a height, without estimates.
-    subroutine try_height(model, workspace, state, side, z, wheel)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(in) :: state
-        integer, intent(in) :: side
-        real(wp), intent(in) :: z
-        type(wheel_result_t), intent(inout) :: wheel
-
-        call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
-                            as_right(state, side), z, wheel)
-        wheel%z = z
-    end subroutine try_height
 
     subroutine solve_at_position(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model
@@ -373,17 +349,12 @@ contains
         type(wheelset_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
-        real(wp) :: before, apart, apart_before, step
+        type(roll_search_t) :: search
+        real(wp) :: apart
         integer :: i
 
-        if (workspace%has_last) then
-            state%roll = workspace%last_state%roll
-        else
-            state%roll = 0.0_wp
-        end if
-        step = 0.0_wp
-        before = 0.0_wp
-        apart_before = 0.0_wp
+        state%roll = 0.0_wp
+        if (workspace%has_last) state%roll = workspace%last_state%roll
         do i = 1, most_steps
             call clear_status(status)
             call solve_loads(model, workspace, state, demand, result, status)
@@ -391,15 +362,7 @@ contains
             workspace%has_last = .true.
             apart = result%wheel(side_right)%z - result%wheel(side_left)%z
             if (abs(apart) <= exact*model%radius) return
-            ! The right wheel goes down with the roll, its height up by as much.
-            step = 0.5_wp*apart/model%pair(side_right)%y_line
-            if (i > 1) then
-                if (abs(apart - apart_before) > 0.0_wp) &
-                    step = -apart*(state%roll - before)/(apart - apart_before)
-            end if
-            before = state%roll
-            apart_before = apart
-            state%roll = state%roll + max(-most_roll_step, min(step, most_roll_step))
+            call next_roll(search, apart, model%pair(side_right)%y_line, state%roll)
         end do
         call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')
     end subroutine solve_for_roll
@@ -446,244 +409,6 @@ contains
             workspace%wheel(side)%approach = result%wheel(side)%z - touch(side)
         end do
     end subroutine solve_for_height
-
-    ! Height and roll at which both wheels carry the axle load, and its moment: Broyden's method
-    ! from the stiffness of each wheel.
-    subroutine solve_for_balance(model, workspace, state, demand, result, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(inout) :: state
-        type(wheelset_demand_t), intent(in) :: demand
-        type(wheelset_result_t), intent(inout) :: result
-        type(status_t), intent(inout) :: status
-
-        real(wp) :: touch(2), now(2), left(2), before(2), step(2), change(2), jacobian(2, 2), &
-            scale(2), part
-        logical :: gains, ends, is_measured
-        integer :: i, j
-
-        call start_balance(model, workspace, state, demand, touch, status)
-        if (is_error(status)) return
-        now = [state%z, state%roll]
-        scale = demand%axle_load*[1.0_wp, model%pair(side_right)%y_line]
-        call misfit(left)
-        if (is_error(status)) return
-        call first_jacobian()
-        is_measured = .false.
-        do i = 1, most_steps
-            if (all(abs(left) <= exact*scale)) exit
-            step = newton_step()
-            part = min(1.0_wp, most_roll_step/max(abs(step(2)), tiny(1.0_wp)))
-            before = left
-            gains = .false.
-            ! A wheel may come to carry much less in a step, but not nothing; and what is missing
-            ! must not grow.
-            do j = 1, most_halvings
-                state%z = now(1) + part*step(1)
-                state%roll = now(2) + part*step(2)
-                if (touches_enough()) then
-                    call misfit(left)
-                    gains = missing(left) < missing(before)
-                end if
-                if (gains .or. is_error(status)) exit
-                part = 0.5_wp*part
-            end do
-            if (is_error(status)) return
-            if (gains) then
-                step = part*step
-                now = now + step
-            else
-                ! Back to where it was.
-                left = before
-            end if
-            ! Digits of the solutions end there.
-            ends = missing(left) <= near_enough .and. missing(left) > least_progress*missing(before)
-            if (missing(left) > least_progress*missing(before)) then
-                if (ends .or. is_measured .and. .not. gains) then
-                    call solve_here()
-                    exit
-                end if
-                ! The slopes are not those of the wheels alone: friction on a flange rolls, too.
-                call measure_jacobian()
-                if (is_error(status)) return
-                is_measured = .true.
-                cycle
-            end if
-            is_measured = .false.
-            change = left - before - matmul(jacobian, step)
-            ! In units of the roll's lever, so that both unknowns are lengths.
-            associate (weighted => step*[1.0_wp, model%pair(side_right)%y_line**2])
-                if (norm2(step) > 0.0_wp) then
-                    do j = 1, 2
-                        jacobian(:, j) = jacobian(:, j) &
-                                         + change*weighted(j)/dot_product(step, weighted)
-                    end do
-                end if
-            end associate
-        end do
-        if (is_error(status)) return
-        if (missing(left) > near_enough) then
-            call set_status(status, st_no_convergence, 'no height and roll carry the axle load ' &
-                            // 'of ' // trim(number_text(demand%axle_load)) // ' N and the roll ' &
-                            // 'moment: a wheel would lift')
-            return
-        end if
-        do i = side_right, side_left
-            workspace%wheel(i)%approach = state%z - touch(i)
-        end do
-
-    contains
-
-        subroutine misfit(left)
-            real(wp), intent(out) :: left(2)
-
-            integer :: side
-
-            left = [-demand%axle_load, -demand%roll_moment]
-            do side = side_right, side_left
-                call try_height(model, workspace, state, side, state%z, result%wheel(side))
-                if (is_error(result%wheel(side)%status)) then
-                    status = result%wheel(side)%status
-                    return
-                end if
-                left(1) = left(1) + result%wheel(side)%force(3)
-                left(2) = left(2) + merge(1.0_wp, -1.0_wp, side == side_right) &
-                          *result%wheel(side)%moment(1)
-            end do
-        end subroutine misfit
-
-        subroutine first_jacobian()
-            real(wp) :: stiffness, lever
-            integer :: side
-
-            jacobian = 0.0_wp
-            do side = side_right, side_left
-                lever = model%pair(side)%y_line
-                if (side == side_left) lever = -lever
-                stiffness = hertz_power*max(result%wheel(side)%force(3), &
-                                            exact*demand%axle_load)/(state%z - touch(side))
-                jacobian(1, 1) = jacobian(1, 1) + stiffness
-                jacobian(1, 2) = jacobian(1, 2) + stiffness*lever
-                jacobian(2, 1) = jacobian(2, 1) + stiffness*lever
-                jacobian(2, 2) = jacobian(2, 2) + stiffness*lever**2
-            end do
-        end subroutine first_jacobian
-
-        ! The larger of what is missing of load and moment, of what is asked for.
-        real(wp) function missing(left)
-            real(wp), intent(in) :: left(2)
-
-            missing = maxval(abs(left)/scale)
-        end function missing
-
-        ! Both wheels where the unknowns are now.
-        subroutine solve_here()
-            integer :: side
-
-            state%z = now(1)
-            state%roll = now(2)
-            do side = side_right, side_left
-                call set_outline(model, workspace, state, side, touch(side), status)
-                if (is_error(status)) return
-            end do
-            call misfit(left)
-        end subroutine solve_here
-
-        ! The slopes by differences, about the last state, which is solved once more.
-        subroutine measure_jacobian()
-            real(wp) :: moved(2), here(2), length
-            integer :: unknown
-
-            here = left
-            length = difference*minval(now(1) - touch)
-            do unknown = 1, 2
-                moved = 0.0_wp
-                moved(unknown) = length
-                if (unknown == 2) moved(2) = length/model%pair(side_right)%y_line
-                now = now + moved
-                call solve_here()
-                now = now - moved
-                if (is_error(status)) return
-                jacobian(:, unknown) = (left - here)/moved(unknown)
-            end do
-            call solve_here()
-        end subroutine measure_jacobian
-
-        function newton_step() result(step)
-            real(wp) :: step(2)
-
-            real(wp) :: determinant
-
-            determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
-            step = -[jacobian(2, 2)*left(1) - jacobian(1, 2)*left(2), &
-                     jacobian(1, 1)*left(2) - jacobian(2, 1)*left(1)]/determinant
-        end function newton_step
-
-        logical function touches_enough()
-            real(wp) :: approach
-            integer :: side
-
-            touches_enough = .true.
-            do side = side_right, side_left
-                approach = now(1) - touch(side)
-                call set_outline(model, workspace, state, side, touch(side), status)
-                if (is_error(status)) return
-                touches_enough = touches_enough .and. state%z - touch(side) &
-                                 > approach/most_growth .and. state%z - touch(side) &
-                                 < approach*most_growth
-                touch(side) = now(1) - approach
-            end do
-            if (.not. touches_enough) return
-            do side = side_right, side_left
-                touch(side) = lowest_height(workspace%wheel(side)%outline)
-            end do
-        end function touches_enough
-    end subroutine solve_for_balance
-
-    ! A height and a roll at which both wheels overlap about as much as they should: first touch of
-    ! both, then the usual approach.
-    subroutine start_balance(model, workspace, state, demand, touch, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(inout) :: state
-        type(wheelset_demand_t), intent(in) :: demand
-        real(wp), intent(out) :: touch(2)
-        type(status_t), intent(inout) :: status
-
-        real(wp) :: approach(2), apart, apart_before, before, step
-        integer :: i, side
-
-        state%roll = 0.0_wp
-        approach = usual_approach(0.5_wp*demand%axle_load)
-        if (workspace%has_last) then
-            state%roll = workspace%last_state%roll
-            where (workspace%wheel%approach > 0.0_wp) approach = workspace%wheel%approach
-        else
-            workspace%wheel%n = 0
-        end if
-        apart_before = 0.0_wp
-        before = 0.0_wp
-        do i = 1, most_steps
-            do side = side_right, side_left
-                call set_outline(model, workspace, state, side, touch(side), status)
-                if (is_error(status)) return
-            end do
-            apart = touch(side_right) + approach(side_right) - touch(side_left) &
-                    - approach(side_left)
-            state%z = 0.5_wp*(sum(touch) + sum(approach))
-            ! As near as a tenth of the approach is a start.
-            if (abs(apart) <= 0.1_wp*minval(approach)) return
-            step = 0.5_wp*apart/model%pair(side_right)%y_line
-            if (i > 1) then
-                if (abs(apart - apart_before) > 0.0_wp) &
-                    step = -apart*(state%roll - before)/(apart - apart_before)
-            end if
-            before = state%roll
-            apart_before = apart
-            state%roll = state%roll + max(-most_roll_step, min(step, most_roll_step))
-        end do
-        call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')
-    end subroutine start_balance
 
     ! How wrong all is where the wheelset came to rest; left wheels out of the mirror.
     subroutine complete(model, workspace, state, demand, result, status)

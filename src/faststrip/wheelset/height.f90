@@ -1,0 +1,63 @@
+!> A wheel at a height: its outline, and the forces of all its contacts.
+module faststrip_wheelset_height
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, number_text, st_no_contact
+    use faststrip_geometry_overlap, only: lowest_height
+    use faststrip_geometry_wheel_on_rail, only: find_outline
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, wheelset_axes
+    use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheel_result_t, &
+                                        side_left
+    use faststrip_wheelset_wheel, only: solve_wheel_at
+    implicit none
+    private
+
+    public :: set_outline, try_height
+
+contains
+
+    !> The outline of a wheel, with z = 0, and at which z it first touches.
+    subroutine set_outline(model, workspace, state, side, touch, status)
+        type(wheelset_model_t), intent(in) :: model            !! made
+        type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
+        type(wheelset_state_t), intent(in) :: state            !! its z does not count, mm, rad
+        integer, intent(in) :: side                            !! `side_right` or `side_left`
+        real(wp), intent(out) :: touch                         !! z of first touch, mm
+        type(status_t), intent(inout) :: status                !! `st_no_contact`
+
+        type(wheelset_state_t) :: at_zero
+
+        at_zero = as_right(state, side)
+        at_zero%z = 0.0_wp
+        associate (wheel => workspace%wheel(side))
+            wheel%axes = wheelset_axes(at_zero, model%radius)
+            call find_outline(model%pair(side), wheel%axes, wheel%outline)
+            touch = lowest_height(wheel%outline)
+        end associate
+        if (touch >= huge(touch)) &
+            call set_status(status, st_no_contact, 'wheel and rail do not overlap at y ' // &
+                            trim(number_text(state%y)) // ' mm of the wheelset')
+    end subroutine set_outline
+
+    ! The state as a right wheel has it.
+    pure type(wheelset_state_t) function as_right(state, side)
+        type(wheelset_state_t), intent(in) :: state
+        integer, intent(in) :: side
+
+        as_right = state
+        if (side == side_left) as_right = mirrored_state(state)
+    end function as_right
+
+    !> One wheel at a height, without estimates.
+    subroutine try_height(model, workspace, state, side, z, wheel)
+        type(wheelset_model_t), intent(in) :: model            !! made
+        type(wheelset_workspace_t), intent(inout) :: workspace !! with the outline of the state
+        type(wheelset_state_t), intent(in) :: state            !! its z does not count, mm, rad
+        integer, intent(in) :: side                            !! `side_right` or `side_left`
+        real(wp), intent(in) :: z                              !! of the wheelset's centre, mm
+        type(wheel_result_t), intent(inout) :: wheel           !! as of a right wheel
+
+        call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
+                            as_right(state, side), z, wheel)
+        wheel%z = z
+    end subroutine try_height
+end module faststrip_wheelset_height
