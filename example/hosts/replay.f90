@@ -2,45 +2,52 @@
 program replay
     use faststrip
     implicit none
-    type(contact_case_t) :: case
-    type(contact_result_t) :: result
-    type(tangential_result_t) :: forces
-    type(workspace_t) :: workspace
-    type(kalker_coefficients_t) :: c
-    type(hertz_t) :: hertz
+    type(wheelset_model_t) :: model
+    type(wheelset_workspace_t) :: workspace
+    type(wheelset_result_t) :: result
+    type(wheelset_demand_t) :: demand
+    type(wheelset_state_t) :: state
     type(status_t) :: status
-    real(wp) :: x, y, f(3), g
-    integer :: method, unit, ended, i, rows(2), different(2)
+    real(wp) :: x, now(2, 4), was(2, 4), more(3)
+    integer :: run, stage, last_run, unit, ended, rows, different
 
-    case%gap%y = [(-15.0_wp + 0.1_wp*i, i=0, 300)]
-    case%gap%h = 0.5_wp*case%gap%y**2/300.0_wp
-    case%gap%inv2r = [(0.5_wp/460.0_wp, i=0, 300)]
-    case%methods%strips_per_patch = 7
-    case%warm_start = .true.
-    call reserve_workspace(workspace, case%methods, 301, status)
-    call hertz_solve(normal_compliance(case%material), 0.5_wp/460.0_wp, 0.5_wp/300.0_wp, 8.0e4_wp, &
-                     hertz, status)
-    call kalker_coefficients(hertz%a/hertz%b, case%material%nu_wheel, c, status)
-    g = case%material%e_wheel/(2.0_wp*(1.0_wp + case%material%nu_wheel))
+    call make()
+    last_run = 0
     rows = 0
     different = 0
     open (newunit=unit, file='wheelset.txt', status='old', action='read')
     do
-        read (unit, *, iostat=ended) method, x, y, case%load, case%creepage%cksi, &
-            case%creepage%ceta, case%creepage%cphi, f
+        read (unit, *, iostat=ended) run, stage, x, state%speed, state%y, state%yaw, &
+            state%y_rate, state%yaw_rate, state%roll, demand%load, was(1, :3), was(2, :3), &
+            was(:, 4), more
         if (ended /= 0) exit
-        if (method == 1) then
-            call solve_contact(workspace, case, result, status)
-            forces = result%tangential
-        else
-            hertz%load = case%load
-            call fastsim_coefficients_solve(hertz, g, c, case%mu, case%creepage, 15, 15, forces, &
-                                            status)
-        end if
-        rows(method) = rows(method) + 1
-        if (any([forces%fx, forces%fy, forces%mz] /= f)) different(method) = different(method) + 1
+        state%pitch_rate = -state%speed/460.0_wp
+        ! A run starts from no solution.
+        if (run /= last_run) workspace%has_last = .false.
+        last_run = run
+        call solve_wheelset(model, workspace, state, demand, result, status)
+        associate (right => result%wheel(side_right), left => result%wheel(side_left))
+            now(1, :) = [right%force, right%moment(3)]
+            now(2, :) = [left%force, left%moment(3)]
+        end associate
+        rows = rows + 1
+        if (is_error(status) .or. any(abs(now - was) > 0.0_wp)) different = different + 1
     end do
     close (unit)
-    print '(a, 1x, i0)', 'rows', rows(1), 'rows', rows(2), 'different', different(1), &
-        'different', different(2)
+    print '(a, 1x, i0)', 'rows', rows, 'different', different
+
+contains
+
+    subroutine make()
+        type(profile_t) :: wheels(2), rails(2)
+        type(contact_case_t) :: case
+
+        case%methods%strips_per_patch = 7
+        call make_wheel_profile('s1002', wheels(1), status)
+        call make_rail_profile('60e1', 0.025_wp, rails(1), status)
+        wheels(2) = wheels(1)
+        rails(2) = rails(1)
+        call make_wheelset(wheels, rails, wheelset_t(), 460.0_wp, track_t(), case, model, status)
+        call reserve_wheelset(workspace, model, status)
+    end subroutine make
 end program replay

@@ -1,12 +1,14 @@
-"""Fixed-form Fortran: its errors; the wheelset of example/legacy, which hunts as Klingel says."""
+"""Fixed-form Fortran: its errors; the wheelset of example/legacy, which hunts as Klingel says.
+
+The tolerance of Klingel's wavelength is 4 %."""
 
 import math
 import unittest
 
 from installed import HOSTS, ROOT, HostTest
 
-# Rolling radius and half the distance of the contacts, mm; cone.
-R0, S, CONE = 460.0, 750.0, 0.05
+# Rolling radius and half the distance of the contacts, mm.
+R0, S = 460.0, 750.0
 
 
 ERRORS = """\
@@ -240,54 +242,121 @@ class Errors(HostTest):
 
 
 class Wheelset(HostTest):
+    """Run 1 is below the critical speed, run 2 above, run 3 is run 2 in a mirror."""
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.shell(f"gfortran -std=legacy -Wall -O2 '{ROOT}/example/legacy/wheelset.f'"
-                  " $(pkg-config --libs faststrip) -o wheelset")
-        cls.lines = cls.shell("./wheelset").splitlines()
-        text = (cls.folder / "wheelset.txt").read_text(encoding="utf-8")
-        cls.steps = {1: [], 2: []}
-        for line in text.splitlines():
-            method, *numbers = line.split()
-            cls.steps[int(method)].append([float(number) for number in numbers])
+        source = (ROOT / "example" / "legacy" / "wheelset.f").read_text(encoding="utf-8")
+        cls.lines, cls.calls = cls.hunt("wheelset", source)
+        # The first call of a step is where the wheelset is, the second one where it may get to.
+        cls.steps = {run: [row for row in rows if row[1] == 1] for run, rows in cls.calls.items()}
 
-    def test_every_step_is_there(self):
-        self.assertEqual([len(self.steps[method]) for method in (1, 2)], [10000, 10000])
-        for rows in self.steps.values():
+    @classmethod
+    def hunt(cls, name, source):
+        """Lines a run, and numbers a call of every run: as RATES writes them."""
+        cls.write(f"{name}.f", source)
+        cls.shell(f"gfortran -std=legacy -Wall -Werror -O2 {name}.f"
+                  f" $(pkg-config --libs faststrip) -o {name}")
+        lines = [[float(word) for word in line.split()]
+                 for line in cls.shell(f"mkdir {name}_out\ncd {name}_out\n../{name}").splitlines()]
+        calls = {}
+        text = (cls.folder / f"{name}_out" / "wheelset.txt").read_text(encoding="utf-8")
+        for line in text.splitlines():
+            row = [float(word) for word in line.split()]
+            calls.setdefault(int(row[0]), []).append(row)
+        return lines, calls
+
+    def peaks(self, run):
+        """Largest shift of every half wave but the last, unfinished one."""
+        found = [0.0]
+        for (_, _, _, _, last, *_), (_, _, _, _, y, *_) in zip(self.steps[run],
+                                                               self.steps[run][1:]):
+            found[-1] = max(found[-1], abs(last))
+            if y * last < 0.0:
+                found.append(0.0)
+        return found[:-1]
+
+    def test_every_call_is_there(self):
+        self.assertEqual([len(self.calls[run]) for run in (1, 2, 3)], [1200, 800, 800])
+        for rows in self.calls.values():
             self.assertTrue(all(map(math.isfinite, sum(rows, []))))
 
+    def test_below_the_critical_speed_it_dies_out(self):
+        peaks = self.peaks(1)
+        self.assertGreater(len(peaks), 5)
+        for last, peak in zip(peaks, peaks[1:]):
+            self.assertLess(peak, 0.9 * last)
+
+    def test_above_it_grows_to_the_flange_roots(self):
+        peaks = self.peaks(2)
+        self.assertGreater(len(peaks), 10)
+        self.assertGreater(peaks[3], 1.5 * peaks[0])
+        for last, peak in zip(peaks[:6], peaks[1:]):
+            self.assertGreater(peak, last)
+        # A limit cycle, where the clearance ends.
+        self.assertAlmostEqual(peaks[-1], peaks[-3], delta=5e-3 * peaks[-1])
+        self.assertGreater(peaks[-1], 5.0)
+        self.assertLess(peaks[-1], 7.0)
+
+    def test_rolling_radii_are_those_of_s1002_on_60e1(self):
+        for y, tangent in ((0.5, 0.189), (1.0, 0.185), (2.0, 0.168), (3.0, 0.153)):
+            near = min(self.steps[1], key=lambda row: abs(abs(row[4]) - y))
+            self.assertAlmostEqual((near[19] - near[20]) / (2.0 * near[4]), tangent, delta=5e-3)
+
     def test_the_wave_is_klingel_s(self):
-        klingel = 2.0 * math.pi * math.sqrt(R0 * S / CONE)
-        for line in self.lines:
-            _, crossings, wave, formula, _, _ = (float(word) for word in line.split())
-            self.assertEqual(crossings, 6)
-            self.assertAlmostEqual(formula, klingel, delta=1e-2)
-            # Creep at 20 m/s changes it by 0.03 %.
-            self.assertAlmostEqual(wave, klingel, delta=2e-3 * klingel)
+        _, _, wave, formula, first, last = self.lines[0]
+        steps = self.steps[1]
+        conicity = (sum((row[19] - row[20]) * row[4] for row in steps)
+                    / (2.0 * sum(row[4] ** 2 for row in steps)))
+        self.assertAlmostEqual(formula, 2.0 * math.pi * math.sqrt(R0 * S / conicity), delta=1e-2)
+        # A patch is wide, and has spin: no moment is left at a somewhat smaller difference of the
+        # rolling radii than that of the reference points, so the wave is longer, by 2 to 3 %.
+        self.assertGreater(wave, formula)
+        self.assertLess(wave, 1.04 * formula)
+        peaks = self.peaks(1)
+        self.assertAlmostEqual(first, peaks[0], delta=1e-4)
+        self.assertAlmostEqual(last, peaks[-1], delta=1e-4)
 
-    def test_it_grows_slowly_as_without_suspension(self):
-        for line in self.lines:
-            first, last = (float(word) for word in line.split()[-2:])
-            self.assertGreater(first, 3.0)
-            self.assertLess(first, last)
-            self.assertLess(last, 4.0)
+    def test_the_mirror_has_the_same_bits(self):
+        for one, other in zip(self.calls[2], self.calls[3]):
+            # Right is left; what points to the right changes its sign.
+            self.assertEqual(one[1:4], other[1:4])
+            self.assertEqual(one[4:9], [-number for number in other[4:9]])
+            self.assertEqual(one[9:11], other[9:11][::-1])
+            self.assertEqual(one[11:14], [other[14], -other[15], other[16]])
+            self.assertEqual(one[17], -other[18])
+            self.assertEqual(one[19:], [other[20], other[19], other[21]])
+        self.assertEqual(self.lines[1][1:], self.lines[2][1:])
 
-    def test_strips_and_fastsim_agree(self):
-        for ours, classic in zip(self.steps[1], self.steps[2]):
-            self.assertAlmostEqual(ours[1], classic[1], delta=0.15)
+    def test_the_wheels_carry_the_load(self):
+        for row in sum(self.calls.values(), []):
+            self.assertAlmostEqual(row[9] + row[10], 1.6e5, delta=1e-9)
+            self.assertAlmostEqual(row[13], row[9], delta=1e-7 * row[9])
+            self.assertAlmostEqual(row[16], row[10], delta=1e-7 * row[10])
 
     def test_forces_stay_below_friction(self):
-        for rows in self.steps.values():
-            for row in rows:
-                self.assertLessEqual(math.hypot(row[6], row[7]), 0.3 * row[2] * (1.0 + 1e-12))
+        used = [row[21] for row in sum(self.calls.values(), [])]
+        self.assertLessEqual(max(used), 0.3 * (1.0 + 1e-12))
+        self.assertGreater(max(used), 0.1)
+
+    def test_half_the_step_gives_the_same_waves(self):
+        source = (self.folder / "wheelset.f").read_text(encoding="utf-8")
+        for old, new in (("DT = 2.5D-3", "DT = 1.25D-3"),
+                         ("CALL SIMUL(3, 6.0D4, 6.0D4, -3.0D0, IWORK)", "CONTINUE")):
+            self.assertIn(old, source)
+            source = source.replace(old, new)
+        lines, _ = self.hunt("halved", source)
+        for ours, halved in zip(self.lines[:2], lines, strict=True):
+            self.assertEqual(ours[:2], halved[:2])
+            self.assertAlmostEqual(ours[2], halved[2], delta=2e-3 * halved[2])
+            self.assertAlmostEqual(ours[5], halved[5], delta=1e-2 * halved[5])
 
     def test_the_same_bits_by_the_fortran_api(self):
         self.shell(f"gfortran -O2 '{HOSTS}/replay.f90' $(pkg-config --cflags --libs faststrip)"
                    " -o replay")
-        found = self.findings("./replay")
-        self.assertEqual(found["rows"], [10000, 10000])
-        self.assertEqual(found["different"], [0, 0])
+        found = self.findings("cd wheelset_out\n../replay")
+        self.assertEqual(found, {"rows": [2800], "different": [0]})
 
 
 if __name__ == "__main__":
