@@ -9,6 +9,7 @@ module faststrip_command_batch
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_files_gap, only: read_gap_file
+    use faststrip_command_batch_friction, only: read_row_friction
     use faststrip_command_console, only: fail, fail_on_error, note, progress, put_origin, &
                                          concerns_gap, exit_bad_input
     use faststrip_command_files, only: take_input
@@ -51,9 +52,12 @@ contains
             // 'case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm (wheel and rail alike;' &
             // new_line('a') // 'gap_file relative to the CSV file). A row with a number in the' &
             // ' further column' // new_line('a') // penetration_column // ' is solved for it;' &
-            // ' its N_N is then empty, and filled in.' // new_line('a') // 'Other columns are' &
-            // ' carried through. A row that fails gets its status word and' // new_line('a') &
-            // 'empty figures; the others go on, and the exit code is 1.' // new_line('a')
+            // ' its N_N is then empty, and filled in.' // new_line('a') // 'Columns' &
+            // ' friction_kind, mu_kinetic, half_slip_speed_mm_s, initial_slope_factor,' &
+            // new_line('a') // 'speed_mm_s: as in &friction and &motion of a case file, mu being' &
+            // ' the static value.' // new_line('a') // 'Other columns are carried through. A' &
+            // ' row that fails gets its status word and' // new_line('a') // 'empty figures;' &
+            // ' the others go on, and the exit code is 1.' // new_line('a')
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.), &
                            method_options]
@@ -179,6 +183,8 @@ contains
         case%material = material_t(number(3), number(3), number(4), number(4))
         case%mu = number(5)
         case%creepage = creepage_t(number(7), number(8), number(9))
+        call read_row_friction(table, row, case%mu, case%friction, status)
+        if (is_error(status)) return
         call read_gap_file(beside(table%file, cell_text(table, row, column(2))), case%gap, &
                            status)
     end subroutine read_row

@@ -124,6 +124,67 @@ class Batch(ProgramTest):
         for name in ["status"] + FIGURES:
             self.assertEqual(one[name], many[name], name)
 
+    def test_friction_of_every_row(self):
+        names = ("friction_kind", "mu_kinetic", "half_slip_speed_mm_s", "initial_slope_factor",
+                 "speed_mm_s")
+        sets = [("", "", "", "", ""), ("exponential", "0.1", "100", "", "1e4"),
+                ("LINEAR", "0.2", "50", "0.5", "2e4"), ("rational", "0.1", "100", "", "1e4"),
+                ("constant", "", "", "0.25", "1e4")]
+        load = GOOD.replace("0.001,0,1e-4", "0.004,0.002,1e-4")
+        self.write("cases.csv", f"{BATCH_COLUMNS},{','.join(names)}\n" + "".join(
+            f"{i},gaps/g.csv,{load},{','.join(cells)}\n" for i, cells in enumerate(sets)))
+        many = self.good("batch", "cases.csv")
+        self.assertEqual(len({row["Fx_N"] for row in many}), len(sets))
+        for cells, row in zip(sets, many, strict=True):
+            kind, kinetic, half, slope, speed = cells
+            group = {"kind": f"'{kind.lower()}'" if kind else "", "mu_kinetic": kinetic,
+                     "half_slip_speed_mm_s": half, "initial_slope_factor": slope}
+            self.write("case.nml", gap_case(
+                "gaps/g.csv", motion="cksi = 0.004, ceta = 0.002, cphi_rad_per_mm = 1e-4"
+                + (f", speed_mm_s = {speed}" if speed else "")) + "&friction\n" + "".join(
+                    f"  {name} = {value}\n" for name, value in group.items() if value) + "/\n")
+            # A note says that no error of falling friction is estimated.
+            one = rows_of(self.run_program("contact", "case.nml").stdout)[0]
+            for name in ["status"] + FIGURES:
+                self.assertEqual(one[name], row[name], (cells, name))
+            self.assertEqual(tuple(row[name] for name in names), cells)
+
+    def test_friction_that_is_none(self):
+        names = ("friction_kind", "mu_kinetic", "half_slip_speed_mm_s", "initial_slope_factor",
+                 "speed_mm_s")
+        rows = [
+            ("linear,0.1,100,,1e4", "under_resolved", ""),
+            ("stribeck,,,,", "bad_argument", "friction_kind must be one of constant, linear"),
+            ("linear,x,100,,1e4", "file_format", "mu_kinetic"),
+            ("linear,0.4,100,,1e4", "bad_argument", "mu_kinetic must be at most mu, the static "
+             "value, got '0.4'"),
+            ("linear,0,100,,1e4", "bad_argument", "mu_kinetic must be above 0, got '0'"),
+            ("linear,,100,,1e4", "bad_argument", "mu_kinetic must be given"),
+            ("linear,0.1,,,1e4", "bad_argument", "half_slip_speed_mm_s must be given"),
+            ("linear,0.1,-100,,1e4", "bad_argument", "half_slip_speed_mm_s must be above 0, got "
+             "'-100'"),
+            ("linear,0.1,100,,", "bad_argument", "speed_mm_s must be given"),
+            (",0.1,,,1e4", "bad_argument", "mu_kinetic must be empty with constant friction, got "
+             "'0.1'"),
+            ("constant,,100,,", "bad_argument", "half_slip_speed_mm_s must be empty"),
+            (",,,1.5,", "bad_argument", "initial_slope_factor must be at most 1, got '1.5'"),
+            (",,,,-1", "bad_argument", "speed_mm_s must be above 0, got '-1'"),
+        ]
+        self.write("cases.csv", f"{BATCH_COLUMNS},{','.join(names)}\n" + "".join(
+            f"{i},gaps/g.csv,{GOOD},{cells}\n" for i, (cells, _, _) in enumerate(rows)))
+        done = self.run_program("batch", "cases.csv")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([row["status"] for row in rows_of(done.stdout)],
+                         [word for _, word, _ in rows])
+        told = done.stderr.splitlines()
+        self.assertEqual(len(told), len(rows))
+        for i, (line, (_, _, says)) in enumerate(zip(told, rows[1:])):
+            self.assertIn(f"(cases.csv:{i + 3})", line)
+            self.assertIn(says, line)
+        # What a method cannot do is said of the row.
+        done = self.run_program("batch", "cases.csv", "--tangential", "linear")
+        self.assertIn("takes no friction that falls with slip", done.stderr.splitlines()[0])
+
     def test_other_columns_are_carried_through(self):
         cells = ["007", "1e5", ' "quoted", with a comma ', "", "# not a comment", "+0.10",
                  "\u00e4\u00f6", "NaN", '"', "a  b"]
