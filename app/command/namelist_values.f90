@@ -11,7 +11,7 @@ module faststrip_command_namelist_values
     public :: reading_t, next_lines, refuse_values, name_length
 
     !> Length of the names in a list of names.
-    integer, parameter :: name_length = 16
+    integer, parameter :: name_length = 26
     ! All other names take numbers.
     character(len=name_length), parameter :: text_names(12) = [character(len=name_length) :: &
         'name', 'gap_file', 'load_direction', 'profile', 'y_positive_to', 'z_positive_to', &

@@ -32,6 +32,9 @@ module faststrip_command_wheelset
         '-o', '--strips', '--profiles']
     character(len=*), parameter :: side_names(2) = [character(len=5) :: 'right', 'left']
 
+    !> Name of the state of a case file.
+    character(len=*), parameter :: name_of_case = 'case'
+
     !> What a run has at hand.
     type :: run_t
         type(wheelset_model_t) :: model
@@ -66,7 +69,10 @@ contains
             // ' rows of a CSV file with the' // new_line('a') // 'columns case,side,y_mm,' // &
             'roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N (optional: z_mm,' // &
             new_line('a') // 'vy_mm_s,vz_mm_s,roll_rate_rad_s,yaw_rate_rad_s,curve_radius_mm,' // &
-            'roll_moment_Nmm), or the one' // new_line('a') // 'of the group &state. side is' // &
+            'roll_moment_Nmm and, of each rail beside its place,' // new_line('a') // &
+            'rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,rail_right_vy_mm_s,' // &
+            'rail_right_vz_mm_s,' // new_line('a') // 'rail_right_roll_rate_rad_s, and the' // &
+            ' same with left), or the one' // new_line('a') // 'of the group &state. side is' // &
             ' left, right (Fz_N: vertical force of that wheel) or both (of' // new_line('a') // &
             'the axle). An empty roll_rad is found, an empty pitch_rate_rad_s is that of pure' // &
             ' rolling;' // new_line('a') // 'z_mm instead of Fz_N gives the height. A state' // &
@@ -108,12 +114,13 @@ contains
             call find_state_columns(table, columns, status)
             call fail_on_error(status)
         end if
+        call refuse_unknown_state(run, case%has_state, table, columns)
         call open_outputs(command, outputs, run%writer)
         call put_wheelset_header(run%writer(1), run%wear)
         if (run%wants_strips) call put_strips_header(run%writer(2), run%wear)
         if (run%wants_profiles) call put_profiles_header(run%writer(3))
         if (case%has_state) then
-            call put_state(run, 'case', case%state, status)
+            call put_state(run, name_of_case, case%state, status)
             call refuse_absent_profiles(run)
             call close_outputs(command, outputs, run%writer)
             ! The files are whole also where the one state failed.
@@ -142,7 +149,28 @@ contains
                                     // integer_text(table%n_rows) // ' states failed')
     end subroutine run_wheelset
 
-    ! A state that was named for its profiles has to be there.
+    ! A state that was named for its profiles has to be one of those to solve.
+    subroutine refuse_unknown_state(run, is_of_case, table, columns)
+        type(run_t), intent(in) :: run
+        logical, intent(in) :: is_of_case
+        type(csv_table_t), intent(in) :: table
+        type(state_columns_t), intent(in) :: columns
+
+        integer :: row
+
+        if (len(run%profiles_of) == 0) return
+        if (is_of_case) then
+            if (run%profiles_of == name_of_case) return
+        else
+            do row = 1, table%n_rows
+                if (cell_text(table, row, columns%case) == run%profiles_of) return
+            end do
+        end if
+        call fail(exit_bad_input, '--profiles-of: there is no state of that name, got ' &
+                  // run%profiles_of)
+    end subroutine refuse_unknown_state
+
+    ! A state that was named for its profiles must have a result.
     subroutine refuse_absent_profiles(run)
         type(run_t), intent(in) :: run
 

@@ -89,9 +89,15 @@ contains
         character(len=word_length) :: side
         real(wp) :: y_mm, z_mm, roll_rad, yaw_rad, speed_mm_s, pitch_rate_rad_s, Fz_N, vy_mm_s, &
             vz_mm_s, roll_rate_rad_s, yaw_rate_rad_s, curve_radius_mm, roll_moment_Nmm
+        real(wp) :: rail_right_y_mm, rail_right_z_mm, rail_right_roll_rad, rail_right_vy_mm_s, &
+            rail_right_vz_mm_s, rail_right_roll_rate_rad_s, rail_left_y_mm, rail_left_z_mm, &
+            rail_left_roll_rad, rail_left_vy_mm_s, rail_left_vz_mm_s, rail_left_roll_rate_rad_s
         namelist /state/ side, y_mm, z_mm, roll_rad, yaw_rad, speed_mm_s, pitch_rate_rad_s, &
             Fz_N, vy_mm_s, vz_mm_s, roll_rate_rad_s, yaw_rate_rad_s, curve_radius_mm, &
-            roll_moment_Nmm
+            roll_moment_Nmm, rail_right_y_mm, rail_right_z_mm, rail_right_roll_rad, &
+            rail_right_vy_mm_s, rail_right_vz_mm_s, rail_right_roll_rate_rad_s, rail_left_y_mm, &
+            rail_left_z_mm, rail_left_roll_rad, rail_left_vy_mm_s, rail_left_vz_mm_s, &
+            rail_left_roll_rate_rad_s
         type(group_t) :: group
         type(reading_t) :: reading
         integer :: code, i
@@ -110,6 +116,18 @@ contains
         yaw_rate_rad_s = unset()
         curve_radius_mm = unset()
         roll_moment_Nmm = unset()
+        rail_right_y_mm = unset()
+        rail_right_z_mm = unset()
+        rail_right_roll_rad = unset()
+        rail_right_vy_mm_s = unset()
+        rail_right_vz_mm_s = unset()
+        rail_right_roll_rate_rad_s = unset()
+        rail_left_y_mm = unset()
+        rail_left_z_mm = unset()
+        rail_left_roll_rad = unset()
+        rail_left_vy_mm_s = unset()
+        rail_left_vz_mm_s = unset()
+        rail_left_roll_rate_rad_s = unset()
         call find_group(content, 'state', .false., group)
         case%has_state = group%first > 0
         do
@@ -122,7 +140,11 @@ contains
         case%state%side = side
         case%state%number = [y_mm, roll_rad, yaw_rad, speed_mm_s, pitch_rate_rad_s, Fz_N, z_mm, &
                              vy_mm_s, vz_mm_s, roll_rate_rad_s, yaw_rate_rad_s, &
-                             curve_radius_mm, roll_moment_Nmm]
+                             curve_radius_mm, roll_moment_Nmm, rail_right_y_mm, rail_right_z_mm, &
+                             rail_right_roll_rad, rail_right_vy_mm_s, rail_right_vz_mm_s, &
+                             rail_right_roll_rate_rad_s, rail_left_y_mm, rail_left_z_mm, &
+                             rail_left_roll_rad, rail_left_vy_mm_s, rail_left_vz_mm_s, &
+                             rail_left_roll_rate_rad_s]
         case%state%is_given = [(sets(content, group, trim(state_names(i))), i=1, n_numbers)]
     end subroutine read_state_group
 end module faststrip_command_wheelset_case

@@ -2,10 +2,10 @@
 module faststrip_command_wheelset_profiles
     use faststrip_base_kinds, only: wp
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point, rail_origin, turned
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, rail_state_t, &
                                                  wheelset_axes, mirrored_state
-    use faststrip_wheelset_types, only: wheelset_model_t, wheelset_result_t, side_left
+    use faststrip_wheelset_types, only: wheelset_model_t, wheelset_result_t, side_right, side_left
     use faststrip_command_console, only: put_origin
     implicit none
     private
@@ -44,7 +44,7 @@ contains
             state%z = result%wheel(side)%z
             call put_wheel(writer, case, model%pair(side), wheelset_axes(state, model%radius), &
                            side == side_left)
-            call put_rail(writer, case, model%pair(side), side == side_left)
+            call put_rail(writer, case, model%pair(side), state%rail(side_right), side == side_left)
         end do
     end subroutine put_wheelset_profiles
 
@@ -68,19 +68,21 @@ contains
         end do
     end subroutine put_wheel
 
-    subroutine put_rail(writer, case, pair, is_left)
+    subroutine put_rail(writer, case, pair, rail, is_left)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: case
         type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
         logical, intent(in) :: is_left
 
         real(wp) :: point(2)
         integer :: i
 
         do i = 0, ubound(pair%sample, 1)
-            point = [pair%y_sample + i*pair%sample_step, pair%sample(i)]
-            call put_point(writer, case, 'rail', is_left, point, &
-                           point - [pair%y_rail, pair%z_rail])
+            point = [pair%y_sample + i*pair%sample_step, pair%sample(i)] &
+                    - [pair%y_rail, pair%z_rail]
+            call put_point(writer, case, 'rail', is_left, &
+                           rail_origin(pair, rail) + turned(point, rail%roll), point)
         end do
     end subroutine put_rail
 

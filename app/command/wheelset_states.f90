@@ -6,7 +6,7 @@ module faststrip_command_wheelset_states
                                      st_bad_argument
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, cell_text, &
                                    cell_number
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_wheelset_types, only: wheelset_demand_t, wheelset_model_t, demand_position, &
                                         demand_loads, demand_axle_load, side_right, side_left
     implicit none
@@ -16,19 +16,23 @@ module faststrip_command_wheelset_states
     public :: find_state_columns, read_state_row, take_state
 
     !> How many numbers a state has.
-    integer, parameter :: n_numbers = 13
+    integer, parameter :: n_numbers = 25
     integer, parameter :: n_needed = 6 ! of them, in a table
     ! Where they are.
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
-                          at_yaw_rate = 11, at_curve = 12, at_moment = 13
+                          at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20]
+    integer, parameter :: n_rail = 6 ! numbers of a rail
 
     !> Names of the numbers, in tables and in the group `&state`; the first six must be columns of a
     !> table.
-    character(len=*), parameter :: state_names(n_numbers) = [character(len=16) :: &
+    character(len=*), parameter :: state_names(n_numbers) = [character(len=26) :: &
         'y_mm', 'roll_rad', 'yaw_rad', 'speed_mm_s', 'pitch_rate_rad_s', 'Fz_N', 'z_mm', &
         'vy_mm_s', 'vz_mm_s', 'roll_rate_rad_s', 'yaw_rate_rad_s', 'curve_radius_mm', &
-        'roll_moment_Nmm']
+        'roll_moment_Nmm', 'rail_right_y_mm', 'rail_right_z_mm', 'rail_right_roll_rad', &
+        'rail_right_vy_mm_s', 'rail_right_vz_mm_s', 'rail_right_roll_rate_rad_s', &
+        'rail_left_y_mm', 'rail_left_z_mm', 'rail_left_roll_rad', 'rail_left_vy_mm_s', &
+        'rail_left_vz_mm_s', 'rail_left_roll_rate_rad_s']
 
     !> A state as it was given.
     type :: given_state_t
@@ -136,6 +140,9 @@ contains
         state%roll_rate = number(at_roll_rate)
         state%yaw_rate = number(at_yaw_rate)
         if (given%is_given(at_curve)) state%curvature = 1.0_wp/number(at_curve)
+        do i = side_right, side_left
+            state%rail(i) = rail(at_rail(i))
+        end do
         state%pitch_rate = number(at_pitch)
         if (.not. given%is_given(at_pitch)) state%pitch_rate = -state%speed/model%radius
         demand%roll_is_free = .not. given%is_given(at_roll)
@@ -163,6 +170,16 @@ contains
             number = 0.0_wp
             if (given%is_given(i)) number = given%number(i)
         end function number
+
+        type(rail_state_t) function rail(first)
+            integer, intent(in) :: first
+
+            real(wp) :: values(n_rail)
+            integer :: k
+
+            values = [(number(first + k), k=0, n_rail - 1)]
+            rail = rail_state_t(values(1), values(2), values(3), values(4), values(5), values(6))
+        end function rail
 
         subroutine refuse_absent(i)
             integer, intent(in) :: i

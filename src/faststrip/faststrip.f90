@@ -96,7 +96,7 @@ module faststrip
                                         target_pmax, target_penetration, target_area, &
                                         target_power
     use faststrip_contact_auto, only: solve_contact_auto, taken_t, auto_step_t
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, mirrored_state
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheel_contact_t, &
                                         wheel_result_t, wheelset_result_t, wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &

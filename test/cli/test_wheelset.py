@@ -277,10 +277,62 @@ class Wheelset(ProgramTest):
             self.assertEqual(float(point["y_mm"]) > 0, point["side"] == "right")
         run = self.refused(1, "wheelset", "case.nml", "--states", "states.csv", "-o", "o.csv",
                            "--profiles", "q.csv", "--profiles-of", "d",
-                           says=["--profiles-of", "got d"])
+                           says=["--profiles-of: there is no state of that name, got d"])
         self.assertFalse((self.folder / "q.csv").exists(), run)
         self.refused(2, "wheelset", "case.nml", "--states", "states.csv", "--profiles-of", "b",
                      says=["--profiles"])
+
+    def test_profiles_of_a_state_that_fails(self):
+        self.write("states.csv", f"{HEADER}\na,left,1,,0,20000,,5e4\nb,left,600,0,0,20000,,5e4\n")
+        run = self.run_program("wheelset", "case.nml", "--states", "states.csv", "-o", "o.csv",
+                               "--profiles", "q.csv", "--profiles-of", "b")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("--profiles-of: no state of that name has a result, got b", run.stderr)
+        self.assertFalse((self.folder / "q.csv").exists())
+
+    def test_rails_beside_their_places(self):
+        names = ("rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,rail_right_vy_mm_s,"
+                 "rail_left_y_mm,rail_left_z_mm,rail_left_roll_rad,rail_left_vy_mm_s")
+        state = "20000,-43.4,120000"
+        rows = self.solved(f"a,both,3.5,,0.004,{state},0.5,0.25,0.01,4,0.5,0.25,-0.02,6",
+                           f"a,both,-3.5,,-0.004,{state},-0.5,0.25,0.02,-6,-0.5,0.25,-0.01,-4",
+                           f"b,both,3,,0.004,{state},0,0,0.01,4,0,0,-0.02,6",
+                           f"c,both,3,,0.004,{state},0,0,0.01,0,0,0,-0.02,0",
+                           header=f"{HEADER},{names}")
+        self.assertEqual([row["side"] for row in rows], ["left", "right"] * 4)
+        left, right, left_image, right_image, *others = rows
+        for row, image in ((left, right_image), (right, left_image)):
+            self.assert_close(float(row["N_N"]), float(image["N_N"]), 1.0e-9)
+            for name in ("y_track_mm", "y_rail_mm", "contact_angle_rad", "ceta", "Fs_N"):
+                self.assert_close(float(row[name]), -float(image[name]), 1.0e-7, what=name)
+            for name in ("z_track_mm", "z_rail_mm", "z_mm"):
+                self.assert_close(float(row[name]), float(image[name]), absolute=1.0e-8, what=name)
+        # Track and wheelset moved together; with the rail's motion the wheel creeps less.
+        for row, there, still, speed in zip((left, right), others[:2], others[2:], (6.0, 4.0),
+                                            strict=True):
+            for name, moved in (("y_track_mm", 0.5), ("z_track_mm", 0.25), ("z_mm", 0.25),
+                                ("y_rail_mm", 0.0)):
+                self.assert_close(float(row[name]) - moved, float(there[name]), absolute=1.0e-6,
+                                  what=name)
+            more = float(there["ceta"]) - float(still["ceta"])
+            creeping = math.cos(float(row["contact_angle_rad"])) * speed
+            self.assert_close(more, creeping / float(row["rolling_speed_mm_s"]), absolute=1.0e-6)
+
+    def test_a_rail_of_the_group_state(self):
+        state = "&state\n side='right'\n y_mm=2.0\n roll_rad=0.0\n yaw_rad=0.0\n" \
+                " speed_mm_s=2000.0\n Fz_N=1e4\n rail_right_roll_rate_rad_s=0.1\n" \
+                " rail_right_roll_rad=0.01\n/\n"
+        self.write("one.nml", CASE + state)
+        rows = self.good("wheelset", "one.nml", "--profiles", "p.csv")
+        table = self.solved("case,right,2,0,0,2000,,1e4,0.01,0.1",
+                            header=HEADER + ",rail_right_roll_rad,rail_right_roll_rate_rad_s")
+        self.assertEqual(rows, table)
+        # The contact lies on the rail as it is drawn.
+        rail = [point for point in self.read("p.csv") if point["body"] == "rail"]
+        place = (float(rows[0]["y_track_mm"]), float(rows[0]["z_track_mm"]))
+        near = min(rail, key=lambda point: abs(float(point["y_mm"]) - place[0]))
+        self.assert_close(float(near["z_mm"]), place[1], absolute=5.0e-3)
+        self.assert_close(float(near["y_profile_mm"]), float(rows[0]["y_rail_mm"]), absolute=0.03)
 
     def test_figures_that_are_not_known_are_empty(self):
         self.write("law.csv", LAW)

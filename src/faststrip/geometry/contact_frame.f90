@@ -11,7 +11,9 @@ module faststrip_geometry_contact_frame
     use faststrip_base_status, only: status_t, set_status, clear_status, st_no_contact
     use faststrip_geometry_overlap, only: region_t
     use faststrip_geometry_profile, only: profile_at
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t, rail_height
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t, rail_height, &
+                                                rail_origin, turned
+    use faststrip_geometry_wheelset_state, only: rail_state_t
     implicit none
     private
 
@@ -52,8 +54,9 @@ module faststrip_geometry_contact_frame
 contains
 
     !> The frame of a region.
-    pure subroutine place_frame(pair, region, frame)
+    pure subroutine place_frame(pair, rail, region, frame)
         type(wheel_on_rail_t), intent(in) :: pair  !! made
+        type(rail_state_t), intent(in) :: rail     !! as it lies
         type(region_t), intent(in) :: region       !! found
         type(contact_frame_t), intent(out) :: frame !! mm, rad
 
@@ -62,7 +65,7 @@ contains
 
         frame%origin(1) = region%x
         frame%origin(2) = region%y
-        call rail_height(pair, region%y, frame%origin(3), slope, is_there)
+        call rail_height(pair, rail, region%y, frame%origin(3), slope, is_there)
         frame%angle = region%angle
     end subroutine place_frame
 
@@ -114,7 +117,7 @@ contains
         type(frame_gap_t), intent(inout) :: gap    !! reserved
         type(status_t), intent(out) :: status      !! `st_no_contact`: nothing to sample
 
-        real(wp) :: c, s, y_rail
+        real(wp) :: c, s, y_rail, origin(2), c_rail, s_rail
         integer :: start, first, last, i
         logical :: found
 
@@ -122,6 +125,9 @@ contains
         gap%n = 0
         c = cos(frame%angle)
         s = sin(frame%angle)
+        origin = rail_origin(pair, outline%rail)
+        c_rail = cos(frame%angle - outline%rail%roll)
+        s_rail = sin(frame%angle - outline%rail%roll)
         start = region%first - 1 + minloc(outline%height(region%first:region%last), dim=1, &
                                           mask=outline%is_there(region%first:region%last))
         y_rail = outline%y(start)
@@ -173,13 +179,14 @@ contains
             end do
         end function reached
 
-        ! The gap at a point of the outline; the rail is sought from y_from.
+        ! The gap at a point of the outline; the rail is sought from y_from, where its point would
+        ! be in the track if it were not turned.
         subroutine take(k, y_from, found)
             integer, intent(in) :: k
             real(wp), intent(inout) :: y_from
             logical, intent(out) :: found
 
-            real(wp) :: y, z, y_turned, n_wheel, n_rail, slope, residual, d2z, alpha
+            real(wp) :: y, z, y_turned, n_wheel, n_rail, slope, residual, d2z, alpha, there(2)
             type(status_t) :: inside
             integer :: j
 
@@ -193,28 +200,30 @@ contains
             z = 0.0_wp
             slope = 0.0_wp
             do j = 1, most_steps
-                y = min(max(y_from - pair%y_rail, pair%rail%y_first), pair%rail%y_last)
+                y = min(max(y_from - origin(1), pair%rail%y_first), pair%rail%y_last)
                 call profile_at(pair%rail, y, z, slope, d2z, inside)
-                y = y + pair%y_rail - frame%origin(2)
-                z = z + pair%z_rail - frame%origin(3)
-                if (c + slope*s < least_along) return
+                there = turned([y, z], outline%rail%roll)
+                y_from = y + origin(1)
+                y = there(1) + origin(1) - frame%origin(2)
+                z = there(2) + origin(2) - frame%origin(3)
+                if (c_rail + slope*s_rail < least_along) return
                 residual = y_turned - y*c - z*s
-                y_from = y + frame%origin(2)
                 if (abs(residual) <= exact*(1.0_wp + abs(y_turned))) exit
-                y_from = y_from + residual/(c + slope*s)
-                if (y_from < pair%y_rail + pair%rail%y_first &
-                    .or. y_from > pair%y_rail + pair%rail%y_last) return
+                y_from = y_from + residual/(c_rail + slope*s_rail)
+                if (y_from < origin(1) + pair%rail%y_first &
+                    .or. y_from > origin(1) + pair%rail%y_last) return
             end do
             n_rail = z*c - y*s
             alpha = atan(pair%slope(k))
+            slope = atan(slope) + outline%rail%roll
             if (cos(outline%slope(k) - frame%angle) < least_along) return
             found = .true.
             gap%y(k) = y_turned
             gap%h(k) = n_rail - n_wheel
             gap%inv2r(k) = 0.5_wp*cos(alpha)/((pair%radius + pair%z(k) - pair%z_line) &
                                               *cos(outline%slope(k) - frame%angle))
-            gap%slope(k) = tan(atan(slope) - frame%angle) - tan(outline%slope(k) - frame%angle)
-            gap%inclination(k) = 0.5_wp*(outline%slope(k) + atan(slope)) - frame%angle
+            gap%slope(k) = tan(slope - frame%angle) - tan(outline%slope(k) - frame%angle)
+            gap%inclination(k) = 0.5_wp*(outline%slope(k) + slope) - frame%angle
             gap%x0(k) = outline%x(k) - frame%origin(1)
         end subroutine take
     end subroutine sample_gap

@@ -147,7 +147,7 @@ contains
                 if (.not. outline%is_there(before)) before = k
                 if (.not. outline%is_there(after)) after = k
                 share = depth**depth_power*0.5_wp*abs(outline%y(after) - outline%y(before))
-                call rail_height(pair, outline%y(k), z, slope, is_there)
+                call rail_height(pair, outline%rail, outline%y(k), z, slope, is_there)
                 region%depth = max(region%depth, depth)
                 region%weight = region%weight + share
                 region%x = region%x + share*outline%x(k)
@@ -162,7 +162,7 @@ contains
                 region%angle = region%angle/region%weight
             else
                 k = (region%first + region%last)/2
-                call rail_height(pair, outline%y(k), z, slope, is_there)
+                call rail_height(pair, outline%rail, outline%y(k), z, slope, is_there)
                 region%x = outline%x(k)
                 region%y = outline%y(k)
                 region%angle = atan(slope)
@@ -186,7 +186,7 @@ contains
                     place(1) = place(1) + t*(outline%y(outside) - outline%y(inside))
                 end if
             end if
-            call rail_height(pair, place(1), place(2), slope, is_there)
+            call rail_height(pair, outline%rail, place(1), place(2), slope, is_there)
         end function end_of
     end subroutine find_regions
 

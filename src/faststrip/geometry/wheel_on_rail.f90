@@ -7,6 +7,9 @@
 !> exact for a surface of revolution. The least distance of wheel and rail at each y' of a turned
 !> frame, too, is that of the outline.
 !>
+!> A rail may lie beside its place, turned about its origin: what is below a wheel's point is then
+!> sought along the rail.
+!>
 !> A left wheel is given as a right one: in a mirror.
 module faststrip_geometry_wheel_on_rail
     use faststrip_base_kinds, only: wp
@@ -14,12 +17,13 @@ module faststrip_geometry_wheel_on_rail
                                      st_bad_argument, st_out_of_range
     use faststrip_geometry_profile, only: profile_t, profile_at, profile_none
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, find_gauge_point
-    use faststrip_geometry_wheelset_state, only: wheelset_axes_t
+    use faststrip_geometry_wheelset_state, only: wheelset_axes_t, rail_state_t
     implicit none
     private
 
     public :: wheel_on_rail_t, outline_t
     public :: make_wheel_on_rail, reserve_outline, find_outline, rail_height, outline_point
+    public :: rail_origin, turned, on_rail_profile
 
     ! Tuned [mm]: distance of the outline's points along the profile. Origin: chosen: some twenty in
     ! the narrowest patch of a flange.
@@ -30,6 +34,10 @@ module faststrip_geometry_wheel_on_rail
     ! Tuned [1]: slope of the rail beyond which its ends are left out. Origin: safeguard: no wheel
     ! touches a flank that stands upright, nor is there a cubic through it.
     real(wp), parameter :: steepest = 50.0_wp
+    ! Tuned [steps]: to a point of a turned rail. Origin: capacity; Newton's method takes three.
+    integer, parameter :: most_turned_steps = 30
+    ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
+    real(wp), parameter :: near_point = 1.0e-11_wp
     ! Tuned [points]: most points of an outline and of a rail. Origin: capacity.
     integer, parameter :: most_points = 200000
 
@@ -53,6 +61,7 @@ module faststrip_geometry_wheel_on_rail
 
     !> The outline of a wheel over its rail; the points are those of the wheel's profile.
     type :: outline_t
+        type(rail_state_t) :: rail          !! as it lies below the wheel
         real(wp), allocatable :: x(:)       !! in the track, mm
         real(wp), allocatable :: y(:)       !! the same, mm
         real(wp), allocatable :: z(:)       !! the same, with the state's z, mm
@@ -176,13 +185,80 @@ contains
         end do
     end function touchable_end
 
-    !> Height and slope of the rail between its samples.
-    pure subroutine rail_height(pair, y, z, slope, is_there)
+    !> Where the origin of a rail's profile lies in the track, mm.
+    pure function rail_origin(pair, rail) result(origin)
         type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp) :: origin(2)                     !! y, z, mm
+
+        origin = [pair%y_rail + rail%y, pair%z_rail + rail%z]
+    end function rail_origin
+
+    !> A vector in the plane across the track, turned about x.
+    pure function turned(vector, angle) result(there)
+        real(wp), intent(in) :: vector(2) !! along y and z, any unit
+        real(wp), intent(in) :: angle     !! rad
+        real(wp) :: there(2)              !! the same unit
+
+        there = vector
+        if (abs(angle) > 0.0_wp) &
+            there = [vector(1)*cos(angle) - vector(2)*sin(angle), &
+                     vector(1)*sin(angle) + vector(2)*cos(angle)]
+    end function turned
+
+    !> A point of the track on the rail's profile, mm.
+    pure function on_rail_profile(pair, rail, point) result(place)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp), intent(in) :: point(2)          !! y, z in the track, mm
+        real(wp) :: place(2)                      !! y, z of the profile, mm
+
+        place = turned(point - rail_origin(pair, rail), -rail%roll)
+    end function on_rail_profile
+
+    !> Height and slope of a rail as it lies.
+    pure subroutine rail_height(pair, rail, y, z, slope, is_there)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! mm, rad
         real(wp), intent(in) :: y                 !! in the track, mm
         real(wp), intent(out) :: z                !! in the track, mm
         real(wp), intent(out) :: slope            !! dz/dy
         logical, intent(out) :: is_there          !! is y on the rail?
+
+        real(wp) :: along, change, advance
+        integer :: i
+
+        call height_in_design(pair, y - rail%y, z, slope, is_there)
+        z = z + rail%z
+        if (.not. abs(rail%roll) > 0.0_wp) return
+        associate (c => cos(rail%roll), s => sin(rail%roll), &
+                   first => pair%y_sample - pair%y_rail, &
+                   last => pair%y_sample + ubound(pair%sample, 1)*pair%sample_step - pair%y_rail)
+            along = min(max((y - rail%y - pair%y_rail)*c, first), last)
+            do i = 1, most_turned_steps
+                call height_in_design(pair, pair%y_rail + along, z, slope, is_there)
+                z = z - pair%z_rail
+                advance = c - slope*s
+                ! A rail that is turned beyond the upright hangs over.
+                is_there = is_there .and. advance*steepest > 1.0_wp
+                if (.not. is_there) exit
+                change = (y - rail%y - pair%y_rail - along*c + z*s)/advance
+                is_there = abs(change) <= near_point
+                if (is_there) exit
+                along = along + change
+            end do
+            z = pair%z_rail + rail%z + along*s + z*c
+            slope = tan(atan(slope) + rail%roll)
+        end associate
+    end subroutine rail_height
+
+    ! Height and slope of the rail in its place, between its samples.
+    pure subroutine height_in_design(pair, y, z, slope, is_there)
+        type(wheel_on_rail_t), intent(in) :: pair
+        real(wp), intent(in) :: y
+        real(wp), intent(out) :: z
+        real(wp), intent(out) :: slope
+        logical, intent(out) :: is_there
 
         real(wp) :: t, c1, c3, secant
         integer :: i
@@ -199,7 +275,7 @@ contains
         c3 = c1 + pair%sample_slope(i + 1)*pair%sample_step - 2.0_wp*secant
         z = pair%sample(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
         slope = (c1 + t*(2.0_wp*(secant - c1 - c3) + 3.0_wp*t*c3))/pair%sample_step
-    end subroutine rail_height
+    end subroutine height_in_design
 
     !> Allocate for the outline of a pair.
     subroutine reserve_outline(outline, pair)
@@ -220,14 +296,16 @@ contains
     end subroutine reserve_outline
 
     !> The outline of a wheel, and how high each point of it stands over the rail.
-    pure subroutine find_outline(pair, axes, outline)
+    pure subroutine find_outline(pair, axes, rail, outline)
         type(wheel_on_rail_t), intent(in) :: pair   !! made
         type(wheelset_axes_t), intent(in) :: axes   !! of the state, as a right pair
+        type(rail_state_t), intent(in) :: rail      !! the same
         type(outline_t), intent(inout) :: outline   !! reserved
 
         real(wp) :: point(3), z, slope
         integer :: i
 
+        outline%rail = rail
         do i = 1, size(pair%y)
             call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
                                outline%slope(i), outline%is_there(i))
@@ -235,7 +313,7 @@ contains
             outline%y(i) = point(2)
             outline%z(i) = point(3)
             if (.not. outline%is_there(i)) cycle
-            call rail_height(pair, point(2), z, slope, outline%is_there(i))
+            call rail_height(pair, rail, point(2), z, slope, outline%is_there(i))
             outline%height(i) = z - point(3)
         end do
     end subroutine find_outline

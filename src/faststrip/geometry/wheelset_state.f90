@@ -4,7 +4,8 @@
 !> line, as high as the crowns of the rails. The centre of a wheelset that stands level on the
 !> track is at `(0, y, z - r)`, with r the mean of its nominal radii: z = 0 where the tread lines
 !> are as high as the crowns. The wheelset is turned by its yaw about z (nose to the right) and
-!> then by its roll about the track's x (right wheel down), as CONTACT turns it.
+!> then by its roll about the track's x (right wheel down), as CONTACT turns it. Each rail may lie
+!> beside its place in the design, turned about x, and may move there.
 module faststrip_geometry_wheelset_state
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
@@ -14,8 +15,8 @@ module faststrip_geometry_wheelset_state
     implicit none
     private
 
-    public :: wheelset_state_t, wheelset_axes_t
-    public :: mirrored_state, check_state, wheelset_axes, rigid_creepage, cross
+    public :: wheelset_state_t, wheelset_axes_t, rail_state_t
+    public :: mirrored_state, check_state, wheelset_axes, rigid_creepage, rail_velocity, cross
 
     ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
     ! wheel that is turned farther have no meaning.
@@ -23,7 +24,18 @@ module faststrip_geometry_wheelset_state
     ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_displacement = 1.0e4_wp
 
-    !> Position and velocity of a wheelset, in the track frame.
+    !> How a rail lies and moves beside its place in the design, in the track frame; it is turned
+    !> about the origin of its profile.
+    type :: rail_state_t
+        real(wp) :: y = 0.0_wp         !! to the right, mm
+        real(wp) :: z = 0.0_wp         !! down, mm
+        real(wp) :: roll = 0.0_wp      !! right side down, rad
+        real(wp) :: y_rate = 0.0_wp    !! mm/s
+        real(wp) :: z_rate = 0.0_wp    !! mm/s
+        real(wp) :: roll_rate = 0.0_wp !! rad/s
+    end type rail_state_t
+
+    !> Position and velocity of a wheelset, and of the rails below it, in the track frame.
     type :: wheelset_state_t
         real(wp) :: y = 0.0_wp          !! lateral displacement, mm
         real(wp) :: z = 0.0_wp          !! vertical displacement of the centre, mm
@@ -36,6 +48,7 @@ module faststrip_geometry_wheelset_state
         real(wp) :: yaw_rate = 0.0_wp   !! relative to the track, about the wheelset's z axis, rad/s
         real(wp) :: pitch_rate = 0.0_wp !! about the axle, negative for rolling ahead, rad/s
         real(wp) :: curvature = 0.0_wp  !! of the track, positive to the right, 1/mm
+        type(rail_state_t) :: rail(2)   !! right, left
     end type wheelset_state_t
 
     !> The wheelset's frame in the track.
@@ -60,12 +73,25 @@ contains
         mirrored%roll_rate = -state%roll_rate
         mirrored%yaw_rate = -state%yaw_rate
         mirrored%curvature = -state%curvature
+        mirrored%rail = mirrored_rail(state%rail(2:1:-1))
     end function mirrored_state
+
+    elemental type(rail_state_t) function mirrored_rail(rail) result(mirrored)
+        type(rail_state_t), intent(in) :: rail
+
+        mirrored = rail
+        mirrored%y = -rail%y
+        mirrored%roll = -rail%roll
+        mirrored%y_rate = -rail%y_rate
+        mirrored%roll_rate = -rail%roll_rate
+    end function mirrored_rail
 
     !> Refuse states that are no numbers or out of all range.
     pure subroutine check_state(state, status)
         type(wheelset_state_t), intent(in) :: state !! mm, rad, s
         type(status_t), intent(out) :: status       !! `st_bad_argument`
+
+        integer :: i
 
         call clear_status(status)
         call check_value('y', state%y, largest_displacement, 'mm', status)
@@ -79,6 +105,17 @@ contains
         call check_value('yaw_rate', state%yaw_rate, huge(1.0_wp), 'rad/s', status)
         call check_value('pitch_rate', state%pitch_rate, huge(1.0_wp), 'rad/s', status)
         call check_value('curvature', state%curvature, 1.0_wp, '1/mm', status)
+        do i = 1, size(state%rail)
+            associate (rail => state%rail(i))
+                call check_value('y of a rail', rail%y, largest_displacement, 'mm', status)
+                call check_value('z of a rail', rail%z, largest_displacement, 'mm', status)
+                call check_value('roll of a rail', rail%roll, largest_turn, 'rad', status)
+                call check_value('y_rate of a rail', rail%y_rate, huge(1.0_wp), 'mm/s', status)
+                call check_value('z_rate of a rail', rail%z_rate, huge(1.0_wp), 'mm/s', status)
+                call check_value('roll_rate of a rail', rail%roll_rate, huge(1.0_wp), 'rad/s', &
+                                 status)
+            end associate
+        end do
     end subroutine check_state
 
     ! A finite number within a range.
@@ -119,13 +156,14 @@ contains
     !> Creepages of rigid bodies at a point of the wheel: velocity of the rail relative to the wheel
     !> over the rolling speed, in the contact frame, turned by the contact angle about x. The
     !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle.
-    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed)
+    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving)
         type(wheelset_state_t), intent(in) :: state  !! mm, rad, s
         type(wheelset_axes_t), intent(in) :: axes    !! of the state
         real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
         real(wp), intent(in) :: angle                !! contact angle, rad
         type(creepage_t), intent(out) :: creepage    !! zero if nothing rolls; -, -, rad/mm
         real(wp), intent(out) :: speed               !! rolling speed, mm/s
+        real(wp), intent(in), optional :: moving(3)  !! velocity of the rail there, mm/s
 
         real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3)
 
@@ -144,10 +182,21 @@ contains
         end associate
         creepage = creepage_t()
         if (.not. speed > 0.0_wp) return
+        if (present(moving)) velocity = velocity - moving
         creepage%cksi = -velocity(1)/speed
         creepage%ceta = -(velocity(2)*cos(angle) + velocity(3)*sin(angle))/speed
         creepage%cphi = -(turning(3)*cos(angle) - turning(2)*sin(angle))/speed
     end subroutine rigid_creepage
+
+    !> Velocity of a point of a rail, mm/s.
+    pure function rail_velocity(rail, arm) result(velocity)
+        type(rail_state_t), intent(in) :: rail !! mm, rad, s
+        real(wp), intent(in) :: arm(2)         !! y, z of the point from the rail's origin, mm
+        real(wp) :: velocity(3)                !! in the track, mm/s
+
+        velocity = [0.0_wp, rail%y_rate - rail%roll_rate*arm(2), &
+                    rail%z_rate + rail%roll_rate*arm(1)]
+    end function rail_velocity
 
     !> Vector product.
     pure function cross(a, b) result(c)

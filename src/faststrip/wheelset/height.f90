@@ -6,7 +6,7 @@ module faststrip_wheelset_height
     use faststrip_geometry_wheel_on_rail, only: find_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, wheelset_axes
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheel_result_t, &
-                                        side_left
+                                        side_right, side_left
     use faststrip_wheelset_wheel, only: solve_wheel_at
     implicit none
     private
@@ -30,7 +30,8 @@ contains
         at_zero%z = 0.0_wp
         associate (wheel => workspace%wheel(side))
             wheel%axes = wheelset_axes(at_zero, model%radius)
-            call find_outline(model%pair(side), wheel%axes, wheel%outline)
+            call find_outline(model%pair(side), wheel%axes, at_zero%rail(side_right), &
+                              wheel%outline)
             touch = lowest_height(wheel%outline)
         end associate
         if (touch >= huge(touch)) &

@@ -15,7 +15,8 @@ module faststrip_wheelset_strips
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
     use faststrip_geometry_profile, only: profile_at
     use faststrip_geometry_sheared_gap, only: turn_sheared_gap
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, on_rail_profile
+    use faststrip_geometry_wheelset_state, only: rail_state_t
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, copy_strips, mirror_strips
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_tangential_types, only: tangential_result_t, strip_forces_t, reserve_strip_forces
@@ -123,7 +124,7 @@ contains
         integer :: k, j
 
         associate (gap => workspace%gap, strips => found%strips)
-            call place_frame(pair, workspace%region(i), frame)
+            call place_frame(pair, workspace%outline%rail, workspace%region(i), frame)
             call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
                             model%gap_height, gap, status)
             if (is_error(status)) return
@@ -143,7 +144,7 @@ contains
             do k = 1, strips%n
                 j = min(max(int(found%wheel(1, k)), 1), gap%n - 1)
                 part = found%wheel(1, k) - j
-                found%rail(:, k) = rail_point(pair, frame, gap%y(j) &
+                found%rail(:, k) = rail_point(pair, workspace%outline%rail, frame, gap%y(j) &
                                               + part*(gap%y(j + 1) - gap%y(j)))
                 j = gap%first + j - 1
                 y = pair%y(j) + part*(pair%y(j + 1) - pair%y(j))
@@ -154,8 +155,9 @@ contains
     end subroutine find_places
 
     ! The point of the rail's profile at a y' of the frame.
-    pure function rail_point(pair, frame, along) result(point)
+    pure function rail_point(pair, rail, frame, along) result(point)
         type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
         type(contact_frame_t), intent(in) :: frame
         real(wp), intent(in) :: along
         real(wp) :: point(2)
@@ -167,13 +169,13 @@ contains
         associate (c => cos(frame%angle), s => sin(frame%angle))
             y = frame%origin(2) + along*c
             do i = 1, most_steps
-                call rail_height(pair, y, z, slope, is_there)
+                call rail_height(pair, rail, y, z, slope, is_there)
                 residual = along - (y - frame%origin(2))*c - (z - frame%origin(3))*s
                 if (.not. is_there .or. abs(residual) <= exact*(1.0_wp + abs(along))) exit
                 y = y + residual/(c + slope*s)
             end do
         end associate
-        point = [y - pair%y_rail, z - pair%z_rail]
+        point = on_rail_profile(pair, rail, [y, z])
     end function rail_point
 
     ! Strips that were found in a mirror, as they are.

@@ -12,9 +12,10 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
                                           region_distance, most_regions
     use faststrip_geometry_sheared_gap, only: turn_sheared_gap
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
-                                                 rigid_creepage, cross
+                                                 rail_state_t, rigid_creepage, rail_velocity, &
+                                                 cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
     implicit none
@@ -161,11 +162,13 @@ contains
 
         type(contact_frame_t) :: frame
         type(wheelset_axes_t) :: axes
+        type(rail_state_t) :: rail
         real(wp) :: point(3)
 
         axes = workspace%axes
         axes%centre(3) = axes%centre(3) + lowered
-        call place_frame(pair, region, frame)
+        rail = workspace%outline%rail
+        call place_frame(pair, rail, region, frame)
         call sample_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
                         workspace%gap, contact%status)
         if (is_error(contact%status)) return
@@ -178,10 +181,11 @@ contains
         if (is_error(contact%status)) return
         contact%place = frame%origin
         contact%angle = frame%angle
-        contact%rail = frame%origin(2:3) - [pair%y_rail, pair%z_rail]
+        contact%rail = on_rail_profile(pair, rail, frame%origin(2:3))
         ! Velocities are those of the wheel's surface before it is deformed.
         point = along_normal(frame, case%penetration)
-        call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed)
+        call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed, &
+                            rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
         call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
