@@ -80,6 +80,13 @@ faststrip wheelset example/wheelset_states.nml --states example/wheelset_states.
     --profiles-of 29
 python plots/wheelset.py --states example/wheelset_states.csv
 python plots/wear.py
+== traction curves: constant friction, and friction that falls with slip
+faststrip batch example/traction_curve.csv --normal hertz -o out/traction_faststrip.csv
+faststrip batch example/traction_curve.csv --normal hertz --tangential fastsim \
+    -o out/traction_fastsim.csv
+faststrip batch example/traction_curve.csv --normal hertz --tangential tang \
+    --element-dx 0.4 --element-dy 0.8 -o out/traction_tang.csv
+python plots/traction_curve.py
 == accuracy
 python plots/accuracy.py
 == done: tables and pictures are in out/, the accuracy table in out/accuracy.md

@@ -1,6 +1,9 @@
 """`faststrip batch` and `faststrip sweep`."""
 
+import csv
+import importlib
 import statistics
+import sys
 
 from cli_program import (
     BATCH_COLUMNS,
@@ -184,6 +187,33 @@ class Batch(ProgramTest):
         # What a method cannot do is said of the row.
         done = self.run_program("batch", "cases.csv", "--tangential", "linear")
         self.assertIn("takes no friction that falls with slip", done.stderr.splitlines()[0])
+
+    def test_traction_curves_against_contact(self):
+        example = ROOT / "example" / "traction_curve.csv"
+        reference = ROOT / "reference" / "contact" / "traction_curve.csv"
+        for own, theirs in zip(rows_of(example.read_text(encoding="utf-8")),
+                               rows_of(reference.read_text(encoding="utf-8")), strict=True):
+            for name in ("case", "series", "cksi"):
+                self.assertEqual(own[name], theirs[name])
+            self.assertEqual(own["part"] == "sliding", theirs["n_adhesion"] == "0")
+        with open(ROOT / "reference" / "report_runs.csv", encoding="utf-8") as stream:
+            runs = {row["id"]: row["words"] for row in csv.DictReader(
+                line for line in stream if not line.startswith("#"))}
+        for name in ("faststrip", "tang"):
+            words = runs[f"traction_{name}"].format(data=".").split()
+            words[words.index("example/traction_curve.csv")] = example
+            done = self.run_program(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        sys.path.insert(0, str(ROOT / "plots"))
+        self.addCleanup(sys.path.remove, str(ROOT / "plots"))
+        verdicts = importlib.import_module("faststrip_plots.verdicts")
+        rows = [row for row in verdicts.read_manifest(str(ROOT / "reference" / "comparisons.csv"))
+                if row["id"].startswith("traction-")]
+        self.assertEqual(len(rows), 7)
+        for row in rows:
+            row["reference_file"] = str(ROOT / row["reference_file"])
+            verdict = verdicts.judge(row, str(self.folder))
+            self.assertTrue(verdict.good, (row["id"], verdict.value, verdict.remark))
 
     def test_other_columns_are_carried_through(self):
         cells = ["007", "1e5", ' "quoted", with a comma ', "", "# not a comment", "+0.10",

@@ -60,7 +60,15 @@ WHEELSET_STRIPS = ("# faststrip 0.1.0 rev abc\n# wear of the wheel by law.csv\n"
     for case in (1, 2) for side in ("left", "right") for y in range(-3, 4))
 FILES |= {"out/wheelset.csv": WHEELSET, "out/wheelset_profiles.csv": WHEELSET_PROFILES,
           "out/wheelset_strips.csv": WHEELSET_STRIPS, "states.csv": WHEELSET_STATES}
+TRACTION = "# faststrip 0.1.0 rev abc\n# compiler\ncase,series,cksi,N_N,mu,Fx_N\n" + "".join(
+    f"{k},{series},{cksi},1e5,0.3,{-fall * min(3e4, 1e7 * cksi)}\n"
+    for k, (series, fall, cksi) in enumerate((series, fall, cksi)
+                                             for series, fall in (("constant", 1), ("falling", 0.7))
+                                             for cksi in (1e-5, 1e-3, 1e-2)))
+FILES |= {f"out/traction_{name}.csv": TRACTION for name in ("faststrip", "fastsim", "tang")}
+FILES |= {"reference/contact/traction_curve.csv": TRACTION}
 PICTURES = {
+    "traction_curve": ("out/traction_curve.png",),
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
@@ -70,6 +78,7 @@ PICTURES = {
     "wear": ("out/wear.png",),
 }
 COLUMNS = {
+    "traction_curve": ("out/traction_faststrip.csv", "Fx_N"),
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
     "sweep": ("out/sweep.csv", "Mz_Nmm"),
@@ -118,6 +127,15 @@ class Pictures(unittest.TestCase):
             status, _, err = folder.run("wear")
             self.assertEqual((status, err.count("\n")), (1, 1))
             self.assertIn("no strip has wear or T gamma", err)
+
+    def test_traction_curves_need_both_series(self):
+        lines = [line for line in TRACTION.splitlines() if "falling" not in line]
+        for text in ("\n".join(lines) + "\n", TRACTION.replace("-21000.0", "").replace(
+                "-7000.0", "")):
+            with Folder(FILES | {"out/traction_tang.csv": text}) as folder:
+                status, _, err = folder.run("traction_curve")
+                self.assertEqual((status, err.count("\n")), (1, 1))
+                self.assertIn("no force of the series falling: out/traction_tang.csv", err)
 
     def test_profiles_with_the_gap_and_another_name(self):
         self.drawn("profiles", "--gap", "gap.csv", "-o", "new/p.png", pictures=["new/p.png"])

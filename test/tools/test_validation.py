@@ -122,8 +122,7 @@ class InACopy(unittest.TestCase):
         path = self.root / validation.MANIFEST
         rows = path.read_text(encoding="utf-8")
         last = rows.splitlines()[-1]
-        path.write_text(rows + last.replace("norm-0.2mm-pmax", "new-one") + "\n",
-                        encoding="utf-8")
+        path.write_text(rows + "new-one," + last.split(",", 1)[1] + "\n", encoding="utf-8")
         run("--root", self.root)
         page = (self.root / validation.PAGE).read_text(encoding="utf-8")
         self.assertRegex(page, r"`strips-penetration-mean` .*\| ≤ 0.01 % \| does not hold \|")
