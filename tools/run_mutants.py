@@ -462,7 +462,8 @@ def stages_of(mutant, quick):
     """The tests a mutant meets, in order; a change of Python meets no Fortran test."""
     own = OWN_STAGES[mutant.room]
     if mutant.first and mutant.first.endswith(".py"):
-        own = [("python", [mutant.first])] + own
+        kind = "installed" if mutant.first.startswith("test/embed/") else "python"
+        own = [(kind, [mutant.first])] + own
     elif mutant.first:
         own = [("fortran", mutant.first)] + own
     others = [] if quick else [stage for stage in ALL_STAGES if stage not in own]

@@ -269,6 +269,13 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(run_mutants.stages_of(first, True),
                          [("fortran", "normal/test_hertz"), ("fortran", "normal/")])
 
+    def test_tests_of_hosts_to_begin_with_have_the_installed_library(self):
+        first = run_mutants.Mutant("interop", {"id": "", "file": "a.f90", "why": "", "text": "",
+                                               "replacement": "",
+                                               "first": "test/embed/test_hosts.py"})
+        self.assertEqual(run_mutants.stages_of(first, True)[0],
+                         ("installed", ["test/embed/test_hosts.py"]))
+
     def test_a_run_goes_on_where_it_was(self):
         self.judge(1, text=SURVIVOR)
         results = self.folder / "build/mutants/results.jsonl"
