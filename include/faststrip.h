@@ -98,6 +98,16 @@ enum faststrip_target {
     FASTSTRIP_TARGET_POWER = 5        /* friction power, relative */
 };
 
+/* How friction falls with the slip speed s: mu (k + (1 - k) f), k being kinetic_share, h
+ * half_slip_speed. Refused (100) but of FASTSTRIP, FASTSTRIP_PLAIN and the three methods FASTSIM;
+ * no errors of such forces are estimated (FASTSTRIP_UNDER_RESOLVED). */
+enum faststrip_friction {
+    FASTSTRIP_FRICTION_CONSTANT = 0,
+    FASTSTRIP_FRICTION_LINEAR = 2,     /* f = max(0, 1 - s/(2 h)) */
+    FASTSTRIP_FRICTION_RATIONAL = 3,   /* f = 1/(1 + s/h) */
+    FASTSTRIP_FRICTION_EXPONENTIAL = 4 /* f = 2^(-s/h) */
+};
+
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {
     size_t size;          /* of this struct as the caller knows it; set by faststrip_default_case */
@@ -127,6 +137,15 @@ typedef struct faststrip_case {
     int target;           /* enum faststrip_target; this and the two below: FASTSTRIP_NORMAL_AUTO */
     double tolerance;     /* largest estimated error of the target; 0: the least in the budget */
     double budget_us;     /* time for it, us; 0: as long as it takes */
+    int friction;         /* enum faststrip_friction: how friction falls with slip speed */
+    double kinetic_share; /* kinetic over static friction, 1e-6 to 1; mu is the static one */
+    double half_slip_speed; /* slip speed of half of the fall, mm/s; of friction that falls > 0 */
+    double speed;         /* rolling speed, mm/s, likewise; of wheelsets each contact has its own */
+    double slope_factor;  /* of the initial slope (Kalker's reduction factor), above 0 to 1 */
+    double flange_share;  /* mu on the flange over mu, that on the tread; 1: they are one */
+    double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
+    double flange_angle;  /* from which the flange's counts, rad; between both linearly */
+    double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
 } faststrip_case;
 
 /* Figures of one contact. */
@@ -235,6 +254,34 @@ int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n,
 int faststrip_get_steps(faststrip_workspace *workspace, int capacity, int *n, int *normal,
                         int *tangential, int *strips, int *points, double *estimate,
                         double *normal_us, double *tangential_us);
+
+/* A law of wear by coefficients: in each regime of T gamma/A the wear rate is its constant and its
+ * slope times T gamma/A. The library has none of its own. */
+typedef struct faststrip_wear_law {
+    int n;                 /* regimes, 1 to 32 */
+    const double *regimes; /* 4 n numbers, of each: T gamma/A where it begins, as the one before
+                            * ends, the first at 0, and where it ends, N/mm^2; constant,
+                            * ug/(m mm^2), and slope, ug/(m N), of its wear rate */
+    double density;        /* of what is worn, kg/m^3 */
+} faststrip_wear_law;
+
+/* Wear and fatigue of the last contact. figures becomes T gamma = |fx cksi| + |fy ceta|, that with
+ * |mz cphi| (N), the first over the area (N/mm^2); the surface-fatigue index,
+ * sqrt(fx^2 + fy^2)/load - 2 area yield_shear/(3 load), with the yield stress in cyclic shear, MPa,
+ * 0 where that is 0, not known; wear by the law in ug and in mm^3 per metre rolled, 0 where it is
+ * null. A law needs the forces of strips, of FASTSTRIP and FASTSTRIP_PLAIN, and is refused of other
+ * methods (100); one that ends below the T gamma/A of a strip is told (109). With an error all
+ * figures are zero. */
+int faststrip_get_wear(faststrip_workspace *workspace, const faststrip_wear_law *law,
+                       double yield_shear, double figures[6]);
+
+/* The same of each strip, in the order of faststrip_get_strips: forces on the rail, N, friction
+ * power over rolling speed, N, over the area of the strip, N/mm^2; wear by the law, ug per metre
+ * rolled, and the depth it leaves when rolled over once, mm (of a wheel 1e6/(2 pi radius) times as
+ * much a kilometre), zero where the law is null. FASTSTRIP and FASTSTRIP_PLAIN only (100). */
+int faststrip_get_strip_wear(faststrip_workspace *workspace, const faststrip_wear_law *law,
+                             int capacity, int *n, double *fx, double *fy, double *friction_power,
+                             double *t_gamma_per_area, double *wear, double *pass_depth);
 
 /* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear
  * modulus, MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces
@@ -416,6 +463,10 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
                              const faststrip_wheelset_demand *demand, int capacity, int *n,
                              faststrip_wheelset_contact *contacts,
                              faststrip_wheelset_result *result);
+
+/* Wear and fatigue of a contact of the last solution, contacts[i], as faststrip_get_wear. */
+int faststrip_wheelset_get_wear(faststrip_wheelset *wheelset, int i, const faststrip_wear_law *law,
+                                double yield_shear, double figures[6]);
 
 /* What the wheelset's last call had to say; empty when all was well. */
 int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *text,

@@ -51,7 +51,7 @@ int open64(const char *name, int flags, ...) __attribute__((alias("open")));
 /* Bytes of case and result before errors were estimated, before those of the forces were, and
  * before auto. */
 enum { FIRST_CASE = 128, FIRST_RESULT = 120, SECOND_CASE = 144, SECOND_RESULT = 168,
-       THIRD_CASE = 152, THIRD_RESULT = 200 };
+       THIRD_CASE = 152, THIRD_RESULT = 200, FOURTH_CASE = 176 };
 
 static const double hostile[] = {NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, 1e-320, 1e-300, 1e300,
                                  1.7e308, 5e-324};
@@ -62,6 +62,9 @@ static example examples[EXAMPLES];
 static faststrip_wheelset_state states[ASKED];
 static faststrip_wheelset_demand demands[ASKED];
 
+static const double wear_regimes[8] = {0.0, 3.0, 0.5, 1.0, 3.0, 1e9, 2.0, 0.1};
+static const faststrip_wear_law wear_law = {2, wear_regimes, 7850.0};
+
 /* A wheelset that is made, solved with every number in turn hostile, and freed. */
 static long every_wheelset(void)
 {
@@ -69,6 +72,7 @@ static long every_wheelset(void)
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
     faststrip_wheelset_result result;
     char text[FASTSTRIP_TEXT];
+    double figures[6];
     long failures = 0;
     int i, n, status;
 
@@ -83,6 +87,9 @@ static long every_wheelset(void)
         faststrip_wheelset_last_message(wheelset, text, sizeof text);
         wheelset_bits(wheelset, &states[i % ASKED], &demands[i % ASKED], &status);
         failures += status >= 100;
+        failures += faststrip_wheelset_get_wear(wheelset, 0, &wear_law, 300.0, figures) >= 100;
+        failures += faststrip_wheelset_get_wear(wheelset, 0, NULL, hostile[i % HOSTILE],
+                                                figures) >= 100;
     }
     failures += faststrip_wheelset_free(&wheelset) >= 100;
     return failures;
@@ -91,7 +98,7 @@ static long every_wheelset(void)
 /* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
 static long every_contact(faststrip_workspace *workspace)
 {
-    double *field[14], forces[3], figures[4], c[4], array[4][400];
+    double *field[22], forces[3], figures[6], c[4], array[4][400];
     int integers[400];
     char text[FASTSTRIP_TEXT];
     faststrip_result result;
@@ -100,12 +107,15 @@ static long every_contact(faststrip_workspace *workspace)
 
     for (number = 0; number < EXAMPLES; number++) {
         example e = examples[number];
-        double *all[14] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
+        double *all[22] = {&e.contact.e_wheel, &e.contact.e_rail, &e.contact.nu_wheel,
                            &e.contact.nu_rail, &e.contact.mu, &e.contact.load,
                            &e.contact.penetration, &e.contact.cksi, &e.contact.ceta,
                            &e.contact.cphi, &e.contact.resolution_limit,
                            &e.contact.force_limit, &e.contact.tolerance,
-                           &e.contact.budget_us};
+                           &e.contact.budget_us, &e.contact.kinetic_share,
+                           &e.contact.half_slip_speed, &e.contact.speed, &e.contact.slope_factor,
+                           &e.contact.flange_share, &e.contact.tread_angle,
+                           &e.contact.flange_angle, &e.contact.contact_angle};
         memcpy(field, all, sizeof all);
         e.contact.with_elements = number % 2;
         failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
@@ -113,10 +123,17 @@ static long every_contact(faststrip_workspace *workspace)
         faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
         faststrip_get_steps(workspace, 400, &n, integers, integers, integers, integers, array[0],
                             array[1], array[2]);
-        for (i = 0; i < 14; i++) {
+        failures += faststrip_get_wear(workspace, &wear_law, 300.0, figures) >= 100;
+        failures += faststrip_get_strip_wear(workspace, &wear_law, 400, &n, array[0], array[1],
+                                             array[2], array[3], array[3], array[3]) >= 100;
+        failures += faststrip_get_wear(workspace, NULL, hostile[number % HOSTILE], figures) >= 100;
+        e.contact.flange_share = 0.5;
+        e.contact.flange_angle = 0.3;
+        for (i = 0; i < 22; i++) {
             double kept = *field[i];
             k = (number + i) % HOSTILE;
             *field[i] = hostile[k];
+            e.contact.friction = i % 5;
             failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
             faststrip_last_message(workspace, text, sizeof text);
             *field[i] = kept;
@@ -203,6 +220,8 @@ static void quiet(void)
     long before, solving = 0, solved = 0, limited = 0, rough = 0, missed = 0, made, files, failures;
     long rolling = 0, rolled = 0;
     faststrip_wheelset *wheelset = make_wheelset(0);
+    long worn = 0, wearing = 0;
+    double figures[6];
     int i, n, status;
 
     /* The linear algebra library sets itself up in its first call. */
@@ -216,11 +235,16 @@ static void quiet(void)
         limited += status != FASTSTRIP_OK;
         rough += status == FASTSTRIP_UNDER_RESOLVED;
         missed += status == FASTSTRIP_TARGET_MISSED;
+        before = allocations;
+        if (faststrip_get_wear(workspace, &wear_law, 300.0, figures) != FASTSTRIP_OK) continue;
+        wearing += allocations - before;
+        worn++;
     }
     for (i = 0; i < ASKED; i++) {
         before = allocations;
         wheelset_bits(wheelset, &states[i], &demands[i], &status);
         if (status >= FASTSTRIP_FIRST_ERROR) continue;
+        worn += !faststrip_wheelset_get_wear(wheelset, 0, &wear_law, 300.0, figures);
         rolling += allocations - before;
         rolled++;
     }
@@ -240,6 +264,8 @@ static void quiet(void)
     if (write(1, line, (size_t)n) != n) exit(2);
     n = snprintf(line, sizeof line, "limited %ld\nrough %ld\nmissed %ld\n", limited, rough,
                  missed);
+    if (write(1, line, (size_t)n) != n) exit(2);
+    n = snprintf(line, sizeof line, "worn %ld\nwearing %ld\n", worn, wearing);
     if (write(1, line, (size_t)n) != n) exit(2);
     n = snprintf(line, sizeof line, "rolled %ld\nrolling %ld\n", rolled, rolling);
     if (write(1, line, (size_t)n) != n) exit(2);
@@ -415,6 +441,70 @@ static void wanted_errors(faststrip_workspace *workspace)
     EXPECT(1, result.n_steps == 0 && result.best_step == 0 && result.est_err_target == 0.0);
     EXPECT(0, faststrip_get_steps(workspace, 0, &n, k, k, k, k, a, a, a));
     EXPECT(0, n);
+}
+
+/* Wear of what was not solved, or not by strips; pointers that are null, laws that are none. */
+static void wear_errors(faststrip_workspace *workspace)
+{
+    example e = examples[0];
+    faststrip_workspace *none = NULL, *empty = make_workspace();
+    faststrip_wheelset *wheelset = make_wheelset(0), *gone = NULL;
+    faststrip_wear_law law = wear_law;
+    faststrip_result result;
+    double f[6], a[400];
+    char text[FASTSTRIP_TEXT];
+    int n;
+
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(none, &law, 0.0, f));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(empty, &law, 0.0, f));
+    EXPECT(0, faststrip_last_message(empty, text, sizeof text));
+    EXPECT(0, strcmp(text, "there is no contact that was solved"));
+    e.contact.flange_share = 0.5;
+    e.contact.flange_angle = 0.5;
+    e.contact.contact_angle = NAN;
+    e.contact.tangential = FASTSTRIP_TANGENTIAL_FASTSTRIP;
+    EXPECT(FASTSTRIP_NOT_FINITE, faststrip_solve(workspace, &e.contact, &result));
+    EXPECT(1, result.load == 0.0 && result.fx == 0.0);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, NULL, 0.0, f));
+    e.contact.contact_angle = 0.2;
+    EXPECT(1, faststrip_solve(workspace, &e.contact, &result) < FASTSTRIP_FIRST_ERROR);
+    f[4] = f[5] = 7.0;
+    EXPECT(0, faststrip_get_wear(workspace, NULL, 0.0, f));
+    EXPECT(1, f[0] > 0.0 && f[1] >= f[0] && f[3] == 0.0 && f[4] == 0.0 && f[5] == 0.0);
+    EXPECT(0, faststrip_get_wear(workspace, &law, 300.0, f));
+    EXPECT(1, f[3] != 0.0 && f[4] > 0.0 && f[5] > 0.0);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, &law, 300.0, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, &law, -1.0, f));
+    EXPECT(1, f[0] == 0.0 && f[4] == 0.0);
+    law.n = 0;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, &law, 300.0, f));
+    EXPECT(0, faststrip_last_message(workspace, text, sizeof text));
+    EXPECT(1, strstr(text, "must have regimes, got 0") != NULL);
+    law.n = 1;
+    law.regimes = NULL;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, &law, 300.0, f));
+    law.regimes = wear_regimes + 4;
+    EXPECT(FASTSTRIP_NOT_INCREASING, faststrip_get_wear(workspace, &law, 300.0, f));
+    law = wear_law;
+    law.density = NAN;
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_wear(workspace, &law, 300.0, f));
+    law = wear_law;
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL,
+           faststrip_get_strip_wear(workspace, &law, 1, &n, a, a, a, a, a, a));
+    EXPECT(1, n == result.n_strips);
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_strip_wear(workspace, &law, 400, NULL, a, a, a, a, a, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_strip_wear(workspace, &law, 400, &n, a, a, a, a, a, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT,
+           faststrip_get_strip_wear(none, &law, 400, &n, a, a, a, a, a, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(gone, 0, &law, 300.0, f));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(wheelset, 0, &law, 300.0, f));
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(0, strcmp(text, "there is no such contact: 1"));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(wheelset, 0, &law, 300.0, NULL));
+    EXPECT(0, faststrip_wheelset_free(&wheelset));
+    EXPECT(0, faststrip_free(&empty));
 }
 
 /* What a wheelset cannot be made of. */
@@ -686,6 +776,7 @@ static void errors(void)
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_get_elements(workspace, 400, &n, a, a, a, a, a, a, a, a, NULL));
     wanted_errors(workspace);
+    wear_errors(workspace);
     wheelsets_that_are_none();
     wheelset_errors(workspace);
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(workspace, NULL));
@@ -857,7 +948,7 @@ static void older(void)
     for (size = 16; size <= whole; size += 8) {
         const size_t known = size < SECOND_CASE ? FIRST_RESULT
                              : size < THIRD_CASE ? SECOND_RESULT
-                             : size < whole ? THIRD_RESULT : sizeof(faststrip_result);
+                             : size < FOURTH_CASE ? THIRD_RESULT : sizeof(faststrip_result);
         unsigned char *exact = malloc(size), *capacity = malloc(whole), *figures = malloc(known);
         faststrip_case *contact = (faststrip_case *)exact, filled;
         faststrip_workspace *own;

@@ -27,12 +27,14 @@ from ._contact import (
 )
 from ._library import FaststripError, LibraryNotFound
 from ._profile import Gap, Profile, ProgramNotFound, profile_gap
+from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
 
 __all__ = [
     "Contact",
     "Elements",
     "FaststripError",
+    "Friction",
     "Gap",
     "LibraryNotFound",
     "Material",
@@ -40,7 +42,10 @@ __all__ = [
     "ProgramNotFound",
     "Result",
     "Step",
+    "StripWear",
     "Strips",
+    "Wear",
+    "WearLaw",
     "WheelContact",
     "Wheelset",
     "WheelsetResult",

@@ -38,6 +38,7 @@ from ._library import (
     library,
     word_of,
 )
+from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
 
@@ -236,6 +237,7 @@ def number_of(names: Dict[str, int], name: Any, what: str) -> int:
 
 MATERIAL_NAMES = "material.e_wheel", "material.e_rail", "material.nu_wheel", "material.nu_rail"
 CREEPAGE_NAMES = "creepage[0]", "creepage[1]", "creepage[2]"
+MOTION_NAMES = "speed", "contact_angle"
 FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]",
                  "coefficients[2]", *CREEPAGE_NAMES, "mu", "load")
 
@@ -297,6 +299,7 @@ class Contact:
         self._workspace: Optional[_Workspace] = None
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
+        self._friction: Any = CONSTANT  # that is in the case
         case = self._case = Case()
         check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
         case.normal = number_of(NORMAL, normal, "normal")
@@ -410,13 +413,16 @@ class Contact:
 
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
               creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0), mu: float = 0.3,
-              material: Material = Material(), warm_start: bool = False,
+              material: Material = Material(), friction: Friction = CONSTANT, speed: float = 0.0,
+              contact_angle: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
               budget_us: Optional[float] = None) -> Result:
         """Solve for a load (N) or a penetration (mm): one of the two.
 
         creepage is longitudinal, lateral and spin (rad/mm) about y = 0. warm_start begins with the
-        last solution, if there is one. Raises FaststripError where there is no result.
+        last solution, if there is one. friction says how mu falls with slip, which needs the
+        rolling speed (mm/s), and what it is on the flange, for which contact_angle (rad) counts.
+        Raises FaststripError where there is no result.
 
         Of a contact with normal ``auto``, target is one of ``TARGETS``, ``forces`` unless told
         otherwise; tolerance is the largest estimated error of it that will do, 0.02 unless told
@@ -438,6 +444,10 @@ class Contact:
         if material is not self._material:
             case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = _material_of(material)
             self._material = material
+        if friction is not self._friction:
+            take_friction(case, friction)
+            self._friction = friction
+        case.speed, case.contact_angle = numbers(MOTION_NAMES, (speed, contact_angle))
         case.warm_start = flag("warm_start", warm_start)
         self._want(target, tolerance, budget_us)
         figures = Figures()
@@ -490,6 +500,25 @@ class Contact:
     def elements(self) -> Elements:
         """The elements of the last contact; none unless the Contact was made with_elements."""
         return Elements(*self._fetch(library.faststrip_get_elements, 8))
+
+    def wear(self, law: Optional[WearLaw] = None, *,
+             yield_shear: Optional[float] = None) -> Wear:
+        """T gamma of the last contact, wear by a law, its fatigue index with the yield stress in
+        cyclic shear, MPa. A law needs tangential ``faststrip`` or ``faststrip-plain``."""
+        question = WearQuestion(law, yield_shear)
+        self._call(library.faststrip_get_wear, question.law, question.yield_shear,
+                   question.figures)
+        return question.answer()
+
+    def strip_wear(self, law: Optional[WearLaw] = None) -> StripWear:
+        """Forces and wear of the strips of the last contact, of tangential ``faststrip`` or
+        ``faststrip-plain``."""
+        question = WearQuestion(law, None)
+        n, arrays = c_int(), np.empty((6, len(self.strips().p0)))
+        self._call(library.faststrip_get_strip_wear, question.law, arrays.shape[1],
+                   ctypes.byref(n), *_addresses(list(arrays)))
+        return StripWear(*(row.copy() for row in arrays[:4]),
+                         *((row.copy() if law is not None else None) for row in arrays[4:]))
 
     def _fetch(self, function: Any, doubles: int) -> list:
         n = c_int()

@@ -59,6 +59,10 @@ class Case(ctypes.Structure):
         ("target", c_int),
         ("tolerance", c_double),
         ("budget_us", c_double),
+        ("friction", c_int),
+        *((name, c_double) for name in (
+            "kinetic_share", "half_slip_speed", "speed", "slope_factor", "flange_share",
+            "tread_angle", "flange_angle", "contact_angle")),
     ]
 
 
@@ -137,6 +141,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
         "get_steps": [handle, c_int, POINTER(c_int), *[c_void_p] * 7],
+        "get_wear": [handle, c_void_p, number, POINTER(number)],
+        "get_strip_wear": [handle, c_void_p, c_int, POINTER(c_int), *[c_void_p] * 6],
         "fastsim": [*[number] * 11, c_int, c_int, POINTER(number)],
         "hertz": [*[number] * 7, POINTER(number)],
         "kalker": [number, number, POINTER(number)],
@@ -145,6 +151,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "wheelset_new": [*[c_void_p] * 3, POINTER(Case), POINTER(handle), c_char_p, c_size_t],
         "wheelset_free": [POINTER(handle)],
         "wheelset_solve": [handle, *[c_void_p] * 2, c_int, POINTER(c_int), *[c_void_p] * 2],
+        "wheelset_get_wear": [handle, c_int, c_void_p, number, POINTER(number)],
         "wheelset_last_message": [handle, c_char_p, c_size_t],
     }
     for name, types in arguments.items():

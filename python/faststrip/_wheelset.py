@@ -33,6 +33,7 @@ from ._library import (
     word_of,
 )
 from ._profile import Profile
+from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
 WHEELS = {"both": 0, "right": 1, "left": 2}
@@ -209,12 +210,13 @@ class Wheelset:
                  radius_left: Optional[float] = None, back_spacing: float = 1360.0,
                  tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                  rail_distance: Optional[float] = None, cant: float = 0.025, mu: float = 0.3,
-                 material: Material = STEEL, normal: str = "strip",
+                 friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
                  estimate: bool = True, resolution_limit: float = 0.1,
                  force_limit: float = 0.1) -> None:
         self._handle: Optional[_Handle] = None
+        self._n_contacts = 0
         case = Case()
         check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
         case.normal = number_of(NORMAL, normal, "normal")
@@ -226,6 +228,7 @@ class Wheelset:
         case.resolution_limit = above_zero("resolution_limit", resolution_limit)
         case.force_limit = above_zero("force_limit", force_limit)
         case.mu = number("mu", mu)
+        take_friction(case, friction)
         if not isinstance(material, Material):
             raise refused("material", "a faststrip.Material", material)
         case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = numbers(
@@ -296,14 +299,29 @@ class Wheelset:
         state = State(*numbers(names, (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate,
                                        roll_rate, yaw_rate, pitch_rate, curvature)))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
-        status = self._call(ctypes.byref(state), ctypes.byref(demand), MOST_CONTACTS,
-                            ctypes.byref(n), rows, ctypes.byref(totals))
+        self._n_contacts = 0
+        status = self._call(library.faststrip_wheelset_solve, ctypes.byref(state),
+                            ctypes.byref(demand), MOST_CONTACTS, ctypes.byref(n), rows,
+                            ctypes.byref(totals))
+        self._n_contacts = n.value
         return WheelsetResult(
             status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),
             totals.roll, np.array(totals.force), np.array(totals.force_wheelset),
             np.array(totals.moment), tuple(totals.n_solutions))
 
-    def _call(self, *arguments: Any) -> int:
+    def wear(self, law: Optional[WearLaw] = None, *,
+             yield_shear: Optional[float] = None) -> Tuple[Wear, ...]:
+        """T gamma, wear and fatigue of the contacts of the last solution, in their order; see
+        `Contact.wear`."""
+        found = []
+        for i in range(self._n_contacts):
+            question = WearQuestion(law, yield_shear)
+            self._call(library.faststrip_wheelset_get_wear, i, question.law, question.yield_shear,
+                       question.figures)
+            found.append(question.answer())
+        return tuple(found)
+
+    def _call(self, function: Any, *arguments: Any) -> int:
         handle = self._handle
         if handle is None:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), "the wheelset is closed")
@@ -311,7 +329,7 @@ class Wheelset:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
                                  "the wheelset is in use by another thread")
         try:
-            status = library.faststrip_wheelset_solve(handle.handle, *arguments)
+            status = function(handle.handle, *arguments)
             if status >= FIRST_ERROR:
                 text = ctypes.create_string_buffer(TEXT)
                 library.faststrip_wheelset_last_message(handle.handle, text, TEXT)

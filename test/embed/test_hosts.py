@@ -64,6 +64,8 @@ class Hosts(HostTest):
         self.assertEqual(found["solving"], [0])
         self.assertGreater(found["rolled"][0], 8)
         self.assertEqual(found["rolling"], [0])
+        self.assertGreater(found["worn"][0], 150)
+        self.assertEqual(found["wearing"], [0])
         # Not for the words of limitations either.
         self.assertGreater(found["rough"][0], 20)
         self.assertGreater(found["missed"][0], 5)

@@ -9,7 +9,8 @@ module faststrip_interop_c
                                      st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
-    use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, read_result, &
+    use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, &
+                                      fill_friction, read_result, &
                                       read_force_errors, read_taken, read_steps, &
                                       strip_count, read_strips, read_elements
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
@@ -27,7 +28,7 @@ module faststrip_interop_c
     public :: faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
     public :: faststrip_profile_gap
-    public :: put_text
+    public :: put_text, check_capacity, numbers_at
 
     character(len=*), parameter :: version = '0.1.0'
 
@@ -198,6 +199,8 @@ contains
         handle%case%estimate = fields%estimate /= 0
         handle%case%resolution_limit = fields%resolution_limit
         handle%case%force_limit = fields%force_limit
+        call fill_friction(fields%friction_kind, fields%friction, handle%case%friction, &
+                           handle%contact_angle)
         handle%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
                                  budget_us=fields%budget_us)
         call handle_solve(handle, wants_elements(fields%choices))

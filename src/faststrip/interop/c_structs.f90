@@ -13,7 +13,8 @@ module faststrip_interop_c_structs
     use faststrip_contact_solve, only: contact_case_t
     use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      n_forces, n_taken, flat_default
+                                      n_forces, n_taken, n_friction, flat_default, &
+                                      flat_friction
     implicit none
     private
 
@@ -31,6 +32,8 @@ module faststrip_interop_c_structs
         integer(c_int) :: target
         real(c_double) :: tolerance
         real(c_double) :: budget_us
+        integer(c_int) :: friction_kind
+        real(c_double) :: friction(n_friction) !! `kinetic_share` to `contact_angle`
     end type c_case_t
 
     !> `faststrip_result` of the header, likewise.
@@ -46,11 +49,12 @@ module faststrip_interop_c_structs
     end type c_result_t
 
     !> Bytes of case and result in every release that changed them, rising.
-    integer(c_size_t), parameter :: releases(2, 4) = reshape([ &
+    integer(c_size_t), parameter :: releases(2, 5) = reshape([ &
         128_c_size_t, 120_c_size_t, &            ! first
         144_c_size_t, 168_c_size_t, &            ! with estimated errors
         152_c_size_t, 200_c_size_t, &            ! with those of the forces
-        176_c_size_t, 224_c_size_t], [2, 4])     ! with what is wanted of auto
+        176_c_size_t, 224_c_size_t, &            ! with what is wanted of auto
+        248_c_size_t, 224_c_size_t], [2, 5])     ! with friction that is not one number
 
     ! Members end at multiples of this; less than two pieces are no case.
     integer(c_size_t), parameter :: piece = 8, least_case = 2*piece
@@ -149,5 +153,6 @@ contains
         fields%target = wanted%target
         fields%tolerance = wanted%tolerance
         fields%budget_us = wanted%budget_us
+        call flat_friction(fields%friction_kind, fields%friction)
     end function default_case
 end module faststrip_interop_c_structs

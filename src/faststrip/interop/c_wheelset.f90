@@ -11,7 +11,7 @@ module faststrip_interop_c_wheelset
     use faststrip_contact_case, only: contact_case_t
     use faststrip_interop_c, only: put_text
     use faststrip_interop_c_structs, only: c_case_t, read_case
-    use faststrip_interop_flat, only: fill_case
+    use faststrip_interop_flat, only: fill_case, fill_friction
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_setup, n_state, n_choices, &
                                                  n_loads, n_counts, n_numbers, n_totals, n_sums, &
                                                  free_wheelset, find_wheelset, wheelset_solve, &
@@ -197,6 +197,7 @@ contains
         type(c_case_t) :: of_case
         type(profile_source_t) :: sources(2, 2)
         type(contact_case_t) :: contact
+        real(c_double) :: angle
 
         number = 0
         call check_setup(setup, setup_size, status)
@@ -211,6 +212,7 @@ contains
         contact%estimate = of_case%estimate /= 0
         contact%resolution_limit = of_case%resolution_limit
         contact%force_limit = of_case%force_limit
+        call fill_friction(of_case%friction_kind, of_case%friction, contact%friction, angle)
         call new_wheelset(sources(:, 1), sources(:, 2), fields%numbers, contact, number, status)
     end subroutine make_handle
 

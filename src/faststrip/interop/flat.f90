@@ -22,9 +22,15 @@
 !> forces   1, 2 estimated error of Fx and Fy over mu N    3 of Mz over mu N c
 !> taken    1 steps of auto         2 the best of them
 !>          3 is the estimated error of the target known?  4 is it met? (1: yes)
+!> friction (beside its kind, 0 constant, 2 linear, 3 rational, 4 exponential)
+!>          1 kinetic over static value                    2 slip speed of half of the fall, mm/s
+!>          3 rolling speed, mm/s   4 factor of the initial slope
+!>          5 mu on the flange over that on the tread      6, 7 contact angles up to which the
+!>          tread's mu counts and from which the flange's, rad      8 contact angle, rad
 !> ```
 module faststrip_interop_flat
     use, intrinsic :: iso_c_binding, only: c_int, c_double
+    use faststrip_base_friction, only: friction_t
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_contact_methods, only: contact_methods_t
@@ -34,7 +40,9 @@ module faststrip_interop_flat
     implicit none
     private
 
-    public :: n_choices, n_numbers, n_figures, n_counts, n_errors, n_forces, n_taken
+    public :: n_choices, n_numbers, n_figures, n_counts, n_errors, n_forces, n_taken, &
+              n_friction
+    public :: flat_friction, fill_friction
     public :: flat_default, flat_methods, flat_material, wants_elements, fill_case
     public :: read_result, read_force_errors, read_taken, read_steps
     public :: strip_count, read_strips, read_elements
@@ -42,7 +50,7 @@ module faststrip_interop_flat
     !> Lengths of the rows.
     !> Given: by the faces.
     integer, parameter :: n_choices = 9, n_numbers = 10, n_figures = 12, n_counts = 6, &
-                          n_errors = 5, n_forces = 3, n_taken = 4
+                          n_errors = 5, n_forces = 3, n_taken = 4, n_friction = 8
 
     !> What stands for an estimated error that is not known.
     !> Given: no estimate is negative.
@@ -84,6 +92,31 @@ contains
         material = material_t(numbers(1), numbers(2), numbers(3), numbers(4))
     end function flat_material
 
+    !> Friction that is one number.
+    pure subroutine flat_friction(kind, numbers)
+        integer(c_int), intent(out) :: kind                !! how it falls with slip
+        real(c_double), intent(out) :: numbers(n_friction) !! as above
+
+        type(friction_t) :: friction
+
+        kind = friction%kind
+        numbers = [friction%kinetic_share, friction%half_slip_speed, friction%speed, &
+                   friction%slope_factor, friction%flange_share, friction%tread_angle, &
+                   friction%flange_angle, 0.0_c_double]
+    end subroutine flat_friction
+
+    !> Friction and the contact angle.
+    pure subroutine fill_friction(kind, numbers, friction, contact_angle)
+        integer(c_int), intent(in) :: kind                !! as the caller has it
+        real(c_double), intent(in) :: numbers(n_friction) !! the same
+        type(friction_t), intent(out) :: friction         !! not yet checked
+        real(c_double), intent(out) :: contact_angle      !! rad; of a contact alone
+
+        friction = friction_t(kind, numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), &
+                              numbers(6), numbers(7))
+        contact_angle = numbers(8)
+    end subroutine fill_friction
+
     !> Are the elements wanted?
     pure logical function wants_elements(choices)
         integer(c_int), intent(in) :: choices(n_choices) !! as the caller has them
@@ -91,7 +124,7 @@ contains
         wants_elements = choices(9) /= 0
     end function wants_elements
 
-    !> All of a case but its gap and how errors are estimated, which stay.
+    !> All of a case but its gap, friction beside mu and how errors are estimated, which stay.
     pure subroutine fill_case(choices, numbers, case)
         integer(c_int), intent(in) :: choices(n_choices) !! methods, resolutions, switches
         real(c_double), intent(in) :: numbers(n_numbers) !! material, what is prescribed, motion

@@ -2,9 +2,12 @@
 !> last call, in one piece that the caller makes and frees, and names by a number of the register.
 module faststrip_interop_handle
     use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_friction, only: check_friction, friction_at_angle
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_workspace_too_small
-    use faststrip_tangential_types, only: tangential_field_t
+                                     st_not_finite, st_workspace_too_small
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, reserve_strip_forces
     use faststrip_contact_auto, only: taken_t, solve_contact_auto
     use faststrip_contact_methods, only: contact_methods_t, normal_auto
     use faststrip_contact_solve, only: workspace_t, contact_case_t, contact_result_t, &
@@ -14,20 +17,28 @@ module faststrip_interop_handle
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
                                           kind_contact
     use faststrip_base_kinds, only: wp
+    use faststrip_interop_wear_room, only: wear_room_t, reserve_wear_room
     implicit none
     private
 
     public :: handle_t, new_handle, free_handle, find_handle, handle_gap, handle_solve, copy_handle
 
+    ! Tuned [numbers]: memory of a strip's wear, with a margin. Origin: counted.
+    integer, parameter :: per_strip = 10
+
     !> One caller's workspace.
     type :: handle_t
         type(workspace_t) :: workspace
         type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
-                                          !! the F77 face sets how errors are estimated once
+                                          !! the F77 face sets friction and how errors are
+                                          !! estimated once
+        real(wp) :: contact_angle = 0.0_wp !! for friction of tread and flange, rad
         type(wanted_t) :: wanted          !! of `normal_auto`; the F77 face sets it once
         type(tangential_field_t) :: field !! elements of the last contact, if capacity was made
         type(contact_result_t) :: result  !! figures of the last contact
         type(taken_t) :: taken            !! steps of the last contact, if by `normal_auto`
+        type(strip_forces_t) :: strip_forces !! of the strips whose wear was asked for
+        type(wear_room_t) :: wear         !! the same
         type(status_t) :: status          !! of the last call
     end type handle_t
 
@@ -55,10 +66,31 @@ contains
         call reserve_workspace(handle%workspace, methods, max_points, status)
         if (with_field .and. .not. is_error(status)) &
             call reserve_contact_field(handle%field, methods, status)
+        if (.not. is_error(status)) call reserve_wear(handle, status)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_contact, number, status)
         if (is_error(status)) deallocate (handle)
     end subroutine new_handle
+
+    subroutine reserve_wear(handle, status)
+        type(handle_t), intent(inout) :: handle
+        type(status_t), intent(out) :: status
+
+        real(wp), allocatable :: trial(:)
+        integer :: failure
+
+        associate (capacity => size(handle%workspace%strips%p0))
+            ! Tried as a whole first: what the parts find missing would stop the program.
+            allocate (trial(per_strip*capacity), stat=failure)
+            if (failure /= 0) then
+                call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
+                return
+            end if
+            deallocate (trial)
+            call reserve_strip_forces(handle%strip_forces, capacity, status)
+            if (.not. is_error(status)) call reserve_wear_room(handle%wear, capacity)
+        end associate
+    end subroutine reserve_wear
 
     !> Free a handle; nothing happens to what is none.
     subroutine free_handle(number, status)
@@ -105,6 +137,8 @@ contains
 
         handle%field%n = 0
         handle%taken = taken_t()
+        call take_angle(handle)
+        if (is_error(handle%status)) return
         if (handle%case%methods%normal == normal_auto) then
             call solve_wanted(handle, with_field)
         else if (with_field) then
@@ -114,6 +148,30 @@ contains
             call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         end if
     end subroutine handle_solve
+
+    !> The coefficient of friction of the contact's angle.
+    subroutine take_angle(handle)
+        type(handle_t), intent(inout) :: handle
+
+        type(environment_t) :: environment
+
+        call clear_status(handle%status)
+        if (.not. handle%case%friction%flange_share /= 1.0_wp) return
+        call hold_environment(environment)
+        call check_friction(handle%case%friction, handle%status)
+        if (.not. is_error(handle%status)) then
+            if (ieee_is_finite(handle%contact_angle)) then
+                handle%case%mu = friction_at_angle(handle%case%friction, handle%case%mu, &
+                                                   handle%contact_angle)
+            else
+                call set_status(handle%status, st_not_finite, 'the contact angle is not finite')
+            end if
+        end if
+        call restore_environment(environment)
+        if (.not. is_error(handle%status)) return
+        handle%result = contact_result_t()
+        handle%workspace%solved_by = 0
+    end subroutine take_angle
 
     !> The same by `normal_auto`; with an error no step is told.
     subroutine solve_wanted(handle, with_field)
@@ -138,8 +196,11 @@ contains
 
         to%workspace = from%workspace
         to%case = from%case
+        to%contact_angle = from%contact_angle
         to%wanted = from%wanted
         to%field = from%field
+        to%strip_forces = from%strip_forces
+        to%wear = from%wear
         to%result = from%result
         to%taken = from%taken
         call clear_status(to%status)

@@ -37,7 +37,9 @@ module faststrip_interop_wheelset_handle
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
+    use faststrip_interop_wear_room, only: wear_room_t
     use faststrip_wheelset_solve, only: solve_wheelset
+    use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
                                         side_right, side_left
@@ -47,7 +49,7 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_handle_t
     public :: n_setup, n_state, n_choices, n_loads, n_counts, n_numbers, n_totals, n_sums
     public :: allocate_wheelset, free_wheelset, find_wheelset, wheelset_solve
-    public :: contact_count, read_contact, read_totals
+    public :: contact_count, contact_place, read_contact, read_totals
 
     !> Lengths of the rows.
     !> Given: by the faces.
@@ -60,6 +62,8 @@ module faststrip_interop_wheelset_handle
         type(wheelset_workspace_t) :: workspace
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
+        type(wheel_strips_t) :: strips !! of the contact whose wear was asked for
+        type(wear_room_t) :: wear      !! the same
         type(status_t) :: status    !! of the last call
     end type wheelset_handle_t
 
@@ -139,23 +143,30 @@ contains
         contact_count = sum(handle%result%wheel%n, mask=handle%has)
     end function contact_count
 
-    !> One contact of the last solution; those of the right wheel come first.
+    !> Which contact of which wheel the i-th is; those of the right wheel come first.
+    pure subroutine contact_place(handle, i, side, k)
+        type(wheelset_handle_t), intent(in) :: handle !! with so many contacts
+        integer, intent(in) :: i                      !! from 1 on
+        integer, intent(out) :: side                  !! `side_right`, `side_left`
+        integer, intent(out) :: k                     !! of its wheel
+
+        k = merge(handle%result%wheel(side_right)%n, 0, handle%has(side_right))
+        side = merge(side_right, side_left, i <= k)
+        k = merge(i, i - k, i <= k)
+    end subroutine contact_place
+
+    !> One contact of the last solution.
     pure subroutine read_contact(handle, i, counts, numbers)
         type(wheelset_handle_t), intent(in) :: handle     !! with so many contacts
         integer, intent(in) :: i                          !! from 1 on
         integer(c_int), intent(out) :: counts(n_counts)   !! as above
         real(c_double), intent(out) :: numbers(n_numbers) !! as above
 
-        integer :: right
+        integer :: side, k
 
-        right = merge(handle%result%wheel(side_right)%n, 0, handle%has(side_right))
-        if (i <= right) then
-            call contact_row(handle%result%wheel(side_right)%contact(i), counts, numbers)
-            counts(1) = side_right
-        else
-            call contact_row(handle%result%wheel(side_left)%contact(i - right), counts, numbers)
-            counts(1) = side_left
-        end if
+        call contact_place(handle, i, side, k)
+        call contact_row(handle%result%wheel(side)%contact(k), counts, numbers)
+        counts(1) = side
     end subroutine read_contact
 
     pure subroutine contact_row(contact, counts, numbers)

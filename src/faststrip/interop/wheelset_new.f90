@@ -13,9 +13,11 @@ module faststrip_interop_wheelset_new
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
     use faststrip_interop_register, only: enter_register, kind_wheelset
+    use faststrip_interop_wear_room, only: reserve_wear_room
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, n_setup
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset
+    use faststrip_wheelset_strips, only: reserve_wheel_strips
     use faststrip_wheelset_types, only: side_right, side_left
     implicit none
     private
@@ -94,6 +96,11 @@ contains
                                track_t(setup(5), setup(6), setup(7)), case, handle%model, status)
         if (.not. is_error(status)) &
             call reserve_wheelset(handle%workspace, handle%model, status)
+        if (is_error(status)) return
+        associate (capacity => size(handle%workspace%wheel(side_right)%contact(1)%strips%p0))
+            call reserve_wheel_strips(handle%strips, capacity, status)
+            if (.not. is_error(status)) call reserve_wear_room(handle%wear, capacity)
+        end associate
     end subroutine fill_handle
 
     ! The right and the left profile of one body.

@@ -65,8 +65,9 @@ contains
         call clear_status(status)
         if (present(regime)) regime = 0
         if (law%n < 1 .or. law%n > most_regimes) then
-            call set_status(status, st_bad_argument, 'a wear law must have 1 to ' &
-                            // count_text(most_regimes) // ' regimes, got ' // count_text(law%n))
+            call set_status(status, st_bad_argument, 'a wear law must have 1 to ' // &
+                            trim(count_text(most_regimes)) // ' regimes, got ' // &
+                            count_text(law%n))
             return
         end if
         if (.not. (law%density > 0.0_wp .and. ieee_is_finite(law%density))) then

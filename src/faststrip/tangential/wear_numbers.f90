@@ -79,19 +79,21 @@ contains
         type(status_t), intent(out) :: status
             !! `st_workspace_too_small`; `st_bad_argument`: forces of other strips
 
+        integer :: k
+
         call strip_areas(strips, densities, status)
         if (is_error(status)) return
         if (forces%n /= strips%n) then
             call set_status(status, st_bad_argument, 'the forces must be those of the strips')
             return
         end if
-        associate (n => strips%n)
+        do k = 1, strips%n
             ! A strip without length bears nothing.
-            where (densities(:n) > 0.0_wp)
-                densities(:n) = forces%friction_power(:n)/densities(:n)
-            else where
-                densities(:n) = 0.0_wp
-            end where
-        end associate
+            if (densities(k) > 0.0_wp) then
+                densities(k) = forces%friction_power(k)/densities(k)
+            else
+                densities(k) = 0.0_wp
+            end if
+        end do
     end subroutine strip_power_densities
 end module faststrip_tangential_wear_numbers

@@ -26,7 +26,7 @@ module faststrip_wheelset_strips
     implicit none
     private
 
-    public :: wheel_strips_t, find_wheel_strips
+    public :: wheel_strips_t, reserve_wheel_strips, find_wheel_strips
 
     ! Tuned [steps]: to a point of the rail. Origin: capacity; Newton's method takes three.
     integer, parameter :: most_steps = 30
@@ -63,7 +63,7 @@ contains
             call set_status(status, st_bad_argument, 'there is no such contact of the wheel')
             return
         end if
-        call reserve_found(size(workspace%wheel(side)%contact(i)%strips%p0), found, status)
+        call reserve_wheel_strips(found, size(workspace%wheel(side)%contact(i)%strips%p0), status)
         if (is_error(status)) return
         call copy_strips(workspace%wheel(side)%contact(i)%strips, found%strips)
         if (has_strip_forces(model%case%methods)) then
@@ -91,10 +91,11 @@ contains
                                                       tangential_faststrip_plain])
     end function has_strip_forces
 
-    subroutine reserve_found(capacity, found, status)
-        integer, intent(in) :: capacity
-        type(wheel_strips_t), intent(inout) :: found
-        type(status_t), intent(out) :: status
+    !> Allocate for strips of a contact.
+    subroutine reserve_wheel_strips(found, capacity, status)
+        type(wheel_strips_t), intent(inout) :: found !! sized
+        integer, intent(in) :: capacity              !! largest number of strips, >= 1
+        type(status_t), intent(out) :: status        !! `st_bad_argument`
 
         call reserve_strips(found%strips, capacity, status)
         if (is_error(status)) return
@@ -105,7 +106,7 @@ contains
             deallocate (found%rail, found%wheel)
         end if
         allocate (found%rail(2, capacity), found%wheel(2, capacity), source=0.0_wp)
-    end subroutine reserve_found
+    end subroutine reserve_wheel_strips
 
     ! Where the middles of the strips are. The strips lie along the gap as it was solved; its points
     ! are those of the outline, which are those of the wheel's profile.

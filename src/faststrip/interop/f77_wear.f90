@@ -1,0 +1,139 @@
+!> Friction, wear and fatigue in the F77 face, of workspaces of FSINIT and of FSWNEW alike.
+!>
+!> ```
+!> KIND     how friction falls with slip: 0 it does not, 2 linear, 3 rational, 4 exponential
+!> FRIC(1) kinetic over static friction, 1e-6 to 1     FRIC(2) slip speed of half of the fall, mm/s
+!> FRIC(3) rolling speed, mm/s      FRIC(4) factor of the initial slope, above 0 to 1
+!> FRIC(5) mu on the flange over that on the tread, PAR(5); 1: they are one
+!> FRIC(6), FRIC(7) contact angles up to which the tread's counts and from which the flange's, rad
+!> FRIC(8) contact angle, rad; of wheelsets it is found, as FRIC(3)
+!> NREG     regimes of a law of wear, up to 32; 0: none
+!> REGIM(1,I), REGIM(2,I) T gamma/A where regime I begins and ends, N/mm^2; the first at 0
+!> REGIM(3,I) constant, ug/(m mm^2), and REGIM(4,I) slope, ug/(m N), of the wear rate
+!> DENS     density of what is worn, kg/m^3            YIELD in cyclic shear, MPa; 0: not known
+!> WEAR(1) T gamma, N       WEAR(2) with spin, N       WEAR(3) T gamma over the area, N/mm^2
+!> WEAR(4) fatigue index; 0 with YIELD 0
+!> WEAR(5) wear, ug per metre rolled, and WEAR(6) in mm^3; 0 with NREG 0
+!> ```
+module faststrip_interop_f77_wear
+    use, intrinsic :: iso_c_binding, only: c_int, c_double
+    use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument, &
+                                     st_workspace_too_small
+    use faststrip_contact_solve, only: contact_result_t
+    use faststrip_interop_f77, only: n_iwork, number_of
+    use faststrip_interop_flat, only: n_friction, fill_friction, strip_count
+    use faststrip_interop_handle, only: handle_t, find_handle
+    use faststrip_interop_wear, only: n_regime, n_wear, contact_wear, contact_strip_wear, &
+                                      read_strip_wear, wheelset_wear
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
+    implicit none
+    private
+
+    public :: fsfric, fswear, fsstwr
+
+contains
+
+    !> CALL FSFRIC(IWORK, KIND, FRIC, INFO)
+    !>
+    !> Set friction for all further calls of FSSOLV or FSWSLV, which refuse what is none; figures
+    !> of the last solution are forgotten. FSINIT and FSWNEW set one number.
+    subroutine fsfric(iwork, kind, fric, info) bind(c, name='fsfric_')
+        integer(c_int), intent(in) :: iwork(n_iwork)    !! made by FSINIT or FSWNEW
+        integer(c_int), intent(in) :: kind              !! as above
+        real(c_double), intent(in) :: fric(n_friction)  !! as above
+        integer(c_int), intent(out) :: info             !! status
+
+        type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
+        real(c_double) :: angle
+
+        call find_either(iwork, handle, wheelset, info)
+        if (associated(handle)) then
+            call fill_friction(kind, fric, handle%case%friction, handle%contact_angle)
+            handle%result = contact_result_t()
+        else if (associated(wheelset)) then
+            call fill_friction(kind, fric, wheelset%model%case%friction, angle)
+            wheelset%has = .false.
+        end if
+    end subroutine fsfric
+
+    !> CALL FSWEAR(IWORK, K, NREG, REGIM, DENS, YIELD, WEAR, INFO)
+    !>
+    !> T gamma, wear and fatigue of the last solution; of a wheelset those of contact K, column K
+    !> of CONT. INFO 109: the law ends at a T gamma/A below one of a strip.
+    subroutine fswear(iwork, k, n_regimes, regimes, density, yield_shear, wear, info) &
+        bind(c, name='fswear_')
+        integer(c_int), intent(in) :: iwork(n_iwork)     !! with a solution
+        integer(c_int), intent(in) :: k                  !! contact; of FSINIT's it does not count
+        integer(c_int), intent(in) :: n_regimes          !! as above
+        real(c_double), intent(in) :: regimes(n_regime, *) !! as above
+        real(c_double), intent(in) :: density            !! as above
+        real(c_double), intent(in) :: yield_shear        !! as above
+        real(c_double), intent(out) :: wear(n_wear)      !! as above; zero when there is an error
+        integer(c_int), intent(out) :: info              !! status
+
+        type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
+
+        wear = 0.0_c_double
+        call find_either(iwork, handle, wheelset, info)
+        if (associated(handle)) then
+            call contact_wear(handle, regimes(:, :n_regimes), density, yield_shear, wear)
+            info = handle%status%code
+        else if (associated(wheelset)) then
+            call wheelset_wear(wheelset, k, regimes(:, :n_regimes), density, yield_shear, wear)
+            info = wheelset%status%code
+        end if
+    end subroutine fswear
+
+    !> CALL FSSTWR(IWORK, NREG, REGIM, DENS, M, N, FX, FY, POWER, TGA, WMASS, DEPTH, INFO)
+    !>
+    !> Forces and wear of the strips of the last contact, in the order of FSSTRP.
+    subroutine fsstwr(iwork, n_regimes, regimes, density, capacity, n, fx, fy, power, t_gamma, &
+                      mass, depth, info) bind(c, name='fsstwr_')
+        integer(c_int), intent(in) :: iwork(n_iwork)     !! made by FSINIT, with a solution
+        integer(c_int), intent(in) :: n_regimes          !! as above
+        real(c_double), intent(in) :: regimes(n_regime, *) !! as above
+        real(c_double), intent(in) :: density            !! as above
+        integer(c_int), intent(in) :: capacity           !! length of the arrays
+        integer(c_int), intent(out) :: n                 !! number of strips
+        real(c_double), intent(inout) :: fx(*), fy(*)    !! on the rail, N
+        real(c_double), intent(inout) :: power(*)        !! friction power over rolling speed, N
+        real(c_double), intent(inout) :: t_gamma(*)      !! T gamma over the area, N/mm^2
+        real(c_double), intent(inout) :: mass(*)         !! ug per metre rolled
+        real(c_double), intent(inout) :: depth(*)        !! depth when rolled over once, mm
+        integer(c_int), intent(out) :: info              !! status
+
+        type(handle_t), pointer :: handle
+        type(status_t) :: status
+
+        n = 0
+        call find_handle(number_of(iwork), handle, status)
+        info = status%code
+        if (is_error(status)) return
+        call contact_strip_wear(handle, regimes(:, :n_regimes), density)
+        info = handle%status%code
+        if (is_error(handle%status)) return
+        n = strip_count(handle)
+        if (capacity < n) then
+            info = st_workspace_too_small
+            return
+        end if
+        call read_strip_wear(handle, fx(:n), fy(:n), power(:n), t_gamma(:n), mass(:n), depth(:n))
+    end subroutine fsstwr
+
+    ! What a workspace array stands for: one of both, or an error.
+    subroutine find_either(iwork, handle, wheelset, info)
+        integer(c_int), intent(in) :: iwork(n_iwork)
+        type(handle_t), pointer, intent(out) :: handle
+        type(wheelset_handle_t), pointer, intent(out) :: wheelset
+        integer(c_int), intent(out) :: info
+
+        type(status_t) :: status
+
+        call find_handle(number_of(iwork), handle, status)
+        wheelset => null()
+        if (is_error(status)) call find_wheelset(number_of(iwork), wheelset, status)
+        info = status%code
+    end subroutine find_either
+end module faststrip_interop_f77_wear
