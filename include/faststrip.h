@@ -468,6 +468,30 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
 int faststrip_wheelset_get_wear(faststrip_wheelset *wheelset, int i, const faststrip_wear_law *law,
                                 double yield_shear, double figures[6]);
 
+/* Contact geometry functions of a wheelset over n lateral shifts to the right, mm: each wheel comes
+ * down on its rail by itself, as EN 15302:2008+A1:2010 has it, or, if with_roll, the wheelset rolls
+ * until both touch. functions becomes 10 n numbers, of each shift: rolling radius difference, right
+ * less left, rolling radius of the right and left wheel (mm), contact angle of both, roll (rad), y
+ * of the contact on the right wheel and rail, and on the left ones in their mirror (mm). states
+ * becomes the status of each shift, FASTSTRIP_NO_CONTACT with zeros where a wheel leaves its rail;
+ * the call has that status if there is no contact at all. text, if not null, says what is wrong. */
+int faststrip_contact_functions(const faststrip_wheelset_setup *setup,
+                                const faststrip_profile wheels[2],
+                                const faststrip_profile rails[2], int with_roll, int n,
+                                const double *y, double *functions, int *states, char *text,
+                                size_t length);
+
+/* Equivalent conicity by EN 15302:2008+A1:2010 over m amplitudes, mm, from a rolling radius
+ * difference, of the side to which y points less that of the other, at n rising shifts y, mm.
+ * equilibrium becomes the place where delta_r rises through zero and the largest amplitude that the
+ * table holds. conicities becomes 6 m numbers, of each amplitude: tan gamma_e by Klingel's equation
+ * (Annex B) and by linear regression (Annex C), both turning points, mm, and the nonlinearity of
+ * both, 1/mm. states becomes two numbers of each: its status, with zeros where it is not 0 (100, no
+ * amplitude; 109, beyond the table, or no motion turns there); 1, the nonlinearity is known. */
+int faststrip_conicity(int n, const double *y, const double *delta_r, int m,
+                       const double *amplitudes, double equilibrium[2], double *conicities,
+                       int *states, char *text, size_t length);
+
 /* What the wheelset's last call had to say; empty when all was well. */
 int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *text,
                                     size_t length);

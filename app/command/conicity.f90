@@ -7,8 +7,8 @@ module faststrip_command_conicity
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
                                    cell_text, column_index, open_csv, put_comment, put_header, &
                                    put_cell, end_row, close_csv
-    use faststrip_geometry_conicity, only: find_equilibrium, klingel_conicity, &
-                                           regression_conicity, largest_amplitude
+    use faststrip_geometry_conicity, only: conicity_t, find_conicity, find_equilibrium, &
+                                           largest_amplitude
     use faststrip_command_console, only: fail, fail_on_error, usage_error, put_origin, &
                                          exit_bad_input
     use faststrip_command_case_wheelset, only: case_wheelset_t, read_case_wheelset
@@ -33,18 +33,12 @@ module faststrip_command_conicity
     ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
     ! Tuned [mm]. Origin: chosen.
     real(wp), parameter :: standard_y_max = 10.0_wp
-    ! Nonlinearity is half of what the conicity rises from an amplitude 1 mm less to one 1 mm more.
-    ! Given: Polach (2010): (tan gamma_e(4 mm) - tan gamma_e(2 mm))/2 at 3 mm.
-    real(wp), parameter :: half_span = 1.0_wp
 
     !> What was found of the amplitudes.
     type :: values_t
         real(wp) :: y_equilibrium = 0.0_wp            ! mm
         real(wp) :: largest = 0.0_wp                  ! amplitude that the table holds, mm
-        real(wp), allocatable :: conicity(:, :)       ! by klingel and by regression
-        real(wp), allocatable :: turns(:, :)          ! turning points, mm
-        real(wp), allocatable :: nonlinearity(:)      ! by the method, 1/mm
-        logical, allocatable :: has_nonlinearity(:)
+        type(conicity_t), allocatable :: found(:)
         type(status_t), allocatable :: states(:)
     end type values_t
 
@@ -121,7 +115,7 @@ contains
         call fail_on_error(status, path)
         values%largest = largest_amplitude(y, delta_r, values%y_equilibrium)
         if (.not. allocated(amplitudes)) call take_steps(command, path, values%largest, amplitudes)
-        call find_values(path, method, y, delta_r, amplitudes, values)
+        call find_values(path, y, delta_r, amplitudes, values)
         if (given(command, '--functions')) &
             call write_functions(option_text(command, '--functions', '-'), case, functions)
         call write_values(option_text(command, '-o', '-'), method, amplitudes, values, from_table, &
@@ -231,52 +225,21 @@ contains
     end subroutine check_order
 
     !> The conicity at every amplitude; ends the program at one beyond the table.
-    subroutine find_values(path, method, y, delta_r, amplitudes, values)
-        character(len=*), intent(in) :: path, method
+    subroutine find_values(path, y, delta_r, amplitudes, values)
+        character(len=*), intent(in) :: path
         real(wp), intent(in) :: y(:), delta_r(:), amplitudes(:)
         type(values_t), intent(inout) :: values
 
-        type(status_t) :: status
-        real(wp) :: both(2), beside(2, 2), turns(2)
-        integer :: i, j, n, taken
+        integer :: i
 
-        n = size(amplitudes)
-        taken = merge(2, 1, method == 'regression')
-        allocate (values%conicity(2, n), values%turns(2, n), values%nonlinearity(n))
-        allocate (values%has_nonlinearity(n), values%states(n))
-        do i = 1, n
-            call find_both(amplitudes(i), values%conicity(:, i), values%turns(:, i), &
-                           values%states(i))
+        allocate (values%found(size(amplitudes)), values%states(size(amplitudes)))
+        do i = 1, size(amplitudes)
+            call find_conicity(y, delta_r, values%y_equilibrium, amplitudes(i), values%found(i), &
+                               values%states(i))
             ! Within the table an amplitude without a motion is a result, and the others stand.
             if (values%states(i)%code /= st_out_of_range .or. amplitudes(i) > values%largest) &
                 call fail_on_error(values%states(i), path)
-            values%has_nonlinearity(i) = .false.
-            if (.not. amplitudes(i) > half_span) cycle
-            do j = 1, 2
-                call find_both(amplitudes(i) + merge(-half_span, half_span, j == 1), both, turns, &
-                               status)
-                if (is_error(status)) exit
-                beside(:, j) = both
-            end do
-            values%has_nonlinearity(i) = .not. is_error(status)
-            if (values%has_nonlinearity(i)) values%nonlinearity(i) = &
-                0.5_wp*(beside(taken, 2) - beside(taken, 1))/half_span
         end do
-
-    contains
-
-        !> By Klingel's equation and by regression between its turning points.
-        subroutine find_both(amplitude, conicity, ends, state)
-            real(wp), intent(in) :: amplitude
-            real(wp), intent(out) :: conicity(2), ends(2)
-            type(status_t), intent(out) :: state
-
-            conicity = 0.0_wp
-            call klingel_conicity(y, delta_r, values%y_equilibrium, amplitude, conicity(1), &
-                                  ends(1), ends(2), state)
-            if (.not. is_error(state)) &
-                call regression_conicity(y, delta_r, ends(1), ends(2), conicity(2), state)
-        end subroutine find_both
     end subroutine find_values
 
     subroutine write_values(output, method, amplitudes, values, from_table, case)
@@ -288,8 +251,7 @@ contains
 
         type(csv_writer_t) :: writer
         type(status_t) :: status
-        integer :: i
-        logical :: is_there
+        integer :: i, taken
 
         call open_csv(writer, output, status)
         call fail_on_error(status)
@@ -299,17 +261,19 @@ contains
         call put_header(writer, [character(len=19) :: 'amplitude_mm', 'tan_gamma_e', 'y_min_mm', &
                                  'y_max_mm', 'regression', 'nonlinearity_per_mm', 'method', &
                                  'status'])
+        taken = merge(2, 1, method == 'regression')
         do i = 1, size(amplitudes)
-            is_there = .not. is_error(values%states(i))
-            call put_cell(writer, amplitudes(i))
-            call put_known(values%conicity(merge(2, 1, method == 'regression'), i), is_there)
-            call put_known(values%turns(1, i), is_there)
-            call put_known(values%turns(2, i), is_there)
-            call put_known(values%conicity(2, i), is_there)
-            call put_known(values%nonlinearity(i), is_there .and. values%has_nonlinearity(i))
-            call put_cell(writer, method)
-            call put_cell(writer, trim(status_word(values%states(i)%code)))
-            call end_row(writer)
+            associate (found => values%found(i), is_there => .not. is_error(values%states(i)))
+                call put_cell(writer, amplitudes(i))
+                call put_known(merge(found%regression, found%klingel, taken == 2), is_there)
+                call put_known(found%y_min, is_there)
+                call put_known(found%y_max, is_there)
+                call put_known(found%regression, is_there)
+                call put_known(found%nonlinearity(taken), found%has_nonlinearity)
+                call put_cell(writer, method)
+                call put_cell(writer, trim(status_word(values%states(i)%code)))
+                call end_row(writer)
+            end associate
         end do
         call close_csv(writer, status)
         call fail_on_error(status)

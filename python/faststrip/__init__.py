@@ -25,13 +25,16 @@ from ._contact import (
     kalker,
     library_version,
 )
+from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
 from ._profile import Gap, Profile, ProgramNotFound, profile_gap
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
 
 __all__ = [
+    "Conicity",
     "Contact",
+    "ContactFunctions",
     "Elements",
     "FaststripError",
     "Friction",
@@ -49,6 +52,8 @@ __all__ = [
     "WheelContact",
     "Wheelset",
     "WheelsetResult",
+    "conicity",
+    "contact_functions",
     "fastsim",
     "hertz",
     "kalker",

@@ -152,6 +152,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "wheelset_free": [POINTER(handle)],
         "wheelset_solve": [handle, *[c_void_p] * 2, c_int, POINTER(c_int), *[c_void_p] * 2],
         "wheelset_get_wear": [handle, c_int, c_void_p, number, POINTER(number)],
+        "contact_functions": [*[c_void_p] * 3, c_int, c_int, *[c_void_p] * 3, c_char_p, c_size_t],
+        "conicity": [c_int, *[c_void_p] * 2, c_int, *[c_void_p] * 4, c_char_p, c_size_t],
         "wheelset_last_message": [handle, c_char_p, c_size_t],
     }
     for name, types in arguments.items():

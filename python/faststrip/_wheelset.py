@@ -155,6 +155,23 @@ def _contact_of(row: Row) -> WheelContact:
         *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE))
 
 
+def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any, radius_left: Any,
+             back_spacing: Any, tread_line: Any, gauge: Any, gauge_depth: Any, rail_distance: Any,
+             cant: Any) -> Tuple[Setup, Any, Any]:
+    """Dimensions and profiles as the library takes them."""
+    left = radius if radius_left is None else radius_left
+    distance = 0.0 if rail_distance is None else above_zero("rail_distance", rail_distance)
+    setup = Setup(ctypes.sizeof(Setup), *numbers(
+        ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
+         "rail_distance", "cant"),
+        (radius, left, back_spacing, tread_line, gauge, gauge_depth, distance, cant)))
+    wheels = (Points * 2)(_points("wheel", wheel, "wheel"), Points() if wheel_left is None
+                          else _points("wheel_left", wheel_left, "wheel"))
+    rails = (Points * 2)(_points("rail", rail, "rail"), Points() if rail_left is None
+                         else _points("rail_left", rail_left, "rail"))
+    return setup, wheels, rails
+
+
 class WheelsetResult(NamedTuple):
     """What came of both wheels, right and left; zero for one that was not asked for."""
 
@@ -234,16 +251,9 @@ class Wheelset:
         case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = numbers(
             MATERIAL_NAMES, (material.e_wheel, material.e_rail, material.nu_wheel,
                              material.nu_rail))
-        left = radius if radius_left is None else radius_left
-        distance = 0.0 if rail_distance is None else above_zero("rail_distance", rail_distance)
-        setup = Setup(ctypes.sizeof(Setup), *numbers(
-            ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-             "rail_distance", "cant"),
-            (radius, left, back_spacing, tread_line, gauge, gauge_depth, distance, cant)))
-        wheels = (Points * 2)(_points("wheel", wheel, "wheel"), Points() if wheel_left is None
-                              else _points("wheel_left", wheel_left, "wheel"))
-        rails = (Points * 2)(_points("rail", rail, "rail"), Points() if rail_left is None
-                             else _points("rail_left", rail_left, "rail"))
+        setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
+                                        back_spacing, tread_line, gauge, gauge_depth,
+                                        rail_distance, cant)
         handle, text = _Handle(), ctypes.create_string_buffer(TEXT)
         status = library.faststrip_wheelset_new(
             ctypes.byref(setup), wheels, rails, ctypes.byref(case), ctypes.byref(handle.handle),

@@ -39,8 +39,8 @@ module faststrip
                                                 creepage_set_b
     use faststrip_geometry_contact_functions, only: side_t, contact_functions_t, &
                                                     find_contact_functions
-    use faststrip_geometry_conicity, only: find_equilibrium, klingel_conicity, &
-                                           regression_conicity, largest_amplitude
+    use faststrip_geometry_conicity, only: conicity_t, find_conicity, find_equilibrium, &
+                                           klingel_conicity, regression_conicity, largest_amplitude
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve

@@ -17,7 +17,7 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
                 " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
-                " fswdft fswnew fswslv fswfre fsfric fswear fsstwr".split())
+                " fswdft fswnew fswslv fswfre fsfric fswear fsstwr fscfun fsconi".split())
 
 # What only the laboratory says, its modules' names and its commands, and where it reads.
 LABORATORY = ("faststrip_lab", "fuzz", "bench", "trade", "scenes", "reference/", "example/")

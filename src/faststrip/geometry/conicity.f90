@@ -21,13 +21,14 @@
 module faststrip_geometry_conicity
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, clear_status, set_status, number_text, &
+    use faststrip_base_status, only: status_t, clear_status, set_status, is_error, number_text, &
                                      count_text, st_bad_argument, st_not_finite, &
                                      st_not_increasing, st_out_of_range, st_too_few_points
     implicit none
     private
 
-    public :: find_equilibrium, klingel_conicity, regression_conicity, largest_amplitude
+    public :: conicity_t, find_conicity, find_equilibrium, klingel_conicity, &
+              regression_conicity, largest_amplitude
 
     ! Bisections of a turning point or a middle at most.
     ! Tuned [steps]. Origin: chosen; 60 reach the last digit, more only near y = 0.
@@ -35,10 +36,60 @@ module faststrip_geometry_conicity
     ! Amplitudes may pass the end of the table by this part, levels of S differ by it.
     ! Tuned [1]. Origin: chosen; rounding of sums over some hundred points.
     real(wp), parameter :: rounding = 1.0e-12_wp
+    ! Nonlinearity is half of what the conicity rises from an amplitude 1 mm less to one 1 mm more.
+    ! Given: Polach (2010): (tan gamma_e(4 mm) - tan gamma_e(2 mm))/2 at 3 mm.
+    real(wp), parameter :: half_span = 1.0_wp
     ! Given: Simpson's rule: a sixth of the ends and four times the middle.
     real(wp), parameter :: simpson = 6.0_wp
 
+    !> The conicity at one amplitude, both by Klingel's equation (Annex B) and by linear regression
+    !> between its turning points (Annex C).
+    type :: conicity_t
+        real(wp) :: klingel = 0.0_wp         !! tan gamma_e
+        real(wp) :: regression = 0.0_wp      !! the same
+        real(wp) :: y_min = 0.0_wp           !! turning point, mm
+        real(wp) :: y_max = 0.0_wp           !! turning point, mm
+        real(wp) :: nonlinearity(2) = 0.0_wp !! of both, 1/mm
+        logical :: has_nonlinearity = .false. !! is it known? Not near 0 and the end of the table
+    end type conicity_t
+
 contains
+
+    !> The conicity at an amplitude by both methods, and how it rises with the amplitude.
+    pure subroutine find_conicity(y, delta_r, y_equilibrium, amplitude, conicity, status)
+        real(wp), intent(in) :: y(:)          !! lateral displacement, rising, mm
+        real(wp), intent(in) :: delta_r(:)    !! rolling radius difference, mm
+        real(wp), intent(in) :: y_equilibrium !! of `find_equilibrium`, mm
+        real(wp), intent(in) :: amplitude     !! half of the way between the turning points, mm
+        type(conicity_t), intent(out) :: conicity !! zeros on an error
+        type(status_t), intent(out) :: status !! those of `klingel_conicity`, `regression_conicity`
+
+        type(conicity_t) :: below, above
+        type(status_t) :: beside
+
+        call find_both(y, delta_r, y_equilibrium, amplitude, conicity, status)
+        if (is_error(status)) conicity = conicity_t()
+        if (is_error(status) .or. .not. amplitude > half_span) return
+        call find_both(y, delta_r, y_equilibrium, amplitude - half_span, below, beside)
+        if (is_error(beside)) return
+        call find_both(y, delta_r, y_equilibrium, amplitude + half_span, above, beside)
+        if (is_error(beside)) return
+        conicity%has_nonlinearity = .true.
+        conicity%nonlinearity = 0.5_wp*[above%klingel - below%klingel, &
+                                        above%regression - below%regression]/half_span
+    end subroutine find_conicity
+
+    pure subroutine find_both(y, delta_r, y_equilibrium, amplitude, conicity, status)
+        real(wp), intent(in) :: y(:), delta_r(:), y_equilibrium, amplitude
+        type(conicity_t), intent(out) :: conicity
+        type(status_t), intent(out) :: status
+
+        call klingel_conicity(y, delta_r, y_equilibrium, amplitude, conicity%klingel, &
+                              conicity%y_min, conicity%y_max, status)
+        if (.not. is_error(status)) &
+            call regression_conicity(y, delta_r, conicity%y_min, conicity%y_max, &
+                                     conicity%regression, status)
+    end subroutine find_both
 
     !> Where delta r rises through zero: of several places the one nearest to y = 0, of a
     !> stretch with zero its middle.

@@ -23,6 +23,7 @@ module faststrip_interop_c_wheelset
 
     public :: faststrip_default_wheelset, faststrip_wheelset_new, faststrip_wheelset_free
     public :: faststrip_wheelset_solve, faststrip_wheelset_last_message
+    public :: c_setup_t, find_setup, read_sources
 
     !> `faststrip_wheelset_setup` of the header.
     type, bind(c) :: c_setup_t
@@ -200,10 +201,7 @@ contains
         real(c_double) :: angle
 
         number = 0
-        call check_setup(setup, setup_size, status)
-        if (is_error(status)) return
-        call c_f_pointer(setup, fields)
-        call check_setup(setup, fields%size, status)
+        call find_setup(setup, fields, status)
         if (.not. is_error(status)) call read_sources(wheels, 'wheel', sources(:, 1), status)
         if (.not. is_error(status)) call read_sources(rails, 'rail', sources(:, 2), status)
         if (.not. is_error(status)) call read_case(case, of_case, status)
@@ -215,6 +213,19 @@ contains
         call fill_friction(of_case%friction_kind, of_case%friction, contact%friction, angle)
         call new_wheelset(sources(:, 1), sources(:, 2), fields%numbers, contact, number, status)
     end subroutine make_handle
+
+    !> A caller's setup, if it is one.
+    subroutine find_setup(setup, fields, status)
+        type(c_ptr), intent(in) :: setup                !! a `faststrip_wheelset_setup`, or null
+        type(c_setup_t), pointer, intent(out) :: fields !! where it is; null if there is none
+        type(status_t), intent(out) :: status           !! `st_bad_argument`
+
+        fields => null()
+        call check_setup(setup, setup_size, status)
+        if (is_error(status)) return
+        call c_f_pointer(setup, fields)
+        call check_setup(setup, fields%size, status)
+    end subroutine find_setup
 
     ! Is there a setup, of the size that this library knows?
     subroutine check_setup(setup, length, status)
@@ -238,12 +249,12 @@ contains
         end if
     end subroutine check_setup
 
-    ! Where the right and the left profile of a body come from.
+    !> Where the right and the left profile of a body come from.
     subroutine read_sources(address, body, sources, status)
-        type(c_ptr), intent(in) :: address
-        character(len=*), intent(in) :: body
-        type(profile_source_t), intent(out) :: sources(2)
-        type(status_t), intent(out) :: status
+        type(c_ptr), intent(in) :: address                !! of two of `faststrip_profile`
+        character(len=*), intent(in) :: body              !! its word
+        type(profile_source_t), intent(out) :: sources(2) !! right and left
+        type(status_t), intent(out) :: status             !! `st_bad_argument`
 
         type(c_profile_t), pointer :: profiles(:)
         character(len=5), parameter :: sides(2) = ['right', 'left ']

@@ -43,7 +43,8 @@
 !> ```
 module faststrip_interop_f77_wheelset
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t
-    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                     st_bad_argument, &
                                      st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
     use faststrip_interop_f77, only: n_iopt, n_par, n_iwork, set_number, number_of
@@ -58,6 +59,7 @@ module faststrip_interop_f77_wheelset
     private
 
     public :: fswdft, fswnew, fswslv, fswfre
+    public :: n_setup, read_sources
 
     integer, parameter :: n_setup = n_dimensions + 1
     integer, parameter :: n_cont = n_counts + n_numbers, n_wres = n_totals + n_sums
@@ -97,25 +99,13 @@ contains
         type(contact_case_t) :: case
         type(status_t) :: status
         integer(c_intptr_t) :: number
-        integer :: i, first
 
         info = st_workspace_too_small
         if (liwork < n_iwork) return
         iwork(:n_iwork) = 0
-        first = 1
-        do i = 1, size(sources)
-            associate (n => n_profile(i))
-                if (n > 0) then
-                    sources(i)%y => y_profile(first:first + n - 1)
-                    sources(i)%z => z_profile(first:first + n - 1)
-                    first = first + n
-                else if (n < 0) then
-                    info = st_bad_argument
-                    if (n < -size(wheel_names)) return
-                    sources(i)%name = merge(wheel_names(-n), rail_names(-n), i <= 2)
-                end if
-            end associate
-        end do
+        call read_sources(n_profile, y_profile, z_profile, sources, status)
+        info = status%code
+        if (is_error(status)) return
         call fill_case(iopt, [par(:6), par(6:)], case)
         case%estimate = abs(setup(n_setup)) > 0.0_c_double
         if (case%estimate) then
@@ -126,6 +116,33 @@ contains
         info = status%code
         if (.not. is_error(status)) call set_number(iwork(:n_iwork), number)
     end subroutine fswnew
+
+    !> Where the profiles of wheels and rails come from.
+    subroutine read_sources(n_profile, y_profile, z_profile, sources, status)
+        integer(c_int), intent(in) :: n_profile(4)           !! as above
+        real(c_double), intent(in), target :: y_profile(*), z_profile(*) !! mm
+        type(profile_source_t), intent(out) :: sources(4)    !! wheels and rails, right and left
+        type(status_t), intent(out) :: status                !! `st_bad_argument`
+
+        integer :: i, first
+
+        call clear_status(status)
+        first = 1
+        do i = 1, size(sources)
+            associate (n => n_profile(i))
+                if (n > 0) then
+                    sources(i)%y => y_profile(first:first + n - 1)
+                    sources(i)%z => z_profile(first:first + n - 1)
+                    first = first + n
+                else if (n < -size(wheel_names)) then
+                    call set_status(status, st_bad_argument, 'no such standard profile: ' // &
+                                    count_text(n))
+                else if (n < 0) then
+                    sources(i)%name = merge(wheel_names(-n), rail_names(-n), i <= 2)
+                end if
+            end associate
+        end do
+    end subroutine read_sources
 
     !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
     !>

@@ -22,7 +22,8 @@ module faststrip_interop_wheelset_new
     implicit none
     private
 
-    public :: profile_source_t, source_name_length, default_setup, new_wheelset
+    public :: profile_source_t, source_name_length, default_setup, new_wheelset, &
+              make_profiles
 
     !> Characters of a profile's name.
     !> Given: capacity.
@@ -103,17 +104,18 @@ contains
         end associate
     end subroutine fill_handle
 
-    ! The right and the left profile of one body.
+    !> The right and the left profile of one body.
     subroutine make_profiles(sources, body, cant, profiles, status)
-        type(profile_source_t), intent(in) :: sources(2)
-        integer, intent(in) :: body
-        real(wp), intent(in) :: cant
-        type(profile_t), intent(inout) :: profiles(2)
-        type(status_t), intent(out) :: status
+        type(profile_source_t), intent(in) :: sources(2) !! both as a right one
+        integer, intent(in) :: body                      !! `body_wheel`, `body_rail`
+        real(wp), intent(in) :: cant                     !! tangent by which rails are turned
+        type(profile_t), intent(inout) :: profiles(2)    !! made
+        type(status_t), intent(out) :: status            !! those of profiles
 
         type(touchable_t) :: part
         integer :: side
 
+        call clear_status(status)
         do side = side_right, side_left
             associate (source => sources(side))
                 if (associated(source%y)) then
