@@ -22,7 +22,7 @@ contains
         type(c_ptr), value :: setup         !! a `faststrip_wheelset_setup`
         type(c_ptr), value :: wheels        !! two of `faststrip_profile`, right and left
         type(c_ptr), value :: rails         !! two of `faststrip_profile`, right and left
-        integer(c_int), value :: with_roll  !! 1: until both wheels touch
+        integer(c_int), value :: with_roll  !! rolls it until both wheels touch?
         integer(c_int), value :: n          !! number of shifts
         type(c_ptr), value :: y             !! shifts, mm
         type(c_ptr), value :: functions     !! ten numbers of each, written
