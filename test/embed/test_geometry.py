@@ -87,7 +87,8 @@ class Faces(HostTest):
         for roll in (False, True):
             subprocess.run([str(self.installed.prefix / "bin" / "faststrip"), "conicity",
                             "case.nml", *["--roll"] * roll, "--y-max", "12", "--y-step", "0.5",
-                            "--functions", "functions.csv", "--amplitudes", "1.5,3,4.5", "-o", "conicity.csv"],
+                            "--functions", "functions.csv", "--amplitudes", "1.5,3,4.5",
+                            "-o", "conicity.csv"],
                            cwd=self.folder, check=True, stdin=subprocess.DEVNULL)
             rows = self.table("functions.csv")
             functions = self.functions(roll, [0.5 * i for i in range(-24, 25)])
