@@ -507,6 +507,55 @@ static void wear_errors(faststrip_workspace *workspace)
     EXPECT(0, faststrip_free(&empty));
 }
 
+/* Geometry without its arrays, its setup or its profiles; a table that is none. */
+static void geometry_errors(void)
+{
+    const double y[2] = {-1.0, 1.0}, delta_r[2] = {-0.1, 0.1}, high[2] = {1.0, 2.0}, a[1] = {0.5};
+    double f[20], equilibrium[2];
+    int states[4];
+    char text[FASTSTRIP_TEXT];
+    faststrip_wheelset_setup setup;
+    faststrip_profile wheels[2], rails[2];
+
+    memset(wheels, 0, sizeof wheels);
+    memset(rails, 0, sizeof rails);
+    wheels[0].name = "cone20";
+    EXPECT(0, faststrip_default_wheelset(&setup, sizeof setup));
+#define FUNCTIONS(status, setup, wheels, rails, n, y, f, states) \
+    EXPECT(status, faststrip_contact_functions(setup, wheels, rails, 0, n, y, f, states, text, \
+                                               sizeof text))
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, rails, 2, y, f, states);
+    EXPECT(1, strstr(text, "the right rail profile must have a name") != NULL);
+    rails[0].name = "60e1";
+    FUNCTIONS(0, &setup, wheels, rails, 2, y, f, states);
+    EXPECT(1, states[0] == 0 && f[0] < 0.0 && f[10] > 0.0 && strlen(text) == 0);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, rails, -1, y, f, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, NULL, wheels, rails, 2, y, f, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, NULL, rails, 2, y, f, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, NULL, 2, y, f, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, rails, 2, NULL, f, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, rails, 2, y, NULL, states);
+    FUNCTIONS(FASTSTRIP_BAD_ARGUMENT, &setup, wheels, rails, 2, y, f, NULL);
+    setup.gauge = NAN;
+    FUNCTIONS(FASTSTRIP_NOT_FINITE, &setup, wheels, rails, 2, y, f, states);
+    EXPECT(1, f[0] == 0.0 && states[0] == 0);
+#define CONICITY(status, n, y, delta_r, m, a, equilibrium, f, states) \
+    EXPECT(status, faststrip_conicity(n, y, delta_r, m, a, equilibrium, f, states, text, \
+                                      sizeof text))
+    CONICITY(0, 2, y, delta_r, 1, a, equilibrium, f, states);
+    EXPECT(1, fabs(f[0] - 0.05) < 1e-12 && equilibrium[1] == 1.0 && states[1] == 0);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, -2, y, delta_r, 1, a, equilibrium, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, delta_r, -1, a, equilibrium, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, NULL, delta_r, 1, a, equilibrium, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, NULL, 1, a, equilibrium, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, delta_r, 1, NULL, equilibrium, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, delta_r, 1, a, NULL, f, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, delta_r, 1, a, equilibrium, NULL, states);
+    CONICITY(FASTSTRIP_BAD_ARGUMENT, 2, y, delta_r, 1, a, equilibrium, f, NULL);
+    CONICITY(FASTSTRIP_OUT_OF_RANGE, 2, y, high, 1, a, equilibrium, f, states);
+    EXPECT(1, strstr(text, "delta r must rise through 0") != NULL && f[0] == 0.0);
+}
+
 /* What a wheelset cannot be made of. */
 static void wheelsets_that_are_none(void)
 {
@@ -777,6 +826,7 @@ static void errors(void)
            faststrip_get_elements(workspace, 400, &n, a, a, a, a, a, a, a, a, NULL));
     wanted_errors(workspace);
     wear_errors(workspace);
+    geometry_errors();
     wheelsets_that_are_none();
     wheelset_errors(workspace);
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_copy(workspace, NULL));

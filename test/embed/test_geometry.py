@@ -52,8 +52,8 @@ class Faces(HostTest):
             roll=roll)
 
     def test_fixed_form_fortran_has_the_bits_of_c(self):
-        self.shell(f"gfortran -std=legacy -Wall -O1 '{HOSTS}/conicity.f'"
-                   " $(pkg-config --libs faststrip) -o by_f77")
+        self.shell("gfortran -std=legacy -Wall -O1 -ffpe-trap=invalid,zero,overflow"
+                   f" '{HOSTS}/conicity.f' $(pkg-config --libs faststrip) -o by_f77")
         self.assertEqual(self.shell("./by_f77").splitlines(), self.lines)
         told = [line for line in self.lines if line[0] in "sa"]
         self.assertGreater(told.count("shift 0"), 250)

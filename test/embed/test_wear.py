@@ -40,6 +40,48 @@ def bits(*numbers):
     return " ".join(struct.pack(">d", number).hex().upper() for number in numbers)
 
 
+ERRORS = """\
+      PROGRAM ERRORS
+      INTEGER IW(8), IW2(8), IOPT(9), N, INFO
+      DOUBLE PRECISION PAR(9), FRIC(8), REGIM(4, 33), W(6), X(9)
+      DOUBLE PRECISION Y(5), H(5), A(5), RES(14)
+      DATA FRIC /0.5D0, 40D0, 1D4, 1D0, 1D0, 0D0, 0D0, 0D0/
+      DATA REGIM /0D0, 1D9, 1D0, 129*1D0/, A /5*1D-3/
+      DATA Y /-10D0, -5D0, 0D0, 5D0, 10D0/
+      DATA H /0.2D0, 0.05D0, 0D0, 0.05D0, 0.2D0/, IW2 /8*0/
+      CALL FSDFLT(IOPT, PAR)
+      PAR(6) = 1D4
+      PAR(7) = 1D-3
+      CALL FSINIT(IOPT, 5, IW, 8, INFO)
+      CALL FSFRIC(IW2, 2, FRIC, INFO)
+      WRITE (*, *) 'nowhere', INFO
+      CALL FSWEAR(IW2, 1, 0, REGIM, 1D0, 0D0, W, INFO)
+      WRITE (*, *) 'none', INFO
+      CALL FSSTWR(IW2, 0, REGIM, 1D0, 9, N, X, X, X, X, X, X, INFO)
+      WRITE (*, *) 'strips', INFO + N
+      CALL FSWEAR(IW, 1, 0, REGIM, 1D0, 0D0, W, INFO)
+      WRITE (*, *) 'unsolved', INFO
+      CALL FSCONT(IW, 5, Y, H, A, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'solved', INFO
+      CALL FSSTWR(IW, 1, REGIM, 1D0, 9, N, X, X, X, X, X, X, INFO)
+      WRITE (*, *) 'few', INFO + N - NINT(RES(14))
+      CALL FSWEAR(IW, 1, 33, REGIM, 1D0, 0D0, W, INFO)
+      WRITE (*, *) 'many', INFO
+      CALL FSFRIC(IW, 2, FRIC, INFO)
+      WRITE (*, *) 'set', INFO
+      CALL FSWEAR(IW, 1, 0, REGIM, 1D0, 0D0, W, INFO)
+      WRITE (*, *) 'forgotten', INFO
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'falling', INFO
+      CALL FSFRIC(IW, 1, FRIC, INFO)
+      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
+      WRITE (*, *) 'unknown', INFO
+      END
+"""
+ANSWERS = {"nowhere": 100, "none": 100, "strips": 100, "unsolved": 100, "solved": 0, "few": 110,
+           "many": 100, "set": 0, "forgotten": 100, "falling": 8, "unknown": 100}
+
+
 class Faces(HostTest):
     @classmethod
     def setUpClass(cls):
@@ -64,9 +106,16 @@ class Faces(HostTest):
         self.assertEqual(self.shell("./by_c <ways.txt").splitlines(), self.lines)
 
     def test_fixed_form_fortran_has_them(self):
-        self.shell(f"gfortran -std=legacy -Wall -O1 '{HOSTS}/wear.f'"
-                   " $(pkg-config --libs faststrip) -o by_f77")
+        self.shell("gfortran -std=legacy -Wall -O1 -ffpe-trap=invalid,zero,overflow"
+                   f" '{HOSTS}/wear.f' $(pkg-config --libs faststrip) -o by_f77")
         self.assertEqual(self.shell("./by_f77 <ways.txt").splitlines(), self.lines)
+
+    def test_every_subroutine_says_what_is_wrong(self):
+        self.write("errors.f", ERRORS)
+        self.shell("gfortran -std=legacy -ffpe-trap=invalid,zero,overflow errors.f"
+                   " $(pkg-config --libs faststrip) -o errors")
+        found = self.findings("./errors")
+        self.assertEqual({name: value for name, (value,) in found.items()}, ANSWERS)
 
     def test_python_has_them(self):
         lines = []
