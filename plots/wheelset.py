@@ -33,7 +33,8 @@ def main(arguments=None):
     parser.add_argument("--folder", default="out", metavar="DIR",
                         help="where wheelset.png and wheelset_sweep.png go")
     options = parser.parse_args(arguments)
-    result = read_table(options.result, RESULT)
+    # Solutions beside a state are not drawn.
+    result = read_table(options.result, RESULT).where("solution", ("", "1"))
     profiles = read_table(options.profiles, PROFILES)
     path = os.path.join(options.folder, "wheelset.png")
     draw_track(path, result, profiles)

@@ -1,5 +1,6 @@
 !> `faststrip wheelset`: the contacts of a wheelset on a track, state by state.
 module faststrip_command_wheelset
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
@@ -17,6 +18,7 @@ module faststrip_command_wheelset
     use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, take_wear_law, &
                                               find_wear_figures
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
+    use faststrip_command_wheelset_jump, only: is_jump
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
                                               put_strips_header, put_wheel_strips
     use faststrip_command_wheelset_profiles, only: put_profiles_header, put_wheelset_profiles
@@ -35,6 +37,8 @@ module faststrip_command_wheelset
     !> Name of the state of a case file.
     character(len=*), parameter :: name_of_case = 'case'
 
+    real(wp), parameter :: um = 1.0e-3_wp ! Given: mm.
+
     !> What a run has at hand.
     type :: run_t
         type(wheelset_model_t) :: model
@@ -45,6 +49,7 @@ module faststrip_command_wheelset
         logical :: wants_profiles = .false.
         logical :: has_profiles = .false.                !! are there any?
         character(len=:), allocatable :: profiles_of     !! state they are of; empty: not known yet
+        real(wp) :: beside = 0.0_wp                      !! how far away jumps count, mm; 0: not
         type(csv_writer_t) :: writer(size(outputs))
     end type run_t
 
@@ -69,15 +74,15 @@ contains
             // ' rows of a CSV file with the' // new_line('a') // 'columns case,side,y_mm,' // &
             'roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N (optional: z_mm,' // &
             new_line('a') // 'vy_mm_s,vz_mm_s,roll_rate_rad_s,yaw_rate_rad_s,curve_radius_mm,' // &
-            'roll_moment_Nmm and, of each rail beside its place,' // new_line('a') // &
+            'roll_moment_Nmm; of each rail' // new_line('a') // 'beside its place ' // &
             'rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,rail_right_vy_mm_s,' // &
-            'rail_right_vz_mm_s,' // new_line('a') // 'rail_right_roll_rate_rad_s, and the' // &
-            ' same with left), or the one' // new_line('a') // 'of the group &state. side is' // &
-            ' left, right (Fz_N: vertical force of that wheel) or both (of' // new_line('a') // &
-            'the axle). An empty roll_rad is found, an empty pitch_rate_rad_s is that of pure' // &
-            ' rolling;' // new_line('a') // 'z_mm instead of Fz_N gives the height. A state' // &
-            ' that fails gets its status word; the others' // new_line('a') // 'go on, and the' // &
-            ' exit code is 1.' // new_line('a')
+            new_line('a') // 'rail_right_vz_mm_s,rail_right_roll_rate_rad_s, the same with left' &
+            // '), or the one of the group' // new_line('a') // '&state. side is left, right ' // &
+            '(Fz_N: vertical force of that wheel) or both (of the axle). An' // new_line('a') // &
+            'empty roll_rad is found, an empty pitch_rate_rad_s is that of pure rolling; z_mm' // &
+            ' instead of' // new_line('a') // 'Fz_N gives the height. A state that fails gets ' // &
+            'its status word; the others go on, and the exit' // new_line('a') // &
+            'code is 1.' // new_line('a')
         command%options = [ &
             option_t('--states', 'FILE.csv', 'the states', reads=.true.), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
@@ -87,6 +92,8 @@ contains
                      'state', writes=.true.), &
             option_t('--profiles-of', 'CASE', 'of the rows of this name (default: the first ' // &
                      'with a result)'), &
+            option_t('--near-jumps', 'UM', 'list solutions UM to the left and right where ' // &
+                     'contacts jump'), &
             option_t('--yield-shear-MPa', 'MPA', 'yield stress in cyclic shear, for ' // &
                      'fatigue_index'), &
             option_t('--wear', 'FILE.csv', 'wear law, for wear_ug_per_m; faststrip, ' // &
@@ -103,6 +110,7 @@ contains
                                                  run%wear%yield_shear_mpa, least=0)
         if (given(command, '--wear')) &
             call take_wear_law(option_text(command, '--wear', ''), run%wear)
+        run%beside = um*option_number(command, '--near-jumps', 0.0_wp, least=0)
         run%wants_strips = given(command, '--strips')
         run%wants_profiles = given(command, '--profiles')
         run%profiles_of = option_text(command, '--profiles-of', '')
@@ -201,22 +209,77 @@ contains
             return
         end if
         wants = given%side == 'both' .or. given%side == side_names
-        if (wants(side_left)) call put_side(run, name, side_left, result)
-        if (wants(side_right)) call put_side(run, name, side_right, result)
-        if (.not. run%wants_profiles) return
-        if (len(run%profiles_of) == 0) run%profiles_of = name
-        if (run%profiles_of /= name) return
-        call put_wheelset_profiles(run%writer(3), name, run%model, run%workspace%last_state, &
-                                   result, wants)
-        run%has_profiles = .true.
+        call put_sides(run, name, wants, result, 1)
+        if (run%wants_profiles) then
+            if (len(run%profiles_of) == 0) run%profiles_of = name
+            if (run%profiles_of == name) then
+                call put_wheelset_profiles(run%writer(3), name, run%model, &
+                                           run%workspace%last_state, result, wants)
+                run%has_profiles = .true.
+            end if
+        end if
+        if (run%beside > 0.0_wp) call put_beside(run, name, wants, state, demand)
     end subroutine put_state
 
-    ! The contacts of one wheel, and their strips if they are wanted.
-    subroutine put_side(run, name, side, result)
+    ! The solutions beside a state, if contacts jump between them.
+    subroutine put_beside(run, name, wants, state, demand)
+        type(run_t), intent(inout) :: run
+        character(len=*), intent(in) :: name
+        logical, intent(in) :: wants(2)
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+
+        type(wheelset_result_t) :: result(2)
+        logical :: has_result(2)
+        integer :: i
+
+        do i = 1, 2
+            call solve_beside(i)
+        end do
+        if (all(has_result)) then
+            if (.not. is_jump(result(1), result(2), wants)) return
+        end if
+        do i = 1, 2
+            ! Strips are those of the last solution.
+            call solve_beside(i)
+            if (has_result(i)) call put_sides(run, name, wants, result(i), i + 1)
+        end do
+
+    contains
+
+        subroutine solve_beside(i)
+            integer, intent(in) :: i
+
+            type(wheelset_state_t) :: there
+            type(status_t) :: status
+
+            there = state
+            there%y = state%y + merge(-run%beside, run%beside, i == 1)
+            run%workspace%has_last = .false.
+            call solve_wheelset(run%model, run%workspace, there, demand, result(i), status)
+            has_result(i) = .not. is_error(status)
+        end subroutine solve_beside
+    end subroutine put_beside
+
+    ! One solution of a state.
+    subroutine put_sides(run, name, wants, result, solution)
+        type(run_t), intent(inout) :: run
+        character(len=*), intent(in) :: name
+        logical, intent(in) :: wants(2)
+        type(wheelset_result_t), intent(in) :: result
+        integer, intent(in) :: solution
+
+        if (wants(side_left)) call put_side(run, name, side_left, result, solution)
+        if (wants(side_right)) call put_side(run, name, side_right, result, solution)
+    end subroutine put_sides
+
+    ! The contacts of one wheel, and the strips of the state itself if they are wanted.
+    subroutine put_side(run, name, side, result, solution)
         type(run_t), intent(inout) :: run
         character(len=*), intent(in) :: name
         integer, intent(in) :: side
         type(wheelset_result_t), intent(in) :: result
+        integer, intent(in) :: solution
 
         type(wear_figures_t) :: figures(result%wheel(side)%n)
         type(status_t) :: status
@@ -240,12 +303,12 @@ contains
                         call note(name // ', ' // trim(side_names(side)) // ', contact ' &
                                   // integer_text(i) // ': ' // figures(i)%words)
                 end if
-                if (run%wants_strips) &
+                if (run%wants_strips .and. solution == 1) &
                     call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
                                           contact%radius, run%strips, run%wear)
             end associate
         end do
         call put_wheel(run%writer(1), name, trim(side_names(side)), result%wheel(side), figures, &
-                       has_forces)
+                       has_forces, solution, run%workspace%last_state%y)
     end subroutine put_side
 end module faststrip_command_wheelset

@@ -26,6 +26,9 @@ module faststrip_command_wheelset_csv
         'strips_across', 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', &
         'est_err_Fy', 'est_err_Mz', 'message']
 
+    ! Which solution it is, and where.
+    character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
+
 contains
 
     !> Names of the columns.
@@ -38,17 +41,19 @@ contains
                          // '|Mz cphi|')
         call put_wear_source(writer, wear)
         call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
-                                 wear_columns])
+                                 wear_columns, solution_columns])
     end subroutine put_wheelset_header
 
     !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
-    subroutine put_wheel(writer, case, side, wheel, figures, has_forces)
+    subroutine put_wheel(writer, case, side, wheel, figures, has_forces, solution, y)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         character(len=*), intent(in) :: case        !! name of the state
         character(len=*), intent(in) :: side        !! left or right
         type(wheel_result_t), intent(in) :: wheel   !! solved
         type(wear_figures_t), intent(in) :: figures(:) !! of each contact
         logical, intent(in) :: has_forces           !! were creep forces asked for?
+        integer, intent(in) :: solution             !! 1: of the state; 2, 3: to its left, right
+        real(wp), intent(in) :: y                   !! lateral displacement of the wheelset, mm
 
         integer :: i
 
@@ -58,9 +63,15 @@ contains
             call put_cell(writer, i)
             call put_contact(writer, wheel, wheel%contact(i))
             call put_wear(writer, figures(i), has_forces)
+            call put_cell(writer, solution)
+            call put_cell(writer, y)
             call end_row(writer)
         end do
-        if (wheel%n == 0) call put_empty(writer, case, side, 'ok', 'no contact')
+        if (wheel%n > 0) return
+        call put_empty(writer, case, side, 'ok', 'no contact')
+        call put_cell(writer, solution)
+        call put_cell(writer, y)
+        call end_row(writer)
     end subroutine put_wheel
 
     !> The row of a state that has no solution.
@@ -71,6 +82,9 @@ contains
         type(status_t), intent(in) :: status        !! why there is none
 
         call put_empty(writer, case, side, trim(status_word(status%code)), trim(status%message))
+        call put_cell(writer, '')
+        call put_cell(writer, '')
+        call end_row(writer)
     end subroutine put_failed_state
 
     subroutine put_empty(writer, case, side, word, message)
@@ -90,7 +104,6 @@ contains
         do i = 1, size(wear_columns)
             call put_cell(writer, '')
         end do
-        call end_row(writer)
     end subroutine put_empty
 
     subroutine put_contact(writer, wheel, contact)

@@ -38,6 +38,15 @@ class Table:
         self.require([name])
         return self.columns[name]
 
+    def where(self, name: str, wanted: Iterable[str]) -> Table:
+        """The rows whose word in a column is one of those wanted; all if there is no column."""
+        if name not in self.columns:
+            return self
+        kept = [row for row, word in enumerate(self.columns[name]) if word in wanted]
+        columns = {key: [cells[row] for row in kept] for key, cells in self.columns.items()}
+        return Table(self.path, self.comments, self.header_line, columns,
+                     [self.lines[row] for row in kept])
+
     def numbers(self, name: str, missing: bool = False) -> np.ndarray:
         """The cells of a column as finite numbers; empty cells become NaN where `missing`."""
         return np.array(

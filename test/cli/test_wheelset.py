@@ -80,6 +80,46 @@ class Wheelset(ProgramTest):
             # Flange contacts are 0.7 mm wide on the benchmark's grid of 0.2 mm.
             self.assert_close(float(contact["pmax_MPa"]), float(row["pmax_MPa"]), 0.028)
 
+    def test_both_solutions_near_a_jump(self):
+        """At 5 mm, where the contact of the benchmark jumps from tread to flange, a solution
+        within two micrometres of the state is CONTACT's; elsewhere there is one."""
+        wanted = [row for row in benchmark() if row["side"] == "right"
+                  and row["y_mm"] in ("4.0", "5.0", "6.0")]
+        self.write("states.csv", "\n".join([HEADER, *(
+            f"{row['case']},right,{row['y_mm']},{row['roll_rad']},{row['yaw_rad']},"
+            f"{row['speed_mm_s']},{row['pitch_rate_rad_s']},10000" for row in wanted)]) + "\n")
+        rows = self.good("wheelset", "case.nml", "--states", "states.csv", "--near-jumps", "2",
+                         "--strips", "strips.csv")
+        self.assertEqual([(row["case"], row["solution"], float(row["y_mm"])) for row in rows],
+                         [("9", "1", 4.0), ("11", "1", 5.0), ("11", "2", 4.998),
+                          ("11", "3", 5.002), ("13", "1", 6.0)])
+        row, contact = wanted[1], rows[3]
+        load = float(row["Fn_N"])
+        for name in ("x_track_mm", "y_track_mm", "z_track_mm"):
+            self.assert_close(float(contact[name]), float(row[name]), absolute=0.1, what=name)
+        for name, bound in (("contact_angle_rad", 2.0e-3), ("cksi", 2.0e-5), ("ceta", 2.0e-5),
+                            ("cphi_rad_per_mm", 2.0e-5)):
+            self.assert_close(float(contact[name]), float(row[name]),
+                              absolute=max(bound, 0.01 * abs(float(row[name]))), what=name)
+        self.assert_close(float(contact["N_N"]), load, 5.0e-3)
+        for name in ("Fx_N", "Fs_N"):
+            self.assert_close(float(contact[name]), float(row[name]), absolute=0.02 * 0.3 * load)
+        self.assert_close(float(contact["pmax_MPa"]), float(row["pmax_MPa"]), 0.03)
+        # Without the option there is the state alone, the same; strips are of it.
+        alone = self.good("wheelset", "case.nml", "--states", "states.csv")
+        self.assertEqual(alone, [row for row in rows if row["solution"] == "1"])
+        strips = [row for row in self.read("strips.csv") if row["case"] == "11"]
+        self.assert_close(math.fsum(numbers(strips, "load_N")), float(rows[1]["N_N"]), 1.0e-12)
+        self.refused(2, "wheelset", "case.nml", "--states", "states.csv", "--near-jumps", "-1",
+                     says=["--near-jumps"])
+
+    def test_a_solution_beside_that_fails_leaves_the_other(self):
+        # That far to the left the wheel is off its rail.
+        self.write("states.csv", f"{HEADER}\na,right,0,0,0,2000,,1e4\n")
+        rows = self.good("wheelset", "case.nml", "--states", "states.csv", "--near-jumps", "1e5")
+        self.assertEqual([(row["solution"], float(row["y_mm"])) for row in rows],
+                         [("1", 0.0), ("3", 100.0)])
+
     def test_a_mirror_changes_signs_only(self):
         right = self.solved("1,right,6,-0.0005,0.01,20000,-43.4,60000")
         left = self.solved("1,left,-6,0.0005,-0.01,20000,-43.4,60000")

@@ -115,6 +115,13 @@ class Pictures(unittest.TestCase):
     def test_wheelsets_over_the_shift_and_wear_without_a_law(self):
         self.drawn("wheelset", "--states", "states.csv",
                    pictures=("out/wheelset.png", "out/wheelset_sweep.png"))
+        # Solutions beside a state are no states.
+        lines = WHEELSET.splitlines()
+        beside = "\n".join([*lines[:2], f"{lines[2]},solution",
+                            *(f"{line},1" for line in lines[3:-1]), f"{lines[-1]},",
+                            f"4{lines[3][1:]},2", ""])
+        self.drawn("wheelset", "--states", "states.csv",
+                   files=FILES | {"out/wheelset.csv": beside})
         bare = "".join(line.rsplit(",", 2)[0] + ",,\n" if line[0] in "12" else line + "\n"
                        for line in WHEELSET_STRIPS.splitlines())
         self.drawn("wear", "--body", "rail", files=FILES | {"out/wheelset_strips.csv": bare})
