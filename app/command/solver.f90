@@ -24,7 +24,7 @@ module faststrip_command_solver
     implicit none
     private
 
-    public :: solver_t, release_solver, outcome_t, make_solver, solve
+    public :: solver_t, release_solver, outcome_t, make_solver, solve, name_yield
 
 contains
 
@@ -99,9 +99,9 @@ contains
 
     !> Name a largest pressure above the limit that the user has set.
     subroutine name_yield(limit, pmax, status)
-        real(wp), intent(in) :: limit          ! MPa; 0: none
-        real(wp), intent(in) :: pmax           ! MPa
-        type(status_t), intent(inout) :: status
+        real(wp), intent(in) :: limit          !! MPa; 0: none
+        real(wp), intent(in) :: pmax           !! MPa
+        type(status_t), intent(inout) :: status !! gets `st_beyond_yield`
 
         if (.not. limit > 0.0_wp .or. pmax <= limit) return
         call add_limitation(status, st_beyond_yield, 'pmax of ' // trim(number_text(pmax)) // &

@@ -7,7 +7,8 @@ module faststrip_command_wheelset
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
-                                        wheelset_demand_t, wheelset_result_t, side_right, side_left
+                                        wheelset_demand_t, wheelset_result_t, wheel_result_t, &
+                                        side_right, side_left
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_command_console, only: fail, fail_on_error, note, progress, usage_error, &
@@ -17,6 +18,7 @@ module faststrip_command_wheelset
     use faststrip_command_outputs, only: open_outputs, close_outputs
     use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, take_wear_law, &
                                               find_wear_figures
+    use faststrip_command_solver, only: name_yield
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
     use faststrip_command_wheelset_jump, only: is_jump
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
@@ -45,6 +47,7 @@ module faststrip_command_wheelset
         type(wheelset_workspace_t) :: workspace
         type(wheel_strips_t) :: strips                   !! of the last contact
         type(wear_choice_t) :: wear                      !! wear law, yield stress
+        real(wp) :: yield_mpa = 0.0_wp                   !! pmax above is named, MPa; 0: no limit
         logical :: wants_strips = .false.
         logical :: wants_profiles = .false.
         logical :: has_profiles = .false.                !! are there any?
@@ -106,6 +109,7 @@ contains
         if (given(command, '--profiles-of') .and. .not. given(command, '--profiles')) &
             call usage_error('--profiles-of: it needs --profiles', command%name)
         run%wear = case%numerics%wear
+        run%yield_mpa = case%numerics%yield_mpa
         run%wear%yield_shear_mpa = option_number(command, '--yield-shear-MPa', &
                                                  run%wear%yield_shear_mpa, least=0)
         if (given(command, '--wear')) &
@@ -282,6 +286,7 @@ contains
         integer, intent(in) :: solution
 
         type(wear_figures_t) :: figures(result%wheel(side)%n)
+        type(wheel_result_t) :: wheel
         type(status_t) :: status
         logical :: has_forces
         integer :: i
@@ -308,7 +313,12 @@ contains
                                           contact%radius, run%strips, run%wear)
             end associate
         end do
-        call put_wheel(run%writer(1), name, trim(side_names(side)), result%wheel(side), figures, &
+        wheel = result%wheel(side)
+        do i = 1, wheel%n
+            call name_yield(run%yield_mpa, wheel%contact(i)%figures%normal%pmax, &
+                            wheel%contact(i)%status)
+        end do
+        call put_wheel(run%writer(1), name, trim(side_names(side)), wheel, figures, &
                        has_forces, solution, run%workspace%last_state%y)
     end subroutine put_side
 end module faststrip_command_wheelset

@@ -64,10 +64,10 @@ contains
         if (.not. in_core(tangential_table, case%numerics%tangential)) &
             call refuse(content, group, 'tangential', 'must be a method of the library for a ' // &
                         'wheelset', trim(tangential_method_name(case%numerics%tangential)))
-        if (sets(content, group, 'yield_MPa')) &
-            call refuse(content, group, 'yield_MPa', 'must not be given for a wheelset', '')
+        ! Each gap would be smoothed by a strength of its own, and forces would jump.
         if (sets(content, group, 'smoothing_um')) &
-            call refuse(content, group, 'smoothing_um', 'must not be given for a wheelset', '')
+            call refuse(content, group, 'smoothing_um', 'must not be given for a wheelset; ' // &
+                        'smooth its profiles (faststrip profile --smooth-wavelength)', '')
         if (sets(content, group, 'gap_step_mm')) &
             call refuse(content, group, 'gap_step_mm', 'must not be given for a wheelset', '')
         call read_state_group(content, case)

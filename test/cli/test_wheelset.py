@@ -192,6 +192,17 @@ class Wheelset(ProgramTest):
             self.refused(1, "wheelset", "bad.nml", "--states", "states.csv", says=["normal", name])
         self.write("bad.nml", CASE + "&numerics\n tangential='tang'\n/\n")
         self.refused(1, "wheelset", "bad.nml", "--states", "states.csv", says=["tang"])
+        self.write("bad.nml", CASE + "&numerics\n smoothing_um=1.0\n/\n")
+        self.refused(1, "wheelset", "bad.nml", "--states", "states.csv",
+                     says=["smoothing_um", "--smooth-wavelength"])
+
+    def test_pressures_beyond_yield_are_named(self):
+        state = "1,right,2,0,0.002,2000,,1e4"
+        pmax = float(self.solved(state)[0]["pmax_MPa"])
+        for limit, word in ((0.99 * pmax, "beyond_yield"), (1.01 * pmax, "ok")):
+            self.write("limit.nml", CASE + f"&numerics\n yield_MPa={limit}\n/\n")
+            row = self.solved(state, case="limit.nml")[0]
+            self.assertEqual((row["status"], float(row["pmax_MPa"])), (word, pmax))
 
     def test_friction_of_tread_and_flange_and_of_slip(self):
         state = "1,right,8,-0.0086,0.0192,2000,-4.2534857,10000"
