@@ -25,6 +25,8 @@ module faststrip_contact_case
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
+        ! Tuned [1]. Origin: as that of strip_options_t.
+        real(wp) :: strip_tolerance = 1.0e-6_wp !! relative size of the strips' last step
         logical :: estimate = .true.       !! are errors estimated? Of strips it costs about a step
         real(wp) :: resolution_limit = default_resolution
             !! `st_under_resolved` names an estimated relative error above this, > 0

@@ -454,6 +454,7 @@ contains
         type(status_t) :: ellipses
 
         options%strips_per_patch = case%methods%strips_per_patch
+        options%tolerance = case%strip_tolerance
         options%warm_start = case%warm_start
         options%resolution_limit = case%resolution_limit
         if (workspace%solver%max_strips < strip_capacity(case%methods)) then

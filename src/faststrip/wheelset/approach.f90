@@ -9,6 +9,7 @@ module faststrip_wheelset_approach
     private
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
+    public :: largest_jump
 
     ! Tuned [1]: equilibrium, of the load. Origin: above the digits of a contact's solution.
     real(wp), parameter :: exact = 7.0e-11_wp
@@ -18,8 +19,8 @@ module faststrip_wheelset_approach
     ! Tuned [1]: a bracket that is closed, of its upper end: there the force jumps. Origin: chosen:
     ! the force of a smooth contact changes by less than near_enough within it.
     real(wp), parameter :: least_bracket = 1.0e-9_wp
-    ! Tuned [1]: largest misfit of a force that jumps which still is an answer. Origin: chosen: as
-    ! large as errors that are named.
+    !> Largest misfit of a force that jumps which still is an answer.
+    !> Tuned [1]. Origin: chosen: as large as errors that are named.
     real(wp), parameter :: largest_jump = 0.1_wp
     ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
     ! near_enough.

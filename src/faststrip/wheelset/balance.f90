@@ -1,13 +1,15 @@
 !> Height and roll at which both wheels carry the axle load together, and the moment of the frame.
 module faststrip_wheelset_balance
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
-                                     st_no_convergence
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
+                                     st_no_convergence, st_target_missed
     use faststrip_geometry_overlap, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_approach, only: usual_approach
+    use faststrip_wheelset_approach, only: usual_approach, largest_jump
     use faststrip_wheelset_height, only: set_outline, try_height
+    use faststrip_wheelset_loads, only: start_afresh
     use faststrip_wheelset_roll, only: roll_search_t, next_roll, most_roll_step
+    use faststrip_wheelset_share, only: solve_for_share
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, side_right, side_left
     implicit none
@@ -38,8 +40,8 @@ module faststrip_wheelset_balance
 
 contains
 
-    !> Height and roll at which both wheels carry the axle load, and its moment: Broyden's method
-    !> from the stiffness of each wheel.
+    !> Height and roll at which both wheels carry the axle load, and its moment: from the last
+    !> solution or from usual approaches; where that leads nowhere, from the share of each wheel.
     subroutine solve_for_balance(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
@@ -47,22 +49,88 @@ contains
         type(wheelset_demand_t), intent(in) :: demand          !! axle load, N, moment, N mm
         type(wheelset_result_t), intent(inout) :: result       !! of both wheels, left in a mirror
         type(status_t), intent(inout) :: status
-            !! `st_no_contact`, `st_no_convergence`, those of contacts
+            !! `st_no_contact`, `st_no_convergence`, those of contacts; `st_target_missed`: forces
+            !! jump over the load
+
+        type(wheelset_state_t) :: shared
+        real(wp) :: missing
+        logical :: was_warm
+
+        do
+            was_warm = workspace%has_last
+            missing = huge(1.0_wp)
+            call start_balance(model, workspace, state, demand, status)
+            if (.not. is_error(status)) &
+                call improve_balance(model, workspace, state, demand, most_steps, result, &
+                                     missing, status)
+            if (.not. is_error(status) .and. missing <= near_enough) return
+            if (.not. was_warm) exit
+            ! Afresh, where the last solution leads nowhere.
+            call start_afresh(workspace)
+            call clear_status(status)
+        end do
+        call clear_status(status)
+        call solve_for_share(model, workspace, state, demand, result, status)
+        if (is_error(status)) return
+        call clear_status(status)
+        shared = state
+        call improve_balance(model, workspace, state, demand, most_steps, result, missing, status)
+        if (.not. is_error(status) .and. missing <= near_enough) return
+        ! Nothing is nearer than the shares.
+        call clear_status(status)
+        state = shared
+        call improve_balance(model, workspace, state, demand, 0, result, missing, status)
+        if (is_error(status)) return
+        call name_missing(demand, missing, status)
+    end subroutine solve_for_balance
+
+    ! Where forces jump over the load, something of it is missing.
+    subroutine name_missing(demand, missing, status)
+        type(wheelset_demand_t), intent(in) :: demand
+        real(wp), intent(in) :: missing
+        type(status_t), intent(inout) :: status
+
+        if (missing <= largest_jump) then
+            call set_status(status, st_target_missed, 'the forces jump over the axle load and ' // &
+                            'its moment; they miss them by ' // trim(number_text(missing)) // &
+                            ' of the load')
+        else
+            call set_status(status, st_no_convergence, 'no height and roll carry the axle load ' &
+                            // 'of ' // trim(number_text(demand%axle_load)) // ' N and the roll ' &
+                            // 'moment: the forces jump')
+        end if
+    end subroutine name_missing
+
+    ! From a state to one at which both wheels carry the load and its moment: Broyden's method from
+    ! the stiffness of each wheel.
+    subroutine improve_balance(model, workspace, state, demand, steps, result, still_missing, &
+                               status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(inout) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        integer, intent(in) :: steps
+        type(wheelset_result_t), intent(inout) :: result
+        real(wp), intent(out) :: still_missing ! of the load
+        type(status_t), intent(inout) :: status
 
         real(wp) :: touch(2), now(2), left(2), before(2), step(2), change(2), jacobian(2, 2), &
             scale(2), part
         logical :: gains, ends, is_measured
         integer :: i, j
 
-        call start_balance(model, workspace, state, demand, touch, status)
-        if (is_error(status)) return
+        still_missing = huge(1.0_wp)
+        do i = side_right, side_left
+            call set_outline(model, workspace, state, i, touch(i), status)
+            if (is_error(status)) return
+        end do
         now = [state%z, state%roll]
         scale = demand%axle_load*[1.0_wp, model%pair(side_right)%y_line]
         call misfit(left)
         if (is_error(status)) return
         call first_jacobian()
         is_measured = .false.
-        do i = 1, most_steps
+        do i = 1, steps
             if (all(abs(left) <= exact*scale)) exit
             step = newton_step()
             part = min(1.0_wp, most_roll_step/max(abs(step(2)), tiny(1.0_wp)))
@@ -114,12 +182,7 @@ contains
             end associate
         end do
         if (is_error(status)) return
-        if (missing(left) > near_enough) then
-            call set_status(status, st_no_convergence, 'no height and roll carry the axle load ' &
-                            // 'of ' // trim(number_text(demand%axle_load)) // ' N and the roll ' &
-                            // 'moment: a wheel would lift')
-            return
-        end if
+        still_missing = missing(left)
         do i = side_right, side_left
             workspace%wheel(i)%approach = state%z - touch(i)
         end do
@@ -230,20 +293,19 @@ contains
                 touch(side) = lowest_height(workspace%wheel(side)%outline)
             end do
         end function touches_enough
-    end subroutine solve_for_balance
+    end subroutine improve_balance
 
     ! A height and a roll at which both wheels overlap about as much as they should: first touch of
     ! both, then the usual approach.
-    subroutine start_balance(model, workspace, state, demand, touch, status)
+    subroutine start_balance(model, workspace, state, demand, status)
         type(wheelset_model_t), intent(in) :: model
         type(wheelset_workspace_t), intent(inout) :: workspace
         type(wheelset_state_t), intent(inout) :: state
         type(wheelset_demand_t), intent(in) :: demand
-        real(wp), intent(out) :: touch(2)
         type(status_t), intent(inout) :: status
 
         type(roll_search_t) :: search
-        real(wp) :: approach(2), apart
+        real(wp) :: touch(2), approach(2), apart
         integer :: i, side
 
         state%roll = 0.0_wp

@@ -8,8 +8,7 @@ module faststrip_wheelset_solve
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_no_contact, st_no_convergence, &
-                                     st_target_missed, st_workspace_too_small
+                                     st_bad_argument, st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -21,12 +20,12 @@ module faststrip_wheelset_solve
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, is_near, usual_approach
+                                           is_found, usual_approach
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_height, only: set_outline, try_height
-    use faststrip_wheelset_roll, only: roll_search_t, next_roll
+    use faststrip_wheelset_loads, only: start_afresh, solve_loads, solve_for_roll, name_jump
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
-                                        wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
+                                        wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, most_contacts
     use faststrip_wheelset_wheel, only: estimate_wheel, mirror_wheel
@@ -34,12 +33,6 @@ module faststrip_wheelset_solve
     private
 
     public :: make_wheelset, reserve_wheelset, solve_wheelset
-
-    ! Tuned [1]: equal heights of two wheels, of the radius. Origin: above the digits of a contact's
-    ! solution.
-    real(wp), parameter :: exact = 9.0e-11_wp
-    ! Tuned [steps]: of the roll. Origin: capacity; five are usual.
-    integer, parameter :: most_steps = 80
 
 contains
 
@@ -156,16 +149,14 @@ contains
         type(wheelset_state_t) :: found
 
         found = state
-        if (.not. workspace%has_last) then
-            ! What an earlier solution left behind must not count.
-            workspace%wheel%n = 0
-            workspace%wheel%approach = 0.0_wp
-        end if
+        if (.not. workspace%has_last) call start_afresh(workspace)
         select case (demand%kind)
         case (demand_position)
             call solve_at_position(model, workspace, found, demand, result, status)
         case (demand_loads)
             if (demand%roll_is_free) then
+                found%roll = 0.0_wp
+                if (workspace%has_last) found%roll = workspace%last_state%roll
                 call solve_for_roll(model, workspace, found, demand, result, status)
             else
                 call solve_loads(model, workspace, found, demand, result, status)
@@ -256,116 +247,6 @@ contains
             end if
         end do
     end subroutine solve_at_position
-
-    ! Each wheel with a height of its own.
-    subroutine solve_loads(model, workspace, state, demand, result, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(in) :: state
-        type(wheelset_demand_t), intent(in) :: demand
-        type(wheelset_result_t), intent(inout) :: result
-        type(status_t), intent(inout) :: status
-
-        type(status_t) :: jumped
-        integer :: side
-
-        do side = side_right, side_left
-            if (.not. demand%wants(side)) cycle
-            call clear_status(jumped)
-            call solve_load(model, workspace, state, side, demand%load(side), &
-                            result%wheel(side), jumped)
-            if (jumped%code /= 0) status = jumped
-            if (is_error(status)) return
-        end do
-    end subroutine solve_loads
-
-    ! The height at which one wheel carries its load.
-    subroutine solve_load(model, workspace, state, side, load, wheel, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(in) :: state
-        integer, intent(in) :: side
-        real(wp), intent(in) :: load
-        type(wheel_result_t), intent(inout) :: wheel
-        type(status_t), intent(inout) :: status
-
-        type(approach_search_t) :: search
-        real(wp) :: touch
-        logical :: is_warm
-
-        call set_outline(model, workspace, state, side, touch, status)
-        if (is_error(status)) return
-        is_warm = workspace%has_last .and. workspace%wheel(side)%approach > 0.0_wp
-        do
-            if (is_warm) then
-                call start_search(search, load, workspace%wheel(side)%approach)
-            else
-                workspace%wheel(side)%n = 0
-                call start_search(search, load, usual_approach(load))
-            end if
-            do while (search%goes_on)
-                call try_height(model, workspace, state, side, touch + search%approach, wheel)
-                if (is_error(wheel%status)) exit
-                call take_force(search, wheel%force(3))
-            end do
-            if (is_found(search) .or. .not. is_warm) exit
-            ! Afresh, where the last solution leads nowhere.
-            is_warm = .false.
-        end do
-        if (is_error(wheel%status)) then
-            status = wheel%status
-            return
-        end if
-        if (.not. is_found(search)) call name_jump(search, status)
-        if (is_error(status)) return
-        if (search%approach /= search%best) &
-            call try_height(model, workspace, state, side, touch + search%best, wheel)
-        workspace%wheel(side)%approach = search%best
-        wheel%z = touch + search%best
-    end subroutine solve_load
-
-    ! A force that jumps over the load, as where a rough profile is answered now by strips, now by
-    ! the lattice.
-    subroutine name_jump(search, status)
-        type(approach_search_t), intent(in) :: search
-        type(status_t), intent(out) :: status
-
-        if (is_near(search)) then
-            call set_status(status, st_target_missed, 'the force jumps over the load; its ' // &
-                            'vertical part misses it by ' // &
-                            trim(number_text(search%misfit)) // ' of it')
-        else
-            call set_status(status, st_no_convergence, 'no height of the wheelset carries the ' // &
-                            trim(number_text(search%load)) // ' N: the force jumps')
-        end if
-    end subroutine name_jump
-
-    ! Both wheels with loads of their own, and the roll at which they have the same height.
-    subroutine solve_for_roll(model, workspace, state, demand, result, status)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_workspace_t), intent(inout) :: workspace
-        type(wheelset_state_t), intent(inout) :: state
-        type(wheelset_demand_t), intent(in) :: demand
-        type(wheelset_result_t), intent(inout) :: result
-        type(status_t), intent(inout) :: status
-
-        type(roll_search_t) :: search
-        real(wp) :: apart
-        integer :: i
-
-        state%roll = 0.0_wp
-        if (workspace%has_last) state%roll = workspace%last_state%roll
-        do i = 1, most_steps
-            call clear_status(status)
-            call solve_loads(model, workspace, state, demand, result, status)
-            if (is_error(status)) return
-            workspace%has_last = .true.
-            apart = result%wheel(side_right)%z - result%wheel(side_left)%z
-            if (abs(apart) <= exact*model%radius) return
-            call next_roll(search, apart, model%pair(side_right)%y_line, state%roll)
-        end do
-        call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')
-    end subroutine solve_for_roll
 
     ! The height at which both wheels carry the axle load together, at a given roll.
     subroutine solve_for_height(model, workspace, state, demand, result, status)

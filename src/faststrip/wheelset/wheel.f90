@@ -23,6 +23,10 @@ module faststrip_wheelset_wheel
 
     public :: solve_wheel_at, estimate_wheel, mirror_wheel, take_motion
 
+    ! Tuned [1]: of the strips' last step. Origin: searches of a load see no noise beside the
+    ! equilibrium of 1e-10 that they look for.
+    real(wp), parameter :: strip_tolerance = 1.0e-10_wp
+
 contains
 
     !> All contacts of a wheel that is lowered beyond the state of its outline, without estimates.
@@ -48,6 +52,7 @@ contains
         case = model%case
         case%by_load = .false.
         case%estimate = .false.
+        case%strip_tolerance = min(case%strip_tolerance, strip_tolerance)
         case%warm_start = workspace%n == n
         workspace%n = n
         workspace%region(:n) = regions(:n)
