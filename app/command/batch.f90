@@ -8,11 +8,10 @@ module faststrip_command_batch
                                    end_row, close_csv, csv_text_t
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_files_gap, only: read_gap_file
     use faststrip_command_batch_friction, only: read_row_friction
     use faststrip_command_console, only: fail, fail_on_error, note, progress, put_origin, &
                                          concerns_gap, exit_bad_input
-    use faststrip_command_files, only: take_input
+    use faststrip_command_gap_cache, only: gap_cache_t, take_gap_name, read_gap_once
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text
     use faststrip_contact_case, only: contact_case_t
     use faststrip_command_methods, only: numerics_t
@@ -43,6 +42,8 @@ contains
         type(solver_t) :: solver
         type(contact_case_t) :: options, case
         type(outcome_t) :: outcome
+        type(gap_cache_t), allocatable :: cache
+        character(len=:), allocatable :: gap_name
         integer :: row, i, n_failed, column(size(case_columns))
 
         command%name = 'batch'
@@ -72,8 +73,9 @@ contains
         end do
         call refuse_result_columns(table)
         do row = 1, table%n_rows
-            call take_input(beside(table%file, cell_text(table, row, column(2))))
+            call take_gap_name(beside(table%file, cell_text(table, row, column(2))), gap_name)
         end do
+        allocate (cache)
         call make_solver(numerics, .false., solver, status)
         call fail_on_error(status)
         call open_csv(writer, option_text(command, '-o', '-'), status)
@@ -84,7 +86,7 @@ contains
         n_failed = 0
         do row = 1, table%n_rows
             case = options
-            call read_row(table, row, column, case, status)
+            call read_row(table, row, column, cache, case, status)
             if (.not. is_error(status)) call solve(solver, case, outcome, status)
             do i = 1, table%n_columns
                 if (i == column(load_column) .and. .not. (case%by_load .or. is_error(status))) &
@@ -153,9 +155,10 @@ contains
     end subroutine refuse_result_columns
 
     !> The contact of a row.
-    subroutine read_row(table, row, column, case, status)
+    subroutine read_row(table, row, column, cache, case, status)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: row, column(:)
+        type(gap_cache_t), intent(inout) :: cache
         type(contact_case_t), intent(inout) :: case
         type(status_t), intent(out) :: status
 
@@ -185,7 +188,7 @@ contains
         case%creepage = creepage_t(number(7), number(8), number(9))
         call read_row_friction(table, row, case%mu, case%friction, status)
         if (is_error(status)) return
-        call read_gap_file(beside(table%file, cell_text(table, row, column(2))), case%gap, &
+        call read_gap_once(cache, beside(table%file, cell_text(table, row, column(2))), case%gap, &
                            status)
     end subroutine read_row
 end module faststrip_command_batch

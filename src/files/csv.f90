@@ -8,7 +8,7 @@
 module faststrip_files_csv
     use faststrip_files_csv_table, only: csv_text_t, csv_table_t, read_csv, column_index, &
                                          require_column, cell_text, cell_number, cell_integer, &
-                                         column_numbers
+                                         column_numbers, several_columns
     use faststrip_files_csv_writer, only: csv_writer_t, open_csv, put_comment, put_header, &
                                           put_cell, end_row, put_line, close_csv, abort_csv, &
                                           real_text
@@ -19,7 +19,7 @@ module faststrip_files_csv
 
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers
+    public :: column_numbers, several_columns
     public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
     public :: real_text

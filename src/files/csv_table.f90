@@ -6,13 +6,13 @@ module faststrip_files_csv_table
                                      st_file_format
     use faststrip_base_text, only: trim_blanks, parse_real, parse_integer, integer_text, &
                                    set_place_status
-    use faststrip_files_lines, only: text_file_t, open_text, close_text, read_line
+    use faststrip_files_lines, only: text_file_t, open_text, close_text, find_line
     implicit none
     private
 
     public :: csv_text_t, csv_table_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers
+    public :: column_numbers, several_columns
 
     !> One text of its own length.
     type :: csv_text_t
@@ -25,15 +25,19 @@ module faststrip_files_csv_table
         integer :: n_columns = 0                      !! number of columns
         integer :: n_rows = 0                         !! number of rows below the header
         type(csv_text_t), allocatable :: names(:)     !! names of the columns
-        type(csv_text_t), allocatable :: cells(:, :)  !! texts, (column, row)
+        character(len=:), allocatable, private :: text !! of all cells, one behind the other; may
+                                                       !! be longer
+        integer, allocatable, private :: end_of(:)     !! where that of a cell ends, row by row,
+                                                       !! from 0 on; may be longer
         integer, allocatable :: line(:)               !! line of the file each row stands on
         type(csv_text_t), allocatable :: comments(:)  !! comment lines, without the `#`
         integer, allocatable :: comment_line(:)       !! line of the file each stands on
     end type csv_table_t
 
-    ! More cells than this are no table, or have no end: 1 GB in memory.
+    ! More cells than this are no table, or have no end: 1 GB in memory with the texts.
     integer, parameter :: most_cells = 25000000
 
+    character(len=1), parameter :: tab = achar(9)
     character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
 contains
@@ -59,40 +63,47 @@ contains
         character(len=*), intent(in) :: path
         type(csv_table_t), intent(out) :: table
 
+        ! Tuned [characters, cells]: first room. Origin: chosen: a gap of 400 points.
+        integer, parameter :: first_text = 16384, first_cells = 2048
+
         table%file = path
-        allocate (table%names(0), table%cells(0, 0), table%line(0), table%comments(0))
-        allocate (table%comment_line(0))
+        allocate (table%names(0), table%line(0), table%comments(0), table%comment_line(0))
+        allocate (character(len=first_text) :: table%text)
+        allocate (table%end_of(0:first_cells))
+        table%end_of(0) = 0
     end subroutine empty_table
 
     subroutine read_rows(file, table, status)
         type(text_file_t), intent(inout) :: file
         type(csv_table_t), intent(inout) :: table
         type(status_t), intent(inout) :: status
-        character(len=:), allocatable :: line
-        type(csv_text_t), allocatable :: cells(:)
-        integer :: n_comments
+        integer :: n_comments, first, last, filled, n
         logical :: found, has_header
 
         n_comments = 0
+        filled = 0
         has_header = .false.
         do
-            call read_line(file, line, found, status)
+            call find_line(file, first, last, found, status)
             if (status%code /= 0) return
             if (.not. found) exit
-            if (file%line == 1 .and. index(line, byte_order_mark) == 1) line = line(4:)
-            line = trim_blanks(line)
-            if (len(line) == 0) cycle
-            if (line(1:1) == '#') then
-                call append_comment(table, n_comments, trim_blanks(line(2:)), file%line)
+            if (file%line == 1 .and. index(file%buffer(first:last), byte_order_mark) == 1) &
+                first = first + len(byte_order_mark)
+            call leave_blanks(file%buffer, first, last)
+            if (last < first) cycle
+            if (file%buffer(first:first) == '#') then
+                call append_comment(table, n_comments, &
+                                    trim_blanks(file%buffer(first + 1:last)), file%line)
                 cycle
             end if
-            call split_line(line, cells, table%file, file%line, status)
+            call take_cells(file%buffer(first:last), table, filled, n, file%line, status)
             if (status%code /= 0) return
             if (has_header) then
-                call append_row(table, cells, file%line, status)
+                call keep_row(table, filled, n, file%line, status)
             else
-                call take_header(table, cells, file%line, status)
+                call take_header(table, n, file%line, status)
                 has_header = .true.
+                filled = 0
             end if
             if (status%code /= 0) return
         end do
@@ -104,9 +115,23 @@ contains
                                   table%file, 0)
             return
         end if
-        table%cells = table%cells(:, :table%n_rows)
         table%line = table%line(:table%n_rows)
     end subroutine read_rows
+
+    ! Leave out the blanks and tabulators at both ends of a range.
+    pure subroutine leave_blanks(text, first, last)
+        character(len=*), intent(in) :: text
+        integer, intent(inout) :: first, last
+
+        do while (last >= first)
+            if (text(last:last) /= ' ' .and. text(last:last) /= tab) exit
+            last = last - 1
+        end do
+        do while (first < last)
+            if (text(first:first) /= ' ' .and. text(first:first) /= tab) exit
+            first = first + 1
+        end do
+    end subroutine leave_blanks
 
     pure subroutine append_comment(table, n, text, line)
         type(csv_table_t), intent(inout) :: table
@@ -128,113 +153,176 @@ contains
         table%comment_line(n) = line
     end subroutine append_comment
 
-    subroutine take_header(table, cells, number, status)
+    ! The first `n` cells are the names.
+    subroutine take_header(table, n, number, status)
         type(csv_table_t), intent(inout) :: table
-        type(csv_text_t), intent(in) :: cells(:)
-        integer, intent(in) :: number
+        integer, intent(in) :: n, number
         type(status_t), intent(inout) :: status
         integer :: i, j
 
-        do i = 2, size(cells)
+        deallocate (table%names)
+        allocate (table%names(n))
+        do i = 1, n
+            table%names(i)%text = cell(table, i)
+        end do
+        do i = 2, n
             do j = 1, i - 1
-                if (cells(i)%text == cells(j)%text) then
+                if (table%names(i)%text == table%names(j)%text) then
                     call set_place_status(status, st_file_format, 'column names must differ', &
-                                          "'" // cells(i)%text // "'", table%file, number)
+                                          "'" // table%names(i)%text // "'", table%file, number)
                     return
                 end if
             end do
         end do
-        table%n_columns = size(cells)
-        table%names = cells
-        deallocate (table%cells)
-        allocate (table%cells(table%n_columns, 0))
+        table%n_columns = n
     end subroutine take_header
 
-    subroutine append_row(table, cells, number, status)
+    ! The `n` cells behind the `filled` ones of the rows so far are one more row.
+    subroutine keep_row(table, filled, n, number, status)
         type(csv_table_t), intent(inout) :: table
-        type(csv_text_t), intent(in) :: cells(:)
-        integer, intent(in) :: number
+        integer, intent(inout) :: filled
+        integer, intent(in) :: n, number
         type(status_t), intent(inout) :: status
-        type(csv_text_t), allocatable :: more_cells(:, :)
         integer, allocatable :: more_lines(:)
-        integer :: n, capacity, i, j
 
-        if (size(cells) /= table%n_columns) then
-            call refuse_width(table, cells, number, status)
+        if (n /= table%n_columns) then
+            call refuse_width(table, filled, n, number, status)
             return
         end if
-        n = table%n_rows
-        if (real(n + 1, wp)*table%n_columns > most_cells) then
+        filled = filled + n
+        if (filled > most_cells) then
             call set_place_status(status, st_file_format, 'a table must have at most ' &
                                   // integer_text(most_cells) // ' cells', '', table%file, number)
             return
         end if
-        if (n == size(table%line)) then
-            capacity = 2*n + 64
-            allocate (more_cells(table%n_columns, capacity), more_lines(capacity))
-            do j = 1, n
-                do i = 1, table%n_columns
-                    call move_alloc(table%cells(i, j)%text, more_cells(i, j)%text)
-                end do
-            end do
-            more_lines(:n) = table%line
-            call move_alloc(more_cells, table%cells)
+        if (table%n_rows == size(table%line)) then
+            allocate (more_lines(2*table%n_rows + 64))
+            more_lines(:table%n_rows) = table%line
             call move_alloc(more_lines, table%line)
         end if
-        n = n + 1
-        table%cells(:, n) = cells
-        table%line(n) = number
-        table%n_rows = n
-    end subroutine append_row
+        table%n_rows = table%n_rows + 1
+        table%line(table%n_rows) = number
+    end subroutine keep_row
 
     ! A row that is too short misses its last columns; one that is too long has cells without any.
-    subroutine refuse_width(table, cells, number, status)
+    subroutine refuse_width(table, filled, n, number, status)
         type(csv_table_t), intent(in) :: table
-        type(csv_text_t), intent(in) :: cells(:)
-        integer, intent(in) :: number
+        integer, intent(in) :: filled, n, number
         type(status_t), intent(inout) :: status
         character(len=:), allocatable :: what, value
 
         what = 'a row must have ' // integer_text(table%n_columns) // ' cells as the column names'
-        value = integer_text(size(cells))
-        if (size(cells) < table%n_columns) then
-            value = value // ', none for the column ' // table%names(size(cells) + 1)%text
+        value = integer_text(n)
+        if (n < table%n_columns) then
+            value = value // ', none for the column ' // table%names(n + 1)%text
         else
             value = value // ', beyond the column ' // table%names(table%n_columns)%text &
-                    // " '" // cells(table%n_columns + 1)%text // "'"
+                    // " '" // cell(table, filled + table%n_columns + 1) // "'"
         end if
         call set_place_status(status, st_file_format, what, value, table%file, number)
     end subroutine refuse_width
 
-    subroutine split_line(line, cells, file, number, status)
+    ! Text number i.
+    pure function cell(table, i) result(text)
+        type(csv_table_t), intent(in) :: table
+        integer, intent(in) :: i
+        character(len=:), allocatable :: text
+
+        text = table%text(table%end_of(i - 1) + 1:table%end_of(i))
+    end function cell
+
+    ! Put the `n` cells of a line behind `filled` others.
+    subroutine take_cells(line, table, filled, n, number, status)
         character(len=*), intent(in) :: line
-        type(csv_text_t), allocatable, intent(out) :: cells(:)
-        character(len=*), intent(in) :: file
+        type(csv_table_t), intent(inout) :: table
+        integer, intent(in) :: filled
+        integer, intent(out) :: n
         integer, intent(in) :: number
         type(status_t), intent(inout) :: status
-        integer :: pass, n, start, next
+        integer :: i, start, first, last
+
+        call make_room(table, filled, len(line))
+        n = 0
+        start = 1
+        do i = 1, len(line) + 1
+            if (i <= len(line)) then
+                if (line(i:i) == '"') then
+                    call take_quoted_cells(line, table, filled, n, number, status)
+                    return
+                end if
+                if (line(i:i) /= ',') cycle
+            end if
+            first = start
+            last = i - 1
+            call leave_blanks(line, first, last)
+            call put_cell(line(first:last), table, filled + n)
+            n = n + 1
+            start = i + 1
+        end do
+    end subroutine take_cells
+
+    ! The same of a line with quotes.
+    subroutine take_quoted_cells(line, table, filled, n, number, status)
+        character(len=*), intent(in) :: line
+        type(csv_table_t), intent(inout) :: table
+        integer, intent(in) :: filled
+        integer, intent(out) :: n
+        integer, intent(in) :: number
+        type(status_t), intent(inout) :: status
+        integer :: start, next
         character(len=:), allocatable :: text
         logical :: valid
 
-        do pass = 1, 2
-            n = 0
-            start = 1
-            do
-                n = n + 1
-                call take_cell(line, start, text, next, valid)
-                if (.not. valid) then
-                    call set_place_status(status, st_file_format, 'quotes must enclose all of ' &
-                                          // 'cell ' // integer_text(n), &
-                                          trim_blanks(line(start:)), file, number)
-                    return
-                end if
-                if (pass == 2) call move_alloc(text, cells(n)%text)
-                if (next > len(line)) exit
-                start = next + 1
-            end do
-            if (pass == 1) allocate (cells(n))
+        n = 0
+        start = 1
+        do
+            call take_cell(line, start, text, next, valid)
+            if (.not. valid) then
+                call set_place_status(status, st_file_format, 'quotes must enclose all of ' &
+                                      // 'cell ' // integer_text(n + 1), &
+                                      trim_blanks(line(start:)), table%file, number)
+                return
+            end if
+            call put_cell(text, table, filled + n)
+            n = n + 1
+            if (next > len(line)) exit
+            start = next + 1
         end do
-    end subroutine split_line
+    end subroutine take_quoted_cells
+
+    ! Room for the cells of a line behind `filled` others.
+    subroutine make_room(table, filled, length)
+        type(csv_table_t), intent(inout) :: table
+        integer, intent(in) :: filled, length
+        character(len=:), allocatable :: more_text
+        integer, allocatable :: more_ends(:)
+        integer :: used
+
+        used = table%end_of(filled)
+        if (used + length > len(table%text)) then
+            allocate (character(len=2*len(table%text) + length) :: more_text)
+            more_text(:used) = table%text(:used)
+            call move_alloc(more_text, table%text)
+        end if
+        ! A line of so many characters has at most one cell more.
+        if (filled + length + 1 > ubound(table%end_of, 1)) then
+            allocate (more_ends(0:2*ubound(table%end_of, 1) + length + 1))
+            more_ends(:filled) = table%end_of(:filled)
+            call move_alloc(more_ends, table%end_of)
+        end if
+    end subroutine make_room
+
+    ! Put a text behind `filled` others.
+    pure subroutine put_cell(text, table, filled)
+        character(len=*), intent(in) :: text
+        type(csv_table_t), intent(inout) :: table
+        integer, intent(in) :: filled
+
+        associate (from => table%end_of(filled))
+            table%text(from + 1:from + len(text)) = text
+            table%end_of(filled + 1) = from + len(text)
+        end associate
+    end subroutine put_cell
 
     ! The cell that starts at a place of a line; `next` is the comma after it, or beyond the line.
     pure subroutine take_cell(line, start, text, next, valid)
@@ -315,7 +403,7 @@ contains
         text = ''
         if (row < 1 .or. row > table%n_rows) return
         if (column < 1 .or. column > table%n_columns) return
-        text = table%cells(column, row)%text
+        text = cell(table, (row - 1)*table%n_columns + column)
     end function cell_text
 
     !> The real number in a cell. Refused: an empty cell, anything beside the number, NaN and
@@ -331,12 +419,12 @@ contains
         value = 0.0_wp
         call check_cell(table, row, column, status)
         if (status%code /= 0) return
-        call parse_real(table%cells(column, row)%text, value, valid)
+        call parse_cell(table, row, column, value, valid)
         if (.not. valid) then
             call set_place_status(status, st_file_format, &
                                   'a finite number must stand in column ' // &
                                   table%names(column)%text, &
-                                  "'" // table%cells(column, row)%text // "'", &
+                                  "'" // cell_text(table, row, column) // "'", &
                                   table%file, table%line(row))
         end if
     end subroutine cell_number
@@ -353,15 +441,26 @@ contains
         value = 0
         call check_cell(table, row, column, status)
         if (status%code /= 0) return
-        call parse_integer(table%cells(column, row)%text, value, valid)
+        call parse_integer(cell_text(table, row, column), value, valid)
         if (.not. valid) then
             call set_place_status(status, st_file_format, &
                                   'a whole number must stand in column ' // &
                                   table%names(column)%text, &
-                                  "'" // table%cells(column, row)%text // "'", &
+                                  "'" // cell_text(table, row, column) // "'", &
                                   table%file, table%line(row))
         end if
     end subroutine cell_integer
+
+    pure subroutine parse_cell(table, row, column, value, valid)
+        type(csv_table_t), intent(in) :: table
+        integer, intent(in) :: row, column
+        real(wp), intent(out) :: value
+        logical, intent(out) :: valid
+        integer :: i
+
+        i = (row - 1)*table%n_columns + column
+        call parse_real(table%text(table%end_of(i - 1) + 1:table%end_of(i)), value, valid)
+    end subroutine parse_cell
 
     pure subroutine check_cell(table, row, column, status)
         type(csv_table_t), intent(in) :: table
@@ -391,4 +490,29 @@ contains
             if (status%code /= 0) return
         end do
     end subroutine column_numbers
+
+    !> The numbers of several columns, row by row up to the first cell that holds none.
+    pure subroutine several_columns(table, columns, values, n, status)
+        type(csv_table_t), intent(in) :: table          !! a table that was read
+        integer, intent(in) :: columns(:)               !! their numbers, each 1 to n_columns
+        real(wp), allocatable, intent(out) :: values(:, :) !! (row, column), the first `n` rows
+                                                        !! count
+        integer, intent(out) :: n                       !! rows before the first such cell
+        type(status_t), intent(out) :: status           !! `st_file_format`
+        logical :: valid
+        integer :: row, i
+
+        call clear_status(status)
+        allocate (values(table%n_rows, size(columns)))
+        n = 0
+        do row = 1, table%n_rows
+            do i = 1, size(columns)
+                call parse_cell(table, row, columns(i), values(row, i), valid)
+                if (valid) cycle
+                call cell_number(table, row, columns(i), values(row, i), status)
+                return
+            end do
+            n = row
+        end do
+    end subroutine several_columns
 end module faststrip_files_csv_table

@@ -4,7 +4,8 @@ module faststrip_files_csv_writer
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, &
                                            c_null_ptr, c_ptr, c_size_t
-    use, intrinsic :: iso_fortran_env, only: output_unit
+    use, intrinsic :: iso_fortran_env, only: int64, output_unit
+    use faststrip_base_decimal, only: decompose_decimal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_write
     use faststrip_base_text, only: trim_blanks, integer_text
@@ -197,12 +198,49 @@ contains
         real(wp), intent(in) :: value         !! any
         character(len=:), allocatable :: text !! as `1.2345678901234567E+002`, no blanks
         character(len=24) :: buffer
+        integer :: first
 
-        text = ''
-        if (.not. ieee_is_finite(value)) return
-        write (buffer, '(es24.16e3)') value
-        text = trim(adjustl(buffer))
+        if (.not. ieee_is_finite(value)) then
+            text = ''
+            return
+        end if
+        call write_real(value, buffer, first)
+        text = buffer(first:)
     end function real_text
+
+    ! A finite number into the end of a buffer.
+    pure subroutine write_real(value, buffer, first)
+        real(wp), intent(in) :: value
+        character(len=24), intent(out) :: buffer
+        integer, intent(out) :: first ! where the text begins: ends with the buffer
+
+        ! Given: of the format es24.16e3.
+        integer, parameter :: sign_at = 1, point_at = 3, mantissa_end = 19, exponent_sign_at = 21
+        integer(int64) :: digits
+        integer :: power, i
+        logical :: is_sure
+
+        call decompose_decimal(abs(value), digits, power, is_sure)
+        if (is_sure) then
+            do i = mantissa_end, sign_at + 1, -1
+                if (i == point_at) cycle
+                buffer(i:i) = achar(iachar('0') + int(modulo(digits, 10_int64)))
+                digits = digits/10
+            end do
+            buffer(point_at:point_at) = '.'
+            buffer(sign_at:sign_at) = merge('-', ' ', value < 0.0_wp)
+            buffer(mantissa_end + 1:mantissa_end + 1) = 'E'
+            buffer(exponent_sign_at:exponent_sign_at) = merge('-', '+', power < 0)
+            power = abs(power)
+            do i = len(buffer), exponent_sign_at + 1, -1
+                buffer(i:i) = achar(iachar('0') + modulo(power, 10))
+                power = power/10
+            end do
+        else
+            write (buffer, '(es24.16e3)') value
+        end if
+        first = merge(2, 1, buffer(sign_at:sign_at) == ' ')
+    end subroutine write_real
 
     pure function quoted(value) result(text)
         character(len=*), intent(in) :: value

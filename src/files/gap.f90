@@ -1,6 +1,6 @@
 !> Reading an undeformed gap from a CSV file.
 module faststrip_files_gap
-    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_number, cell_text
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, several_columns, cell_text
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap, only: gap_t, min_gap_points
     use faststrip_base_status, only: status_t, is_error, st_not_increasing, st_too_few_points
@@ -23,41 +23,36 @@ contains
                                                !! missing or a cell holds no finite number;
                                                !! `st_not_increasing`; `st_too_few_points`
         type(csv_table_t) :: table
-        integer :: y_column, h_column, inv2r_column, row
-        real(wp), allocatable :: y(:), h(:), inv2r(:)
+        character(len=*), parameter :: names(3) = [character(len=12) :: &
+            'y_mm', 'h_mm', 'inv2R_per_mm']
+        type(status_t) :: read
+        integer :: column(size(names)), i, n, row
+        real(wp), allocatable :: values(:, :)
 
         call read_csv(path, table, status)
         if (is_error(status)) return
-        call require_column(table, 'y_mm', y_column, status)
-        if (is_error(status)) return
-        call require_column(table, 'h_mm', h_column, status)
-        if (is_error(status)) return
-        call require_column(table, 'inv2R_per_mm', inv2r_column, status)
-        if (is_error(status)) return
-        allocate (y(table%n_rows), h(table%n_rows), inv2r(table%n_rows), source=0.0_wp)
-        do row = 1, table%n_rows
-            call cell_number(table, row, y_column, y(row), status)
+        do i = 1, size(names)
+            call require_column(table, trim(names(i)), column(i), status)
             if (is_error(status)) return
-            call cell_number(table, row, h_column, h(row), status)
-            if (is_error(status)) return
-            call cell_number(table, row, inv2r_column, inv2r(row), status)
-            if (is_error(status)) return
-            if (row == 1) cycle
-            if (y(row) <= y(max(row - 1, 1))) then
-                call set_place_status(status, st_not_increasing, &
-                                      'y_mm must be above that of the row before', &
-                                      cell_text(table, row, y_column), path, table%line(row))
-                return
-            end if
         end do
-        if (table%n_rows < min_gap_points) then
+        call several_columns(table, column, values, n, read)
+        do row = 2, n
+            if (values(row, 1) > values(row - 1, 1)) cycle
+            call set_place_status(status, st_not_increasing, &
+                                  'y_mm must be above that of the row before', &
+                                  cell_text(table, row, column(1)), path, table%line(row))
+            return
+        end do
+        status = read
+        if (is_error(status)) return
+        if (n < min_gap_points) then
             call set_place_status(status, st_too_few_points, 'a gap must have at least ' // &
                                   integer_text(min_gap_points) // ' points', &
-                                  integer_text(table%n_rows), path, 0)
+                                  integer_text(n), path, 0)
             return
         end if
-        call move_alloc(y, gap%y)
-        call move_alloc(h, gap%h)
-        call move_alloc(inv2r, gap%inv2r)
+        gap%y = values(:, 1)
+        gap%h = values(:, 2)
+        gap%inv2r = values(:, 3)
     end subroutine read_gap_file
 end module faststrip_files_gap

@@ -1,13 +1,16 @@
-!> Lines of text files, read strictly.
+!> Lines of text files, read strictly: the file goes through a buffer, and a line is a range of it.
+!>
+!> A line ends with LF, CRLF or CR; the last one may have no end.
 module faststrip_files_lines
-    use, intrinsic :: iso_fortran_env, only: iostat_end, iostat_eor
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, &
+                                           c_null_ptr, c_ptr, c_size_t
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_missing, &
                                      st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
     implicit none
     private
 
-    public :: text_file_t, open_text, read_line, close_text, is_folder
+    public :: text_file_t, open_text, find_line, read_line, close_text, is_folder
     public :: longest_line, most_lines, most_bytes
 
     ! What is longer has no end, or is no table: the longest table the program writes itself has a
@@ -16,15 +19,65 @@ module faststrip_files_lines
     integer, parameter :: most_lines = 1200000    !! of a file
     integer, parameter :: most_bytes = 268435456  !! of a file
 
+    ! Longer than any line with its end.
+    ! Tuned [characters]. Origin: chosen: most files are read at once, and so large a piece of
+    ! memory is not yet fetched from the system and given back each time.
+    integer, parameter :: buffer_length = longest_line + 4096
+
     !> A text file being read.
     type :: text_file_t
-        integer :: unit = 0                   !! the Fortran unit
         character(len=:), allocatable :: path !! its name
         integer :: line = 0                   !! number of the line read last
         integer :: bytes = 0                  !! read so far
+        character(kind=c_char, len=:), allocatable :: buffer !! of the file, what is read on
+        type(c_ptr), private :: stream = c_null_ptr !! of the C library
+        integer, private :: next = 1          !! first character of the buffer not yet given
+        integer, private :: filled = 0        !! last one that was read
+        logical, private :: has_ended = .false. !! is there nothing left to fill it with?
+        logical, private :: has_failed = .false. !! because reading failed?
     end type text_file_t
 
-    character(len=1), parameter :: carriage_return = achar(13)
+    character(len=1), parameter :: line_feed = achar(10), carriage_return = achar(13)
+
+    ! Files are read through the C library, which tells how much there was: the last piece of a
+    ! stream is shorter than asked for, which READ does not say by how much.
+    interface
+        function c_fopen(path, mode) bind(c, name='fopen') result(stream)
+            import :: c_char, c_ptr
+            character(kind=c_char), intent(in) :: path(*), mode(*)
+            type(c_ptr) :: stream
+        end function c_fopen
+
+        function c_fread(to, size, count, stream) bind(c, name='fread') result(n)
+            import :: c_char, c_ptr, c_size_t
+            character(kind=c_char), intent(inout) :: to(*)
+            integer(c_size_t), value :: size, count
+            type(c_ptr), value :: stream
+            integer(c_size_t) :: n
+        end function c_fread
+
+        function c_ferror(stream) bind(c, name='ferror') result(code)
+            import :: c_int, c_ptr
+            type(c_ptr), value :: stream
+            integer(c_int) :: code
+        end function c_ferror
+
+        function c_fclose(stream) bind(c, name='fclose') result(code)
+            import :: c_int, c_ptr
+            type(c_ptr), value :: stream
+            integer(c_int) :: code
+        end function c_fclose
+
+        function c_access(path, mode) bind(c, name='access') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: mode
+            integer(c_int) :: code
+        end function c_access
+    end interface
+
+    ! Given: of access(), may it be read?
+    integer(c_int), parameter :: to_read = 4
 
 contains
 
@@ -34,9 +87,7 @@ contains
         type(text_file_t), intent(out) :: file  !! to be closed by `close_text` if all is well
         type(status_t), intent(out) :: status   !! `st_file_missing`: not there, a folder, or not
                                                 !! readable
-        character(len=200) :: words
         logical :: exists
-        integer :: code
 
         call clear_status(status)
         file%path = path
@@ -47,11 +98,13 @@ contains
         else if (is_folder(path)) then
             call set_status(status, st_file_missing, 'a folder, not a file: ' // path)
         else
-            open (newunit=file%unit, file=path, status='old', action='read', form='formatted', &
-                  iostat=code, iomsg=words)
-            if (code == 0) return
+            file%stream = c_fopen(trim(path) // c_null_char, 'r' // c_null_char)
+            if (c_associated(file%stream)) then
+                allocate (character(len=buffer_length) :: file%buffer)
+                return
+            end if
             call set_status(status, st_file_missing, 'cannot read the file: ' // path)
-            if (index(words, 'Permission denied') > 0) status%message = &
+            if (c_access(trim(path) // c_null_char, to_read) /= 0) status%message = &
                 trim(status%message) // ': permission denied'
         end if
     end subroutine open_text
@@ -59,8 +112,12 @@ contains
     !> Close a file.
     subroutine close_text(file)
         type(text_file_t), intent(inout) :: file !! opened by `open_text`
+        integer(c_int) :: code
 
-        close (file%unit)
+        ! Nothing was written, so that nothing is lost if that fails.
+        if (c_associated(file%stream)) code = c_fclose(file%stream)
+        file%stream = c_null_ptr
+        if (allocated(file%buffer)) deallocate (file%buffer)
     end subroutine close_text
 
     !> Is there a folder of that name?
@@ -70,44 +127,61 @@ contains
         inquire (file=path // '/.', exist=is_folder)
     end function is_folder
 
-    !> The next line of a file without its line end (LF or CRLF).
+    !> The next line of a file without its line end.
     subroutine read_line(file, line, found, status)
         type(text_file_t), intent(inout) :: file            !! counts the lines
         character(len=:), allocatable, intent(out) :: line  !! the line; empty at the end
         logical, intent(out) :: found                       !! was there a line left?
-        type(status_t), intent(out) :: status               !! `st_file_format`: reading failed,
-                                                            !! or there is too much to read
-        character(len=4096) :: chunk
-        integer :: code, length
+        type(status_t), intent(out) :: status               !! as of `find_line`
+        integer :: first, last
 
-        line = ''
-        found = .false.
-        call clear_status(status)
+        call find_line(file, first, last, found, status)
+        line = file%buffer(first:last)
+    end subroutine read_line
+
+    !> The same as a range of `file%buffer`, until the next call.
+    subroutine find_line(file, first, last, found, status)
+        type(text_file_t), intent(inout) :: file !! counts the lines
+        integer, intent(out) :: first, last   !! the line's characters; none at the end
+        logical, intent(out) :: found         !! was there a line left?
+        type(status_t), intent(inout) :: status !! set if not all is well: `st_file_format`:
+                                              !! reading failed, or there is too much to read
+        integer :: i
+
+        i = file%next
         do
-            read (file%unit, '(a)', advance='no', size=length, iostat=code) chunk
-            if (code == 0) length = len(chunk)
-            if (code == 0 .or. code == iostat_eor) then
-                if (.not. found) file%line = file%line + 1
-                found = .true.
-                line = line // chunk(:length)
-                if (len(line) > longest_line) call refuse('a line must have at most ' &
-                    // integer_text(longest_line) // ' characters')
-                if (code == 0 .and. status%code == 0) cycle
-            else if (code /= iostat_end) then
-                file%line = file%line + 1
-                call refuse('cannot read on')
+            do i = i, file%filled
+                ! Most characters are beyond both.
+                if (file%buffer(i:i) > carriage_return) cycle
+                if (file%buffer(i:i) == line_feed .or. file%buffer(i:i) == carriage_return) exit
+            end do
+            ! Whether a CR is half of a line end, the character behind it tells.
+            if (i < file%filled .or. file%has_ended .or. i - file%next > longest_line) exit
+            if (i == file%filled) then
+                if (file%buffer(i:i) == line_feed) exit
             end if
-            exit
+            i = i - file%next
+            call fill(file)
+            i = i + file%next
         end do
-        file%bytes = file%bytes + len(line) + 1
+        first = file%next
+        last = i - 1
+        found = first <= file%filled
+        if (found .or. file%has_failed) file%line = file%line + 1
+        if (last - first + 1 > longest_line) then
+            call refuse('a line must have at most ' // integer_text(longest_line) // ' characters')
+        else if (file%has_failed .and. i > file%filled) then
+            call refuse('cannot read on')
+        end if
+        file%next = min(i, file%filled) + 1
+        if (i < file%filled) then
+            if (file%buffer(i:i + 1) == carriage_return // line_feed) file%next = i + 2
+        end if
+        file%bytes = file%bytes + last - first + 2
         if (file%line > most_lines) then
             call refuse('a file must have at most ' // integer_text(most_lines) // ' lines')
         else if (file%bytes > most_bytes) then
             call refuse('a file must have at most ' // integer_text(most_bytes/1048576) // ' MB')
-        end if
-        length = len(line)
-        if (length > 0) then
-            if (line(length:) == carriage_return) line = line(:length - 1)
         end if
 
     contains
@@ -117,5 +191,20 @@ contains
 
             call set_place_status(status, st_file_format, what, '', file%path, file%line)
         end subroutine refuse
-    end subroutine read_line
+    end subroutine find_line
+
+    ! Read on, behind what was not yet given, which moves to the beginning of the buffer.
+    subroutine fill(file)
+        type(text_file_t), intent(inout) :: file
+        integer(c_size_t) :: room, n
+
+        file%buffer(:file%filled - file%next + 1) = file%buffer(file%next:file%filled)
+        file%filled = file%filled - file%next + 1
+        file%next = 1
+        room = len(file%buffer) - file%filled
+        n = c_fread(file%buffer(file%filled + 1:), 1_c_size_t, room, file%stream)
+        file%filled = file%filled + int(n)
+        file%has_ended = n < room
+        file%has_failed = c_ferror(file%stream) /= 0
+    end subroutine fill
 end module faststrip_files_lines

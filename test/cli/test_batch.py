@@ -45,6 +45,19 @@ class Batch(ProgramTest):
         self.write("cases/cases.csv", "\n".join(lines) + "\n")
         return rows, self.good("batch", "cases/cases.csv", *words)
 
+    def test_gaps_that_repeat(self):
+        self.write("gaps/w.csv", gap_text(lambda y: 0.5 * parabola(y), n=301))
+        names = ["g", "w", "g", "g", "w", "./g", "none", "w", "none"]
+        lines = [BATCH_COLUMNS] + [f"{i},gaps/{name}.csv,{GOOD}" for i, name in enumerate(names)]
+        self.write("cases.csv", "\n".join(lines) + "\n")
+        done = self.run_program("batch", "cases.csv")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("no such file: gaps/none.csv"), 2)
+        areas = [row["area_mm2"] for row in rows_of(done.stdout)]
+        sharp, flat = areas[:2]
+        self.assertGreater(float(flat), 1.1 * float(sharp))
+        self.assertEqual(areas, [sharp, flat, sharp, sharp, flat, sharp, "", flat, ""])
+
     def test_against_contact(self):
         rows, results = self.batch_of_gaps()
         self.assertEqual([row["case"] for row in results], [row["yw_mm"] for row in rows])

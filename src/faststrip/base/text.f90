@@ -1,5 +1,7 @@
 !> Words and numbers of a text, read strictly; how an error in a file is told.
 module faststrip_base_text
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_decimal, only: compose_decimal, most_digits
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, message_length
     implicit none
@@ -53,14 +55,100 @@ contains
         character(len=*), intent(in) :: text !! blanks at the two ends are allowed
         real(wp), intent(out) :: value       !! the number; 0 if not valid
         logical, intent(out) :: valid        !! is it a number?
-        character(len=:), allocatable :: word
+        integer :: first, last
+
+        last = len(text)
+        do while (last > 0)
+            if (.not. is_blank(text(last:last))) exit
+            last = last - 1
+        end do
+        first = 1
+        do while (first < last)
+            if (.not. is_blank(text(first:first))) exit
+            first = first + 1
+        end do
+        call parse_usual_real(text(first:last), value, valid)
+        if (.not. valid) call parse_any_real(text(first:last), value, valid)
+    end subroutine parse_real
+
+    pure logical function is_blank(letter)
+        character(len=1), intent(in) :: letter
+
+        is_blank = letter == ' ' .or. letter == tab
+    end function is_blank
+
+    ! A number of as few digits as are told at a glance.
+    pure subroutine parse_usual_real(word, value, valid)
+        character(len=*), intent(in) :: word
+        real(wp), intent(out) :: value
+        logical, intent(out) :: valid ! if not, it may be one nevertheless
+
+        ! Tuned [1]: largest exponent of ten. Origin: safeguard: beyond all doubles.
+        integer, parameter :: most_exponent = 1000
+        integer(int64) :: mantissa
+        integer :: i, start, digit, n_digits, exponent, power
+        logical :: any_digit, point
+
+        value = 0.0_wp
+        valid = .false.
+        start = 1
+        if (len(word) > 0) then
+            if (word(1:1) == '-' .or. word(1:1) == '+') start = 2
+        end if
+        mantissa = 0
+        n_digits = 0
+        power = 0
+        any_digit = .false.
+        point = .false.
+        do i = start, len(word)
+            digit = iachar(word(i:i)) - iachar('0')
+            if (digit >= 0 .and. digit <= 9) then ! Given: digits
+                any_digit = .true.
+                if (n_digits == most_digits) return
+                mantissa = 10*mantissa + digit
+                if (mantissa > 0) n_digits = n_digits + 1
+                if (point) power = power - 1
+            else if (word(i:i) == '.' .and. .not. point) then
+                point = .true.
+            else
+                exit
+            end if
+        end do
+        if (.not. any_digit) return
+        if (i <= len(word)) then
+            select case (word(i:i))
+            case ('e', 'E', 'd', 'D')
+            case default
+                return
+            end select
+            if (i == len(word)) return
+            start = i + 1
+            if (word(start:start) == '-' .or. word(start:start) == '+') start = start + 1
+            if (start > len(word)) return
+            exponent = 0
+            do i = start, len(word)
+                digit = iachar(word(i:i)) - iachar('0')
+                if (digit < 0 .or. digit > 9) return ! Given: digits
+                exponent = 10*exponent + digit
+                if (exponent > most_exponent) return
+            end do
+            if (word(start - 1:start - 1) == '-') exponent = -exponent
+            power = power + exponent
+        end if
+        call compose_decimal(mantissa, power, value, valid)
+        if (word(1:1) == '-' .and. mantissa > 0) value = -value
+    end subroutine parse_usual_real
+
+    pure subroutine parse_any_real(word, value, valid)
+        character(len=*), intent(in) :: word
+        real(wp), intent(out) :: value
+        logical, intent(out) :: valid
         character(len=20) :: leading
         integer :: i, code, power, n_leading, first_power
         logical :: exponent_valid
 
         value = 0.0_wp
         valid = .false.
-        word = trim_blanks(text)
         call scan_mantissa(word, i, leading, n_leading, first_power)
         if (i == 0) return
         power = 0
@@ -80,7 +168,7 @@ contains
         read (word, *, iostat=code) value
         valid = code == 0
         if (.not. valid) value = 0.0_wp
-    end subroutine parse_real
+    end subroutine parse_any_real
 
     ! The mantissa of a number: `next` is the place after it (0: there is none), `leading` its
     ! first 20 digits from the first that is not zero, `first_power` the power of ten of that.
