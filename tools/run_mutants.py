@@ -468,7 +468,7 @@ def stages_of(mutant, quick):
         own = [("fortran", mutant.first)] + own
     others = [] if quick else [stage for stage in ALL_STAGES if stage not in own]
     return [stage for stage in own + others
-            if stage[0] != "fortran" or mutant.file.endswith(".f90")]
+            if stage[0] != "fortran" or mutant.file.endswith((".f90", ".c"))]
 
 
 def is_test(failure):

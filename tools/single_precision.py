@@ -45,10 +45,17 @@ def build(folder, kinds, flags, renamed):
     objects = []
     for source in in_order(kinds):
         target = folder / (str(source.relative_to(ROOT)).replace("/", "_") + ".o")
-        run("gfortran", *FLAGS, *flags.split(), "-J", folder, "-c", source, "-o", target)
+        in_c = source.with_suffix(".c")
+        kind = ["-cpp", "-Dc_double=c_float"] if renamed and in_c.exists() else []
+        run("gfortran", *FLAGS, *kind, *flags.split(), "-J", folder, "-c", source, "-o", target)
         if renamed:
             run("objcopy", *(f"--redefine-sym=d{name}_=s{name}_" for name in LAPACK), target)
         objects.append(target)
+        if in_c.exists():
+            # Its loops for x86-64 are in double precision; elsewhere it has none.
+            flag = ["-U__x86_64__"] if renamed else []
+            objects.append(target.with_suffix(".c.o"))
+            run("gcc", *flag, "-c", in_c, "-o", objects[-1])
     run("gfortran", *objects, "-o", folder / "kernels", "-lopenblas")
     return folder / "kernels"
 

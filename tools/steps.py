@@ -506,7 +506,7 @@ def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
     quietly("stage", [FPM, "install", "--compiler", "gfortran", "--flag", RELEASE_FLAGS,
-                      "--prefix", "build/stage"], "fpm install failed")
+                      "--c-flag", "-fPIC", "--prefix", "build/stage"], "fpm install failed")
     if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
                        "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
         raise Trouble("the installation failed")

@@ -8,6 +8,7 @@ module faststrip_influence_angle_sums
                                                rule_start, cosine, far_limit, near_a0, near_a1, &
                                                near_last, one_cosh, one_sinh, d_cosh, d_sinh
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
+    use faststrip_influence_four_lanes, only: far_rule_lanes, near_rule_lanes
     use faststrip_influence_thin_kernel, only: expand_kernel, last_power
     implicit none
     private
@@ -38,8 +39,9 @@ contains
 
     !> Value, derivative in X and derivative in the half-length of a strip's influence, as in
     !> faststrip_influence_offcentre. Relative error exp(-digits) of the accuracy.
-    pure subroutine angle_moments(accuracy, x, cl, cr, m, found)
+    pure subroutine angle_moments(accuracy, by_lanes, x, cl, cr, m, found)
         integer, intent(in) :: accuracy !! `fine` or `coarse`
+        logical, intent(in) :: by_lanes !! by faststrip_influence_four_lanes, if the processor can
         real(wp), intent(in) :: x       !! X, field point along the strip in half-lengths, >= 0
         real(wp), intent(in) :: cl      !! the nearer edge less the field point's y, in half-lengths
         real(wp), intent(in) :: cr      !! the farther edge less the field point's y
@@ -75,13 +77,45 @@ contains
         end if
         found = .true.
         i = rule_start(rule)
-        if (far) then
+        if (by_lanes) then
+            call sum_by_lanes(accuracy, far, rule, form, x, cl, cr, m)
+        else if (far) then
             call far_sums(rule_size(rule), cosine(i), x, cl, cr, form, m)
         else
             call near_sums(rule_size(rule), one_cosh(i, accuracy), one_sinh(i, accuracy), &
                            d_cosh(i, accuracy), d_sinh(i, accuracy), x, cl, cr, form, m)
         end if
     end subroutine angle_moments
+
+    !> What far_sums and near_sums do, four nodes at a time: two thirds to three quarters of a
+    !> column's time. Four field points at a time, sorted by their rules, take longer: rules are
+    !> many, and few points share one.
+    pure subroutine sum_by_lanes(accuracy, far, rule, form, x, cl, cr, m)
+        integer, intent(in) :: accuracy, rule, form
+        logical, intent(in) :: far
+        real(wp), intent(in) :: x, cl, cr
+        real(wp), intent(out) :: m(3)
+
+        real(wp) :: c(0:2*last_power)
+        integer :: i, n, last
+
+        i = rule_start(rule)
+        n = rule_size(rule)
+        if (form < wide) then
+            last = 4*form ! Given: powers of a form, see expand_kernel
+            call expand_kernel(form, cl, cr, c)
+        else
+            last = ubound(a, 1)
+            c(:last) = a
+        end if
+        if (far) then
+            call far_rule_lanes(last, n, cosine(i), x, cl, cr, c, m)
+        else
+            call near_rule_lanes(last, n, one_cosh(i, accuracy), one_sinh(i, accuracy), &
+                                 d_cosh(i, accuracy), d_sinh(i, accuracy), x, cl, cr, c, m)
+        end if
+        m = merge(2.0_wp, 1.0_wp, form == wide)*pi/n*(cr - cl)*[m(1), -m(2), m(3)]
+    end subroutine sum_by_lanes
 
     !> Trapezium rule in theta, u = cos(theta): the sums of sqrt(1 - u^2), -u/sqrt(1 - u^2) and
     !> u^2/sqrt(1 - u^2) times the kernel.

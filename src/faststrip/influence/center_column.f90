@@ -7,6 +7,9 @@ module faststrip_influence_center_column
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_center_gradient, c_small, c_large
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre
+    use faststrip_influence_four_lanes, only: are_lanes_wanted, lanes, near_center_lanes, &
+                                              near_center_value_lanes, far_center_lanes, &
+                                              far_center_value_lanes
     use faststrip_influence_offcentre, only: strip_influence_gradient
     use faststrip_influence_plain_sizes, only: is_plain, least_size, largest_size
     implicit none
@@ -37,46 +40,54 @@ contains
 
     !> Influence of a strip on points of its centre line, any edges. Relative error below 2e-15,
     !> given the edges' distances over the half-length.
-    pure subroutine center_influence_column(half_length, y_left, y_right, y, value)
+    pure subroutine center_influence_column(half_length, y_left, y_right, y, value, portable)
         real(wp), intent(in) :: half_length !! xd of the strip that carries the pressure, mm, > 0
         real(wp), intent(in) :: y_left      !! its left edge, mm
         real(wp), intent(in) :: y_right     !! its right edge, mm
         real(wp), intent(in) :: y(:)        !! field points, (n), mm
         real(wp), intent(out) :: value(:)   !! influence I, (n), mm
+        logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
         real(wp) :: slope(chunk)
         integer :: from, to
+        logical :: by_lanes
 
+        by_lanes = are_lanes_wanted(portable)
         do from = 1, size(y), chunk
             to = min(from + chunk - 1, size(y))
-            call center_chunk(to - from + 1, half_length, y_left, y_right, y(from:to), .false., &
-                              value(from:to), slope)
+            call center_chunk(to - from + 1, by_lanes, half_length, y_left, y_right, y(from:to), &
+                              .false., value(from:to), slope)
         end do
     end subroutine center_influence_column
 
     !> Influence of a strip on points of its centre line, and its derivative with respect to the
     !> half-length at fixed edges; the derivative to 1e-14 max(1, |c|/(c_right - c_left)).
     pure subroutine center_influence_column_gradient(half_length, y_left, y_right, y, value, &
-                                                     d_half_length)
+                                                     d_half_length, portable)
         real(wp), intent(in) :: half_length       !! xd of the strip with the pressure, mm, > 0
         real(wp), intent(in) :: y_left            !! its left edge, mm
         real(wp), intent(in) :: y_right           !! its right edge, mm
         real(wp), intent(in) :: y(:)              !! field points, (n), mm
         real(wp), intent(out) :: value(:)         !! influence I, (n), mm
         real(wp), intent(out) :: d_half_length(:) !! dI/dxd, (n)
+        logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
         integer :: from, to
+        logical :: by_lanes
 
+        by_lanes = are_lanes_wanted(portable)
         do from = 1, size(y), chunk
             to = min(from + chunk - 1, size(y))
-            call center_chunk(to - from + 1, half_length, y_left, y_right, y(from:to), .true., &
-                              value(from:to), d_half_length(from:to))
+            call center_chunk(to - from + 1, by_lanes, half_length, y_left, y_right, y(from:to), &
+                              .true., value(from:to), d_half_length(from:to))
         end do
     end subroutine center_influence_column_gradient
 
     !> The same for at most `chunk` points, the derivative if asked for.
-    pure subroutine center_chunk(n, half_length, y_left, y_right, y, with_slope, value, slope)
+    pure subroutine center_chunk(n, by_lanes, half_length, y_left, y_right, y, with_slope, value, &
+                                 slope)
         integer, intent(in) :: n
+        logical, intent(in) :: by_lanes
         real(wp), intent(in) :: half_length, y_left, y_right, y(n)
         logical, intent(in) :: with_slope
         real(wp), intent(inout) :: value(n), slope(n)
@@ -84,7 +95,9 @@ contains
         type(points_t) :: near, far, others
 
         call sort_points(n, half_length, y_left, y_right, y, near, far, others)
-        if (with_slope) then
+        if (by_lanes) then
+            call evaluate_by_lanes(with_slope, near, far)
+        else if (with_slope) then
             if (near%n > 0) call near_center(near%n, near%width, near%cl, near%cr, near%value, &
                                              near%slope)
             if (far%n > 0) call far_center(far%n, far%width, far%cl, far%cr, far%value, far%slope)
@@ -141,6 +154,40 @@ contains
             others%place(others%n) = k
         end do
     end subroutine sort_points
+
+    !> Both forms, four points at a time.
+    pure subroutine evaluate_by_lanes(with_slope, near, far)
+        logical, intent(in) :: with_slope
+        type(points_t), intent(inout) :: near, far
+
+        call fill_lanes(near)
+        call fill_lanes(far)
+        if (with_slope) then
+            call near_center_lanes(near%n, least_ratio, near%width, near%cl, near%cr, a_small, &
+                                   b_small, near%value, near%slope)
+            call far_center_lanes(far%n, 0.5_wp*pi, r_centre, far%width, far%cl, far%cr, r_large, &
+                                  far%value, far%slope)
+        else
+            call near_center_value_lanes(near%n, least_ratio, near%width, near%cl, near%cr, &
+                                         a_small, b_small, near%value)
+            call far_center_value_lanes(far%n, 0.5_wp*pi, r_centre, far%width, far%cl, far%cr, &
+                                        r_large, far%value)
+        end if
+    end subroutine evaluate_by_lanes
+
+    !> The last point once more in lanes without a point.
+    pure subroutine fill_lanes(points)
+        type(points_t), intent(inout) :: points
+
+        integer :: n, last
+
+        n = points%n
+        last = lanes*((n + lanes - 1)/lanes)
+        if (n < 1) return
+        points%width(n + 1:last) = points%width(n)
+        points%cl(n + 1:last) = points%cl(n)
+        points%cr(n + 1:last) = points%cr(n)
+    end subroutine fill_lanes
 
     !> One more point of a form.
     pure subroutine put_point(k, cl, cr, width, points)

@@ -17,6 +17,7 @@ module faststrip_influence_tip
     use faststrip_influence_offcentre, only: strip_influence_gradient
     use faststrip_influence_angle_rules, only: coarse
     use faststrip_influence_angle_sums, only: angle_moments, least_near
+    use faststrip_influence_four_lanes, only: are_lanes_wanted
     use faststrip_influence_plain_sizes, only: least_size, largest_size
     implicit none
     private
@@ -39,19 +40,22 @@ module faststrip_influence_tip
 contains
 
     !> Influence of a strip on the tips of others and on its own; relative error below 1e-7.
-    pure subroutine tip_influence_column(half_length, y_left, y_right, x, y, value)
+    pure subroutine tip_influence_column(half_length, y_left, y_right, x, y, value, portable)
         real(wp), intent(in) :: half_length !! xd of the strip with the pressure, mm, > 0
         real(wp), intent(in) :: y_left      !! its left edge, mm
         real(wp), intent(in) :: y_right     !! its right edge, mm
         real(wp), intent(in) :: x(:)        !! field points along the strip, (n), mm, finite
         real(wp), intent(in) :: y(:)        !! field points across, (n), mm, finite
         real(wp), intent(out) :: value(:)   !! influence I, (n), mm
+        logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
         real(wp) :: m(3)
         integer :: k
+        logical :: by_lanes
 
+        by_lanes = are_lanes_wanted(portable)
         do k = 1, size(y)
-            call entry(half_length, y_left, y_right, x(k), y(k), m)
+            call entry(by_lanes, half_length, y_left, y_right, x(k), y(k), m)
             value(k) = m(1)
         end do
     end subroutine tip_influence_column
@@ -59,7 +63,7 @@ contains
     !> The same and its derivatives as in `strip_influence_gradient`. At the strip's own tip the tip
     !> moves with the half-length: d_half_length is the derivative of both, d_x is 0.
     pure subroutine tip_influence_column_gradient(half_length, y_left, y_right, x, y, value, d_x, &
-                                                  d_half_length)
+                                                  d_half_length, portable)
         real(wp), intent(in) :: half_length       !! xd of the strip with the pressure, mm, > 0
         real(wp), intent(in) :: y_left            !! its left edge, mm
         real(wp), intent(in) :: y_right           !! its right edge, mm
@@ -68,12 +72,15 @@ contains
         real(wp), intent(out) :: value(:)         !! influence I, (n), mm
         real(wp), intent(out) :: d_x(:)           !! dI/dx, (n)
         real(wp), intent(out) :: d_half_length(:) !! dI/dxd, (n)
+        logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
         real(wp) :: m(3)
         integer :: k
+        logical :: by_lanes
 
+        by_lanes = are_lanes_wanted(portable)
         do k = 1, size(y)
-            call entry(half_length, y_left, y_right, x(k), y(k), m)
+            call entry(by_lanes, half_length, y_left, y_right, x(k), y(k), m)
             value(k) = m(1)
             d_x(k) = m(2)
             d_half_length(k) = m(3)
@@ -81,7 +88,8 @@ contains
     end subroutine tip_influence_column_gradient
 
     !> One number: value, and its derivatives in x and in the half-length if asked for.
-    pure subroutine entry(half_length, y_left, y_right, x, y, m)
+    pure subroutine entry(by_lanes, half_length, y_left, y_right, x, y, m)
+        logical, intent(in) :: by_lanes
         real(wp), intent(in) :: half_length, y_left, y_right, x, y
         real(wp), intent(out) :: m(3)
 
@@ -101,7 +109,7 @@ contains
                 cl = -cr
                 cr = other
             end if
-            call angle_moments(coarse, xs, cl, cr, m, found)
+            call angle_moments(coarse, by_lanes, xs, cl, cr, m, found)
             if (cl < least_near .and. abs(x) >= half_length .and. abs(x) <= half_length) then
                 own_tip = cr > 0.0_wp .and. cl + cr <= 4.0_wp*epsilon(cr)*(cr + abs(y)*per_length)
                 if (own_tip .and. cr <= 2.0_wp*own_kappa) then
