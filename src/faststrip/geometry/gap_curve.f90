@@ -15,6 +15,8 @@ module faststrip_geometry_gap_curve
                                      st_workspace_too_small, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
     use faststrip_geometry_gap, only: gap_t, check_gap, check_gap_points
+    use faststrip_geometry_gap_blocks, only: gap_blocks_t, reserve_blocks, set_blocks, &
+                                             copy_blocks, next_across, next_valley
     use faststrip_geometry_gap_pieces, only: cut_into_pieces, find_lowest
     use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size
     implicit none
@@ -23,6 +25,7 @@ module faststrip_geometry_gap_curve
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
     public :: gap_at, gap_curvature, level_intervals
     public :: is_mirror_image, mirror_gap_curve
+    public :: valley_below
     public :: gap_inv2r, inclination_change, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
@@ -41,6 +44,7 @@ module faststrip_geometry_gap_curve
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
         real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
+        logical :: has_steps = .false.         !! is any interval a step?
         logical, allocatable :: is_step(:)     !! is interval i a step, which no curve goes through?
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
         real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
@@ -48,6 +52,7 @@ module faststrip_geometry_gap_curve
         logical :: inclination_is_known = .false.     !! does `inclination` count?
         real(wp), allocatable :: inclination(:)       !! of the surfaces from the tangent plane, rad
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
+        type(gap_blocks_t) :: blocks           !! of these ends
         real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
         logical, allocatable :: is_torn(:)     !! does a step or a kink touch the point?
         real(wp), allocatable :: work(:)       !! for the spline's linear system
@@ -81,6 +86,7 @@ contains
                   curve%y_node(3*max_points), curve%h_node(3*max_points), &
                   curve%bend(max_points), curve%work(torn_spline_work_size(max_points)), &
                   source=0.0_wp)
+        call reserve_blocks(curve%blocks, size(curve%h_node))
         allocate (curve%is_step(max_points), curve%is_torn(max_points), source=.false.)
     end subroutine reserve_gap_curve
 
@@ -144,6 +150,8 @@ contains
         to%is_step(:n) = from%is_step(:n)
         to%inv2r(:n) = from%inv2r(:n)
         to%inclination(:n) = from%inclination(:n)
+        to%has_steps = from%has_steps
+        call copy_blocks(from%blocks, to%blocks, nodes)
         to%y_node(:nodes) = from%y_node(:nodes)
         to%h_node(:nodes) = from%h_node(:nodes)
         to%bend(:n) = from%bend(:n)
@@ -179,11 +187,16 @@ contains
         if (is_error(status)) return
         curve%n = n
         curve%is_image = .false.
+        curve%has_steps = any(curve%is_step(:n))
         call cut_into_pieces(curve%y(:n), curve%h(:n), curve%bend(:n), curve%slope_from(:n), &
                              curve%slope_to(:n), curve%y_node, curve%h_node, curve%n_pieces)
         call find_lowest(curve%y_node(:curve%n_pieces + 1), curve%h_node(:curve%n_pieces + 1), &
                          curve%y_lowest, curve%h_lowest)
-        if (is_image) call mirror_gap_curve(curve)
+        if (is_image) then
+            call mirror_gap_curve(curve)
+        else
+            call set_blocks(curve%blocks, curve%h_node(:curve%n_pieces + 1))
+        end if
     end subroutine take_points
 
     !> Which of a gap and its mirror image is the image? That which is lower, or has its point
@@ -229,6 +242,7 @@ contains
         call reverse(curve%is_torn(:n))
         call reverse_negated(curve%y_node(:nodes))
         call reverse(curve%h_node(:nodes))
+        call set_blocks(curve%blocks, curve%h_node(:nodes))
         if (curve%inclination_is_known) call reverse_negated(curve%inclination(:n))
         curve%y_lowest = -curve%y_lowest
         curve%is_image = .not. curve%is_image
@@ -347,6 +361,7 @@ contains
         highest = 0.0_wp
         steepest = 0.0_wp
         y = y_from
+        if (.not. curve%has_steps) return
         do i = interval_of(curve, y_from), curve%n - 1
             if (curve%y(i) >= y_to) exit
             if (.not. curve%is_step(i) .or. curve%y(i + 1) <= y_from) cycle
@@ -400,19 +415,31 @@ contains
             n = 1
             y_from(1) = curve%y_node(1)
         end if
-        do j = 1, curve%n_pieces
-            if (inside .eqv. (curve%h_node(j + 1) < level)) cycle
+        j = 1
+        do
+            j = next_across(curve%blocks, curve%h_node(:curve%n_pieces + 1), j + 1, level, inside)
+            if (j > curve%n_pieces + 1) exit
             if (inside) then
-                y_to(n) = crossing(curve, j, level)
+                y_to(n) = crossing(curve, j - 1, level)
             else
                 if (n == size(y_from)) return
                 n = n + 1
-                y_from(n) = crossing(curve, j, level)
+                y_from(n) = crossing(curve, j - 1, level)
             end if
             inside = .not. inside
         end do
         if (inside) y_to(n) = curve%y_node(curve%n_pieces + 1)
     end subroutine level_intervals
+
+    !> The first end of two monotone pieces, from one on, that is a valley below a level: its number
+    !> among the ends, 2 to n_pieces; more than n_pieces if there is none.
+    pure integer function valley_below(curve, level, from) result(node)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: level          !! height, mm
+        integer, intent(in) :: from            !! where to begin, 1 to n_pieces + 1
+
+        node = next_valley(curve%blocks, curve%h_node(:curve%n_pieces + 1), from, level)
+    end function valley_below
 
     !> Where monotone piece j crosses a level that its two ends enclose.
     pure real(wp) function crossing(curve, j, level) result(y)

@@ -10,7 +10,8 @@
 !> the ellipse also wherever the gap has a valley.
 module faststrip_normal_misfit
     use faststrip_base_kinds, only: wp
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_curvature, gap_inv2r
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_curvature, gap_inv2r, &
+                                            valley_below
     use faststrip_base_status, only: status_t, is_error
     use faststrip_normal_hertz, only: hertz_t, hertz_solve
     implicit none
@@ -138,9 +139,13 @@ contains
                 call take_overlap(outside(i), -clearance(outside(i), h), misfit)
             end do
         end do
-        do i = 2, curve%n_pieces
+        i = 1
+        do
+            ! A level that rounding does not bring below what is asked for next.
+            i = valley_below(curve, h0 + hertz%penetration &
+                             + 2.0_wp*spacing(abs(h0) + hertz%penetration), i + 1)
+            if (i > curve%n_pieces) exit
             if (curve%h_node(i) - h0 >= hertz%penetration) cycle
-            if (curve%h_node(i) > min(curve%h_node(i - 1), curve%h_node(i + 1))) cycle
             y = abs(curve%y_node(i) - hertz%y)/hertz%b
             if (y <= beyond) cycle
             overlap = -clearance(y, curve%h_node(i))

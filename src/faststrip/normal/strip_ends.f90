@@ -3,7 +3,7 @@
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals, valley_below
     use faststrip_normal_lattice_overlap, only: overlap_tolerance
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
@@ -241,8 +241,11 @@ contains
         ! A valley may be cut off by the end of the points.
         depth = max(overlap_outside(curve, compliance, penetration, strips, curve%y(1)), &
                     overlap_outside(curve, compliance, penetration, strips, curve%y(curve%n)))
-        do j = 2, curve%n_pieces
-            if (curve%h_node(j) > min(curve%h_node(j - 1), curve%h_node(j + 1))) cycle
+        ! Higher ones cannot overlap.
+        j = 1
+        do
+            j = valley_below(curve, curve%h_lowest + penetration, j + 1)
+            if (j > curve%n_pieces) exit
             depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
                                                curve%y_node(j)))
         end do

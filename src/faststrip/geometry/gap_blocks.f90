@@ -1,0 +1,130 @@
+!> The nodes of a curve in blocks, each with its lowest and its highest one: a search for a level
+!> passes over the blocks that lie on one side of it, and over those without a valley.
+module faststrip_geometry_gap_blocks
+    use faststrip_base_kinds, only: wp
+    implicit none
+    private
+
+    public :: gap_blocks_t, reserve_blocks, set_blocks, copy_blocks, next_across, next_valley
+
+    !> Nodes in a block.
+    !> Tuned [nodes]. Origin: cost: a search goes through all blocks and through few of the nodes.
+    integer, parameter :: block = 64
+
+    !> Blocks of nodes; the arrays belong to the workspace of the curve.
+    type :: gap_blocks_t
+        real(wp), allocatable :: low(:), high(:) !! heights of the lowest and highest node, mm
+        logical, allocatable :: has_valley(:)    !! is a node no higher than both its neighbours?
+    end type gap_blocks_t
+
+contains
+
+    !> Allocate for so many nodes.
+    subroutine reserve_blocks(blocks, most_nodes)
+        type(gap_blocks_t), intent(inout) :: blocks !! emptied and sized
+        integer, intent(in) :: most_nodes           !! >= 1
+
+        integer :: n
+
+        n = block_of(most_nodes)
+        if (allocated(blocks%low)) deallocate (blocks%low, blocks%high, blocks%has_valley)
+        allocate (blocks%low(n), blocks%high(n), source=0.0_wp)
+        allocate (blocks%has_valley(n), source=.false.)
+    end subroutine reserve_blocks
+
+    !> Take over the heights of all nodes.
+    pure subroutine set_blocks(blocks, h)
+        type(gap_blocks_t), intent(inout) :: blocks !! reserved beforehand
+        real(wp), intent(in) :: h(:)                !! heights of the nodes, mm
+
+        integer :: b, i, first, last
+
+        do b = 1, block_of(size(h))
+            first = (b - 1)*block + 1
+            last = min(b*block, size(h))
+            blocks%low(b) = minval(h(first:last))
+            blocks%high(b) = maxval(h(first:last))
+            blocks%has_valley(b) = .false.
+            do i = first, last
+                if (is_valley(h, i)) blocks%has_valley(b) = .true.
+            end do
+        end do
+    end subroutine set_blocks
+
+    !> Take over the blocks of another curve.
+    pure subroutine copy_blocks(from, to, n)
+        type(gap_blocks_t), intent(in) :: from  !! that were set
+        type(gap_blocks_t), intent(inout) :: to !! reserved beforehand
+        integer, intent(in) :: n                !! number of nodes
+
+        integer :: blocks
+
+        blocks = block_of(n)
+        to%low(:blocks) = from%low(:blocks)
+        to%high(:blocks) = from%high(:blocks)
+        to%has_valley(:blocks) = from%has_valley(:blocks)
+    end subroutine copy_blocks
+
+    !> The first node from one on that is on the other side of a level; beyond the last if none is.
+    pure integer function next_across(blocks, h, from, level, is_below) result(i)
+        type(gap_blocks_t), intent(in) :: blocks !! of the nodes
+        real(wp), intent(in) :: h(:)             !! heights of the nodes, mm
+        integer, intent(in) :: from              !! where to begin
+        real(wp), intent(in) :: level            !! mm
+        logical, intent(in) :: is_below          !! are those before below it?
+
+        integer :: b
+
+        i = from
+        do while (i <= size(h))
+            b = block_of(i)
+            if (merge(blocks%high(b) >= level, blocks%low(b) < level, is_below)) then
+                do i = i, min(b*block, size(h))
+                    if ((h(i) < level) .neqv. is_below) return
+                end do
+            else
+                i = b*block + 1
+            end if
+        end do
+        i = size(h) + 1
+    end function next_across
+
+    !> The first node from one on that is below a level and no higher than both its neighbours,
+    !> which the first and the last one do not have; beyond the last if there is none.
+    pure integer function next_valley(blocks, h, from, level) result(i)
+        type(gap_blocks_t), intent(in) :: blocks !! of the nodes
+        real(wp), intent(in) :: h(:)             !! heights of the nodes, mm
+        integer, intent(in) :: from              !! where to begin
+        real(wp), intent(in) :: level            !! mm
+
+        integer :: b
+
+        i = from
+        do while (i <= size(h))
+            b = block_of(i)
+            if (blocks%has_valley(b) .and. blocks%low(b) < level) then
+                do i = i, min(b*block, size(h))
+                    if (h(i) >= level) cycle
+                    if (is_valley(h, i)) return
+                end do
+            else
+                i = b*block + 1
+            end if
+        end do
+        i = size(h) + 1
+    end function next_valley
+
+    pure logical function is_valley(h, i)
+        real(wp), intent(in) :: h(:)
+        integer, intent(in) :: i
+
+        is_valley = i > 1 .and. i < size(h)
+        if (is_valley) is_valley = h(i) <= min(h(i - 1), h(i + 1))
+    end function is_valley
+
+    pure integer function block_of(node)
+        integer, intent(in) :: node
+
+        block_of = (node - 1)/block + 1
+    end function block_of
+end module faststrip_geometry_gap_blocks
