@@ -27,6 +27,26 @@ class Bench(LabTest):
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         return self.read("out.csv"), done.stderr
 
+    def test_steps(self):
+        scenes = (ROOT / "reference" / "scenes" / "scenes.csv").read_text(encoding="utf-8")
+        lines = [line for line in scenes.splitlines() if not line.startswith("#")]
+        self.write("scenes.csv", "\n".join(lines[:4]) + "\n")
+        rows, said = self.bench("steps", "--rounds", "1", "--strips", "9", "--scenes", "scenes.csv")
+        self.assertEqual([sum(row["kind"] == kind for row in rows)
+                          for kind in ("load", "shift", "both", "cold")], [60, 60, 60, 6])
+        for kind in ("load", "shift", "both", "cold"):
+            self.assertIn(f"{kind}: ", said)
+        for row in rows:
+            self.assertEqual((row["status"] in ("ok", "under_resolved"), row["strips"]),
+                             (True, "9"), row)
+            for name in ("penetration", "pmax", "area"):
+                self.assertLess(abs(float(row["err_" + name])), 1e-4, row)
+            self.assertGreater(float(row["cold_us"]), 0)
+            if row["kind"] == "load":
+                self.assertLess(int(row["iterations"]), int(row["cold_iterations"]), row)
+        self.assertLess(
+            statistics.median(int(row["iterations"]) for row in rows if row["kind"] != "cold"), 3)
+
     def test_normal(self):
         rows, said = self.bench("normal", "--most-strips", "9", "--seconds", "0.2")
         self.assertEqual(list(rows[0]), (

@@ -7,6 +7,7 @@ module faststrip_lab_bench
                                          option_integer, option_number, option_word
     use faststrip_lab_bench_integral, only: bench_integral
     use faststrip_lab_bench_normal, only: bench_normal, bench_normal_most_strips
+    use faststrip_lab_bench_steps, only: bench_steps
     use faststrip_lab_bench_reference, only: bench_reference, bench_reference_most_elements
     use faststrip_lab_bench_accuracy, only: bench_accuracy
     use faststrip_lab_bench_kalker, only: bench_kalker
@@ -56,6 +57,13 @@ contains
         case ('normal')
             call allow([character(len=name_length) :: '--contacts', '--most-strips', '--seconds'])
             call bench_normal(file, folder, most_strips, seconds)
+        case ('steps')
+            call allow([character(len=name_length) :: '--contacts', '--scenes', '--rounds', &
+                        '--strips'])
+            scenes = option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv'))
+            call take_input(scenes)
+            call bench_steps(file, folder, scenes, option_integer(command, '--strips', 15, &
+                             least=3, most=bench_normal_most_strips), rounds)
         case ('reference')
             call allow([character(len=name_length) :: '--contacts', '--most-elements', '--seconds'])
             call bench_reference(file, folder, most_elements, seconds)
@@ -141,10 +149,11 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'integral, tangential: how often everything is timed,' &
+            option_t('--rounds', 'N', 'integral, tangential, steps: how often everything is timed,' &
                      // new_line('a') // '1 to 1000 (default 21)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
                      reads=.true.), &
+            option_t('--strips', 'N', 'steps: strips of the widest patch (default 15)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
             option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
             option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
@@ -157,7 +166,7 @@ contains
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
                      // ' (default reference/influence)', reads=.true.), &
-            option_t('--scenes', 'FILE', 'forces, trade: contacts of many kinds' &
+            option_t('--scenes', 'FILE', 'forces, trade, steps: contacts of many kinds' &
                      // new_line('a') // '(default reference/scenes/scenes.csv)', reads=.true.), &
             option_t('--examples', 'FOLDER', 'extremes, examples: the cases' &
                      // ' (default example/cases)', reads=.true.)]
@@ -168,7 +177,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(40) = [character(len=84) :: &
+        character(len=*), parameter :: lines(44) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -178,6 +187,10 @@ contains
             '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
             '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
             'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
+            'steps: microseconds of the next solution of a history by 15 strips: 2.5 % steps of the', &
+            'load, 0.1 mm steps of the wheelset, both with 5 % of load; beside each the cold', &
+            'solution and the errors against one to all digits; then the contacts and scenes by', &
+            'themselves. One row a solution; least of the rounds. Median, 95th percentile, worst.', &
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &

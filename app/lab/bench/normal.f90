@@ -37,7 +37,7 @@ module faststrip_lab_bench_normal
     implicit none
     private
 
-    public :: bench_normal, bench_normal_most_strips
+    public :: bench_normal, bench_normal_most_strips, gap_of_shift
 
     !> The largest number of strips that is measured.
     integer, parameter :: bench_normal_most_strips = 400
@@ -137,10 +137,11 @@ contains
         call fail_on_error(status)
     end subroutine prepare
 
+    !> The gap of a wheelset that was moved sideways.
     subroutine gap_of_shift(wheel, rail, shift, gap)
-        type(profile_t), intent(in) :: wheel, rail
-        real(wp), intent(in) :: shift
-        type(gap_t), intent(out) :: gap
+        type(profile_t), intent(in) :: wheel, rail !! the profiles
+        real(wp), intent(in) :: shift              !! lateral shift, mm
+        type(gap_t), intent(out) :: gap            !! at the rigid contact, mm
 
         type(rigid_contact_t) :: touching
         type(status_t) :: status

@@ -15,6 +15,8 @@ module faststrip_normal_strip_coupled
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_cost, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
+    use faststrip_normal_strip_carried, only: carry, carries, carried_change, carried_residual, &
+                                              carried_jacobian
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
@@ -23,7 +25,7 @@ module faststrip_normal_strip_coupled
     implicit none
     private
 
-    public :: settle_coupled
+    public :: settle_coupled, settle_carried
 
     ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
@@ -37,10 +39,12 @@ module faststrip_normal_strip_coupled
     real(wp), parameter :: least_scale = 0.3_wp ! of an updated step; less: a new Jacobian
     ! Tuned [1; strip widths]: Largest steps of the logarithm of a length, the penetration over
     ! itself, and an end. Origin: shorter than in strip_newton, as ends move too.
-    ! Tuned [1; strip widths]: Largest steps of the logarithm of a length, the penetration over
-    ! itself, and an end. Origin: shorter than in strip_newton, as ends move too.
     real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &
                            max_end_step = 1.0_wp
+    ! Tuned [evaluations]: of carried numbers in one solution. Origin: safeguard: two do.
+    integer, parameter :: max_evaluations = 6
+    ! Tuned [1]: error of carried numbers over the square of what has changed. Origin: measured.
+    real(wp), parameter :: second_order = 3.0_wp
     ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
     ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
@@ -56,6 +60,7 @@ module faststrip_normal_strip_coupled
 
     !> What one step hands to the next.
     type :: steps_t
+        logical :: by_carried = .false. ! numbers, or exact ones
         integer :: factored = 0   ! how often the Jacobian was
         integer :: updates = 0    ! of the factors, by Broyden's formula
         logical :: exact = .false. ! are the factors those of this step?
@@ -77,6 +82,68 @@ contains
         type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
+        call converge(workspace, compliance, demand, tolerance, .false., patches, cost, settled)
+        if (settled) call meet_load(workspace, demand)
+    end subroutine settle_coupled
+
+    !> The same from the last solution, by influence numbers that are carried on from the last exact
+    !> evaluation (`faststrip_normal_strip_carried`), and evaluated anew where strips have moved so
+    !> far that this would be seen.
+    pure subroutine settle_carried(workspace, compliance, demand, tolerance, patches, cost, settled)
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: tolerance            !! relative size of the residuals left
+        type(patches_t), intent(inout) :: patches    !! their ends move
+        type(cost_t), intent(inout) :: cost          !! increased
+        logical, intent(out) :: settled              !! converged
+
+        integer :: evaluation
+
+        settled = .false.
+        if (.not. carries(workspace%carried, patches)) then
+            call evaluate(workspace, patches, cost)
+            if (.not. workspace%carried%known) then
+                call settle_coupled(workspace, compliance, demand, tolerance, patches, cost, &
+                                    settled)
+                return
+            end if
+        end if
+        do evaluation = 1, max_evaluations
+            call converge(workspace, compliance, demand, tolerance, .true., patches, cost, settled)
+            if (.not. settled) return
+            settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
+                      <= tolerance
+            if (settled) exit
+            call evaluate(workspace, patches, cost)
+        end do
+        ! What the carried numbers cannot follow is near the solution by now.
+        if (.not. settled) call converge(workspace, compliance, demand, tolerance, .false., &
+                                         patches, cost, settled)
+        if (settled) call meet_load(workspace, demand)
+    end subroutine settle_carried
+
+    !> Evaluate the carried numbers anew, where the strips are.
+    pure subroutine evaluate(workspace, patches, cost)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(patches_t), intent(in) :: patches
+        type(cost_t), intent(inout) :: cost
+
+        call carry(workspace%carried, workspace%strips, patches)
+        if (workspace%carried%known) call add_cost(cost, workspace%strips%n, 0, .false., 1)
+    end subroutine evaluate
+
+    !> Steps until they are small.
+    pure subroutine converge(workspace, compliance, demand, tolerance, by_carried, patches, cost, &
+                             settled)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance, tolerance
+        type(demand_t), intent(in) :: demand
+        logical, intent(in) :: by_carried ! numbers, or exact ones
+        type(patches_t), intent(inout) :: patches
+        type(cost_t), intent(inout) :: cost
+        logical, intent(out) :: settled
+
         type(end_t) :: ends(2*max_patches)
         type(steps_t) :: steps
         integer :: m, n_ends, trial
@@ -84,6 +151,7 @@ contains
         logical :: possible
 
         settled = .false.
+        steps%by_carried = by_carried
         call list_ends(workspace, patches, ends, n_ends)
         m = 2*workspace%strips%n + 1 + n_ends
         call check_kept(workspace%newton, demand, patches, ends(:n_ends))
@@ -108,14 +176,19 @@ contains
             end if
             steps%size_before = steps%size_now
         end do
-        if (.not. settled) return
-        ! The load to the last digit.
+    end subroutine converge
+
+    !> The load to the last digit.
+    pure subroutine meet_load(workspace, demand)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(demand_t), intent(in) :: demand
+
         associate (strips => workspace%strips, n => workspace%strips%n)
             if (demand%by_load) strips%p0(:n) = strips%p0(:n)*demand%load &
                 /sum(0.5_wp*pi*strips%p0(:n)*strips%half_length(:n) &
                      *(strips%y_right(:n) - strips%y_left(:n)))
         end associate
-    end subroutine settle_coupled
+    end subroutine meet_load
 
     !> Residuals, into the step, and factors of a Jacobian: the kept ones, or new ones.
     pure subroutine linearise(workspace, compliance, demand, patches, ends, p_scale, cost, steps, &
@@ -137,15 +210,25 @@ contains
         steps%exact = .not. workspace%newton%kept
         possible = .true.
         if (.not. steps%exact) then
-            call add_cost(cost, n, m, .false., 1)
-            call coupled_residual(workspace, compliance, demand, ends, workspace%newton%step)
+            if (steps%by_carried) then
+                call add_cost(cost, n, m, .false., 0, .true.)
+            else
+                call add_cost(cost, n, m, .false., 1)
+            end if
+            call coupled_residual(workspace, compliance, demand, ends, steps%by_carried, &
+                                  workspace%newton%step)
             return
         end if
         possible = steps%factored < max_factorings
         if (.not. possible) return
         steps%factored = steps%factored + 1
-        call add_cost(cost, n, m, .true., count(.not. ends%fixed))
-        call factor(workspace, compliance, demand, patches, ends, p_scale, singular)
+        if (steps%by_carried) then
+            call add_cost(cost, n, m, .true., 0, .true.)
+        else
+            call add_cost(cost, n, m, .true., count(.not. ends%fixed))
+        end if
+        call factor(workspace, compliance, demand, patches, ends, p_scale, steps%by_carried, &
+                    singular)
         possible = .not. singular
         if (singular) return
         workspace%newton%kept = .true.
@@ -286,16 +369,21 @@ contains
     end subroutine check_kept
 
     !> Residuals of all equations for the strips where they are.
-    pure subroutine coupled_residual(workspace, compliance, demand, ends, residual)
+    pure subroutine coupled_residual(workspace, compliance, demand, ends, by_carried, residual)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(end_t), intent(in) :: ends(:)
+        logical, intent(in) :: by_carried
         real(wp), intent(inout) :: residual(:)
 
         integer :: e
 
-        call strip_residual(workspace%strips, compliance, demand, residual)
+        if (by_carried) then
+            call carried_residual(workspace%carried, workspace%strips, compliance, demand, residual)
+        else
+            call strip_residual(workspace%strips, compliance, demand, residual)
+        end if
         do e = 1, size(ends)
             residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
         end do
@@ -312,13 +400,15 @@ contains
     end function wanted
 
     !> Residual, into `step`, and the factored Jacobian.
-    pure subroutine factor(workspace, compliance, demand, patches, ends, p_scale, singular)
+    pure subroutine factor(workspace, compliance, demand, patches, ends, p_scale, by_carried, &
+                           singular)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(patches_t), intent(in) :: patches
         type(end_t), intent(in) :: ends(:)
         real(wp), intent(in) :: p_scale
+        logical, intent(in) :: by_carried
         logical, intent(out) :: singular
 
         type(patches_t) :: moved
@@ -329,7 +419,13 @@ contains
         m = 2*n + 1 + size(ends)
         associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
                    other => workspace%newton%history(:, 1))
-            call strip_jacobian(workspace%strips, compliance, demand, p_scale, jacobian, residual)
+            if (by_carried) then
+                call carried_jacobian(workspace%carried, workspace%strips, compliance, demand, &
+                                      p_scale, jacobian, residual)
+            else
+                call strip_jacobian(workspace%strips, compliance, demand, p_scale, jacobian, &
+                                    residual)
+            end if
             jacobian(2*n + 2:m, :m) = 0.0_wp
             do e = 1, size(ends)
                 residual(2*n + 1 + e) = wanted(workspace, ends(e))
@@ -358,7 +454,12 @@ contains
                     moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
                 end if
                 call position_edges(workspace, moved)
-                call strip_residual(workspace%strips, compliance, demand, other)
+                if (by_carried) then
+                    call carried_residual(workspace%carried, workspace%strips, compliance, demand, &
+                                          other)
+                else
+                    call strip_residual(workspace%strips, compliance, demand, other)
+                end if
                 jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
                 call position_edges(workspace, patches)
             end do

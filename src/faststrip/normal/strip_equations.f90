@@ -22,6 +22,7 @@ module faststrip_normal_strip_equations
 
     public :: add_cost, cost_work, step_work, strip_residual
     public :: strip_jacobian, mark_leaving_strips
+    public :: start_residual, start_jacobian, add_column, end_jacobian
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
     !> its pressure can stay positive while its length tends to zero.
@@ -34,20 +35,22 @@ module faststrip_normal_strip_equations
 contains
 
     !> Count one step with n strips and m equations.
-    pure subroutine add_cost(cost, n, m, factored, residuals)
+    pure subroutine add_cost(cost, n, m, factored, residuals, by_carried)
         type(cost_t), intent(inout) :: cost !! added to
         integer, intent(in) :: n                !! strips
         integer, intent(in) :: m                !! equations
         logical, intent(in) :: factored         !! was a Jacobian factored?
         integer, intent(in) :: residuals        !! residuals taken besides
+        logical, intent(in), optional :: by_carried !! numbers: none is computed
 
-        cost%iterations = cost%iterations + 1
+        if (.not. present(by_carried)) cost%iterations = cost%iterations + 1
         cost%values = cost%values + 2*n*n*residuals
         cost%operations = cost%operations + 2.0_wp*real(m, wp)**2
         if (.not. factored) return
         cost%factorings = cost%factorings + 1
-        cost%gradients = cost%gradients + 2*n*n
         cost%operations = cost%operations + 2.0_wp/3.0_wp*real(m, wp)**3
+        if (present(by_carried)) return
+        cost%gradients = cost%gradients + 2*n*n
     end subroutine add_cost
 
     !> What was spent, in influence numbers: as many could have been computed in that time. One with
@@ -106,65 +109,91 @@ contains
         real(wp), intent(inout) :: jacobian(:, :)    !! first 2n + 1 rows and columns
         real(wp), intent(inout) :: residual(:)       !! (2n + 1)
 
-        integer :: n, k
+        integer :: n, s
 
         n = strips%n
         call start_residual(strips, demand, residual)
+        call start_jacobian(strips, jacobian)
+        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y(:n), &
+                   half_length => strips%half_length(:n), influence => strips%influence(:n, :))
+            do s = 1, n
+                call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y, &
+                                                      influence(:, 1), influence(:, 2))
+                call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
+                                                   half_length, y, influence(:, 3), &
+                                                   influence(:, 5), influence(:, 4))
+                call add_column(strips, s, strips%influence, compliance/strips%penetration, &
+                                p_scale, jacobian, residual)
+            end do
+        end associate
+        call end_jacobian(strips, demand, p_scale, jacobian)
+    end subroutine strip_jacobian
+
+    !> The part of the Jacobian that no strip's influence has: what a tip's own height adds, and the
+    !> penetration's column.
+    pure subroutine start_jacobian(strips, jacobian)
+        type(pass_strips_t), intent(in) :: strips !! strips and their penetration
+        real(wp), intent(inout) :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
+
+        integer :: n, k
+
+        n = strips%n
         do k = 1, n
             jacobian(n + k, n + k) = 2.0_wp*strips%inv2r(k)*strips%half_length(k)**2 &
                                      /strips%penetration
         end do
         jacobian(:2*n, 2*n + 1) = -1.0_wp
-        call add_displacements(strips, compliance/strips%penetration, p_scale, jacobian, residual)
-        if (.not. demand%by_load) then
-            jacobian(2*n + 1, :2*n) = 0.0_wp
-            jacobian(2*n + 1, 2*n + 1) = 1.0_wp
-            return
-        end if
-        jacobian(2*n + 1, 2*n + 1) = 0.0_wp
-        call differentiate_load(strips, demand%load, p_scale, jacobian)
-    end subroutine strip_jacobian
+    end subroutine start_jacobian
 
-    !> The displacements of centre lines and tips in residual and Jacobian.
-    pure subroutine add_displacements(strips, scale, p_scale, jacobian, residual)
-        type(pass_strips_t), intent(inout) :: strips
-        real(wp), intent(in) :: scale ! compliance over penetration
-        real(wp), intent(in) :: p_scale
-        real(wp), intent(inout) :: jacobian(:, :), residual(:)
+    !> The displacements under one strip's pressure in residual and Jacobian.
+    pure subroutine add_column(strips, s, influence, scale, p_scale, jacobian, residual)
+        type(pass_strips_t), intent(in) :: strips !! pressures and lengths
+        integer, intent(in) :: s                  !! the strip
+        real(wp), intent(in), contiguous :: influence(:, :)
+            !! (at least n, 5): numbers on the centre lines and dI/dxd; at the tips I, dI/dxd, dI/dx
+        real(wp), intent(in) :: scale             !! compliance over penetration
+        real(wp), intent(in) :: p_scale           !! unit of the pressures' changes, MPa
+        real(wp), intent(inout) :: jacobian(:, :), residual(:) !! added to
 
-        integer :: n, k, s
         real(wp) :: tip, pressure, length
+        integer :: n, k
 
         n = strips%n
-        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y(:n), &
-                   half_length => strips%half_length(:n), value => strips%influence(:n, 1), &
-                   d_x => strips%influence(:n, 2), d_xd => strips%influence(:n, 3))
-            do s = 1, n
-                pressure = scale*strips%p0(s)
-                length = half_length(s)
-                call center_influence_column_gradient(length, y_left(s), y_right(s), y, value, d_xd)
-                do k = 1, n
-                    residual(k) = residual(k) - pressure*value(k)
-                    jacobian(k, s) = scale*p_scale*value(k)
-                    jacobian(k, n + s) = pressure*length*d_xd(k)
-                end do
-                call tip_influence_column_gradient(length, y_left(s), y_right(s), half_length, y, &
-                                                   value, d_x, d_xd)
-                tip = jacobian(n + s, n + s)
-                do k = 1, n
-                    residual(n + k) = residual(n + k) - pressure*value(k)
-                    jacobian(n + k, s) = scale*p_scale*value(k)
-                    jacobian(n + k, n + s) = pressure*length*d_xd(k)
-                end do
-                jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
-                ! The tip of the field strip moves with its own length, under every source.
-                do k = 1, n
-                    jacobian(n + k, n + k) = jacobian(n + k, n + k) &
-                                             + pressure*half_length(k)*d_x(k)
-                end do
-            end do
-        end associate
-    end subroutine add_displacements
+        pressure = scale*strips%p0(s)
+        length = strips%half_length(s)
+        do k = 1, n
+            residual(k) = residual(k) - pressure*influence(k, 1)
+            jacobian(k, s) = scale*p_scale*influence(k, 1)
+            jacobian(k, n + s) = pressure*length*influence(k, 2)
+        end do
+        tip = jacobian(n + s, n + s)
+        do k = 1, n
+            residual(n + k) = residual(n + k) - pressure*influence(k, 3)
+            jacobian(n + k, s) = scale*p_scale*influence(k, 3)
+            jacobian(n + k, n + s) = pressure*length*influence(k, 4)
+        end do
+        jacobian(n + s, n + s) = jacobian(n + s, n + s) + tip
+        ! The tip of the field strip moves with its own length, under every source.
+        do k = 1, n
+            jacobian(n + k, n + k) = jacobian(n + k, n + k) &
+                                     + pressure*strips%half_length(k)*influence(k, 5)
+        end do
+    end subroutine add_column
+
+    !> The last row of the Jacobian: the load's, or the penetration's own.
+    pure subroutine end_jacobian(strips, demand, p_scale, jacobian)
+        type(pass_strips_t), intent(in) :: strips !! pressures, lengths and edges
+        type(demand_t), intent(in) :: demand      !! load or penetration
+        real(wp), intent(in) :: p_scale           !! unit of the pressures' changes, MPa
+        real(wp), intent(inout) :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
+
+        integer :: n
+
+        n = strips%n
+        jacobian(2*n + 1, :2*n) = 0.0_wp
+        jacobian(2*n + 1, 2*n + 1) = merge(0.0_wp, 1.0_wp, demand%by_load)
+        if (demand%by_load) call differentiate_load(strips, demand%load, p_scale, jacobian)
+    end subroutine end_jacobian
 
     !> The load's row of the Jacobian.
     pure subroutine differentiate_load(strips, load, p_scale, jacobian)
@@ -186,9 +215,9 @@ contains
 
     !> The residuals before the displacements are subtracted, and the load's whole.
     pure subroutine start_residual(strips, demand, residual)
-        type(pass_strips_t), intent(inout) :: strips
-        type(demand_t), intent(in) :: demand
-        real(wp), intent(inout) :: residual(:)
+        type(pass_strips_t), intent(inout) :: strips !! its centre lines are set
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
 
         integer :: n
 

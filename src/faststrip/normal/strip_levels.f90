@@ -57,6 +57,7 @@ module faststrip_normal_strip_levels
     integer, parameter :: from_nothing = 1
     integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
     integer, parameter :: from_coarser = 3       ! the level before
+    integer, parameter :: from_changed = 4       ! the last solution, where other patches joined in
 
     !> What the user chooses.
     type :: strip_options_t
@@ -113,6 +114,7 @@ contains
                 call start_patches(workspace%curve, compliance, demand, settling%patches, &
                                    settling%penetration)
                 workspace%old%n = 0
+                workspace%carried%known = .false.
             end if
             coarser = result
             call settle(workspace, compliance, demand, &
@@ -131,6 +133,11 @@ contains
                 if (level == plan%n) exit
                 level = level + 1
             else
+                if (start == from_last_solution .and. settling%changed) then
+                    start = from_changed
+                    level = 1
+                    cycle
+                end if
                 if (start == from_last_solution) level = 1
                 if (plan%strips(level) > most_at_once) exit
                 start = from_nothing
@@ -172,7 +179,9 @@ contains
         level_of%most_strips = maxval(plan%strips(:plan%n))
         level_of%tolerance = tolerance
         if (level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
-        level_of%near = start /= from_nothing
+        level_of%near = start == from_last_solution .or. start == from_coarser
+        level_of%resumes = start == from_last_solution
+        level_of%scouts = level < plan%first_counted
     end function level_of
 
     !> Are so many strips enough that have changed so little?

@@ -19,7 +19,8 @@ module faststrip_normal_strip_pass
         logical, allocatable :: leaves(:)      !! strips to be cut off
         ! Work of the equations.
         real(wp), allocatable :: y(:)          !! centre lines
-        real(wp), allocatable :: influence(:, :) !! one column: values, d/dx, d/dxd
+        real(wp), allocatable :: influence(:, :)
+            !! one column: I, dI/dxd on the centre lines, I, dI/dxd, dI/dx at the tips
     end type pass_strips_t
 
 contains
@@ -37,7 +38,7 @@ contains
         allocate (strips%y_left(capacity), strips%y_right(capacity), strips%height(capacity), &
                   strips%inv2r(capacity), strips%p0(capacity), strips%half_length(capacity), &
                   strips%y(capacity), source=0.0_wp)
-        allocate (strips%influence(capacity, 3), source=0.0_wp)
+        allocate (strips%influence(capacity, 5), source=0.0_wp)
         allocate (strips%leaves(capacity), source=.false.)
     end subroutine reserve_pass_strips
 end module faststrip_normal_strip_pass

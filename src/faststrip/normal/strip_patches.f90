@@ -25,6 +25,9 @@ module faststrip_normal_strip_patches
     ! Tuned [spacings]: width of an overlap from which it moves the end of the patch it touches.
     ! Origin: chosen: more than one place.
     real(wp), parameter :: wide_seed = 1.5_wp
+    ! Tuned [1]: width of a new patch over that of the overlap. Origin: a Hertz contact is
+    ! 1/sqrt(2) times as wide as what overlaps.
+    real(wp), parameter :: seed_share = 0.7_wp
 
     !> One patch while its ends are sought.
     type :: patch_t
@@ -112,6 +115,7 @@ contains
         type(patches_t), intent(inout) :: patches !! extended, or with one more at the end
         logical, intent(inout) :: changed    !! set if there is anything to solve anew
 
+        real(wp) :: middle, half
         integer :: p
         logical :: touches
 
@@ -140,6 +144,10 @@ contains
         changed = .true.
         patches%n = patches%n + 1
         patches%at(patches%n) = seed
+        middle = 0.5_wp*(seed%y_from + seed%y_to)
+        half = 0.5_wp*seed_share*(seed%y_to - seed%y_from)
+        patches%at(patches%n)%y_from = middle - half
+        patches%at(patches%n)%y_to = middle + half
     end subroutine take_in
 
     !> Put the patches in the order of y.

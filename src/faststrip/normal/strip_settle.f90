@@ -12,7 +12,7 @@
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_strip_coupled, only: settle_coupled
+    use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize
@@ -37,10 +37,18 @@ module faststrip_normal_strip_settle
 
     ! Tuned [passes]. Origin: safeguard.
     integer, parameter :: max_passes = 40    ! in one level
+    ! Tuned [passes]: the same of a level that only finds patches. Origin: chosen for the time: the
+    ! next level can go on from any.
+    integer, parameter :: max_scout_passes = 20
+    ! Tuned [passes]: the same from the last solution. Origin: chosen for the time: where it is not
+    ! near, starting anew costs less.
+    integer, parameter :: max_resumed_passes = 1
     ! Tuned [tries]. Origin: chosen; what fails four times does not settle.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
     ! Tuned [splits]. Origin: chosen against cycles of splitting and merging.
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
+    ! Tuned [splits]: the same in a level that only finds patches. Origin: chosen for the time.
+    integer, parameter :: max_scout_splits = 2
     ! Tuned [splits]. Origin: chosen; in starts from the last solution.
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
     ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
@@ -71,6 +79,8 @@ module faststrip_normal_strip_settle
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
+        logical :: resumes = .false.      !! near the last one of the workspace?
+        logical :: scouts = .false.       !! are patches to be found, and nothing else?
     end type level_t
 
     !> Where the settling of a level stands, and what it leaves.
@@ -84,6 +94,7 @@ module faststrip_normal_strip_settle
         integer :: couplings = 0          !! how often strips and ends were tried together
         real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
         logical :: at_rest = .false.      !! did the ends rest in the last pass?
+        logical :: changed = .false.      !! have overlaps joined the patches?
         ! Given: none yet.
         real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
         logical :: settled = .false.      !! is there a pass that stands?
@@ -133,6 +144,7 @@ contains
         settling%couplings = 0
         settling%tolerance = merge(near_tolerance, far_tolerance, level%near)
         settling%at_rest = .false.
+        settling%changed = .false.
         settling%best_move = huge(1.0_wp)
         call share_strips(level%strips_per_patch, settling%patches)
         if (.not. level%near) return
@@ -156,7 +168,7 @@ contains
         integer :: n
 
         settling%state = state_give_up
-        if (settling%pass == max_passes) return
+        if (settling%pass == most_passes(level)) return
         settling%pass = settling%pass + 1
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call drop_slivers(narrowest, settling%patches)
@@ -169,6 +181,15 @@ contains
         settling%solved = settling%patches
         settling%state = merge(state_couple, state_newton, level%near .and. settling%pass == 1)
     end subroutine position
+
+    !> How often strips may be positioned in a level.
+    pure integer function most_passes(level)
+        type(level_t), intent(in) :: level
+
+        most_passes = max_passes
+        if (level%scouts) most_passes = max_scout_passes
+        if (level%resumes) most_passes = max_resumed_passes
+    end function most_passes
 
     !> Newton: solve for the strips between ends that are given.
     subroutine solve_pass(workspace, compliance, demand, level, settling, result)
@@ -245,7 +266,7 @@ contains
             settling%tolerance = near_tolerance
         end if
         ! The last passes count, whatever they reach.
-        if (settling%at_rest .or. settling%pass >= max_passes/2) &
+        if (settling%at_rest .or. settling%pass >= most_passes(level)/2) &
             settling%tolerance = level%tolerance
         settling%state = merge(state_couple, state_position, moved < coupling_move &
                                .and. settling%couplings < max_couplings)
@@ -261,12 +282,26 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
+        integer :: n
         logical :: found, changed
 
         settling%state = state_position
         settling%couplings = settling%couplings + 1
-        call settle_coupled(workspace, compliance, demand, level%tolerance, settling%solved, &
-                            result%cost, found)
+        if (level%near .and. settling%pass == 1) then
+            call settle_carried(workspace, compliance, demand, level%tolerance, settling%solved, &
+                                result%cost, found)
+            if (.not. (found .or. level%resumes)) then
+                settling%solved = settling%patches
+                call position_strips(workspace, settling%solved, n)
+                workspace%strips%penetration = settling%penetration
+                workspace%newton%kept = .false.
+                call settle_coupled(workspace, compliance, demand, level%tolerance, &
+                                    settling%solved, result%cost, found)
+            end if
+        else
+            call settle_coupled(workspace, compliance, demand, level%tolerance, settling%solved, &
+                                result%cost, found)
+        end if
         if (.not. found) return
         settling%patches = settling%solved
         settling%penetration = workspace%strips%penetration
@@ -287,10 +322,12 @@ contains
         logical, intent(out) :: changed
 
         call close_overlaps(workspace, compliance, settling%penetration, &
-                            settling%splits < max_splits, settling%patches, changed)
+                            settling%splits < merge(max_scout_splits, max_splits, level%scouts), &
+                            settling%patches, changed)
         if (.not. changed) return
         settling%at_rest = .false.
         settling%tolerance = far_tolerance
+        settling%changed = .true.
         call share_strips(level%strips_per_patch, settling%patches)
         settling%state = state_position
     end subroutine join_overlaps

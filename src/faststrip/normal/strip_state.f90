@@ -6,6 +6,7 @@ module faststrip_normal_strip_state
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice
+    use faststrip_normal_strip_carried, only: carried_t, reserve_carried
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
     use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch, &
@@ -30,6 +31,7 @@ module faststrip_normal_strip_state
     type :: strip_workspace_t
         type(gap_curve_t) :: curve
         type(newton_workspace_t) :: newton
+        type(carried_t) :: carried  !! influence numbers of the last warm solution
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
@@ -61,6 +63,7 @@ contains
         call reserve_lattice(workspace%lattice, max_strips, status)
         if (is_error(status)) return
         call reserve_newton(workspace%newton, max_strips)
+        call reserve_carried(workspace%carried, max_strips)
         if (workspace%max_strips >= max_strips) return
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) deallocate (workspace%old_eta, workspace%old_p0, &
@@ -208,6 +211,7 @@ contains
         call reverse(workspace%old_half_length(:n))
         call mirror_patches(workspace%old)
         workspace%newton%kept = .false.
+        workspace%carried%known = .false.
     end subroutine mirror_old
 
     !> Start strip i, at `eta` of its patch, from old patch q at `eta_old`.

@@ -1,0 +1,326 @@
+!> Influence numbers carried from the last exact evaluation to strips that have moved on.
+!>
+!> The edges of a patch's strips lie at fixed parts of its width, so its influence numbers are
+!> homogeneous of degree one in all its lengths: where a patch grows as a whole they grow with it.
+!> Kept are, of strips of half-lengths `l_s` in patches of widths `W`, the numbers `C_ks` on the
+!> centre lines and `T_ks` at the tips, and their derivatives in `l_s` and in the place `x_k` of the
+!> tip. Of strips that have moved on, with `sigma` the growth of the source's patch,
+!>
+!>     C'_ks = sigma (C + dl_s dC/dl),   T'_ks = sigma (T + dl_s dT/dl + dx_k dT/dx),
+!>     dl_s = l'_s/sigma - l_s,          dx_k = l'_k/sigma - l_k.
+!>
+!> Two patches do not grow together. Of a strip and field points in another patch the distance `r`
+!> changes besides: far strips act as points, as 1/r, and what the numbers of near ones do besides
+!> is kept as a derivative too, by differences. Errors are of second order in what changes besides the
+!> growth (`carried_change`).
+module faststrip_normal_strip_carried
+    use faststrip_base_kinds, only: wp
+    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_normal_strip_equations, only: start_residual, start_jacobian, &
+                                                add_column, end_jacobian
+    use faststrip_normal_strip_pass, only: pass_strips_t
+    use faststrip_normal_strip_patches, only: patches_t, max_patches
+    use faststrip_normal_types, only: demand_t
+    implicit none
+    private
+
+    public :: carried_t, reserve_carried, carry, carries, carried_change
+    public :: carried_residual, carried_jacobian
+
+    ! Tuned [strips]: more are not carried. Origin: chosen for memory; their evaluations are far
+    ! from what a step costs in linear algebra.
+    integer, parameter :: most_carried = 200
+    ! Tuned [1]: of a distance, for derivatives in it. Origin: half the digits of the tips' numbers.
+    real(wp), parameter :: difference = 1.0e-4_wp
+
+    !> Numbers of the last exact evaluation. Owned by the caller.
+    type :: carried_t
+        logical :: known = .false.
+        integer :: most = 0                      !! capacity, strips
+        integer :: n = 0                         !! strips
+        integer :: n_patches = 0
+        integer :: n_strips(max_patches) = 0     !! of each patch
+        real(wp) :: width(max_patches) = 0.0_wp  !! of each patch, mm
+        real(wp), allocatable :: half_length(:)  !! mm
+        real(wp), allocatable :: y(:)            !! centre lines, mm
+        real(wp), allocatable :: center(:, :)    !! C, field points by sources, mm
+        real(wp), allocatable :: center_l(:, :)  !! dC/dl
+        real(wp), allocatable :: tip(:, :)       !! T, mm
+        real(wp), allocatable :: tip_l(:, :)     !! dT/dl
+        real(wp), allocatable :: tip_x(:, :)     !! dT/dx
+        real(wp), allocatable :: center_y(:, :)  !! dC/dy + C/r of other patches, apart from 1/r
+        real(wp), allocatable :: tip_y(:, :)     !! the same of T
+        real(wp), allocatable :: work(:, :)      !! one column of C', dC'/dl, T', dT'/dl, dT'/dx
+    end type carried_t
+
+contains
+
+    !> Allocate for up to `capacity` strips; the only allocation.
+    subroutine reserve_carried(carried, capacity)
+        type(carried_t), intent(inout) :: carried !! sized
+        integer, intent(in) :: capacity           !! strips, >= 1
+
+        integer :: n
+
+        n = min(capacity, most_carried)
+        carried%known = .false.
+        if (carried%most >= n) return
+        if (carried%most > 0) &
+            deallocate (carried%half_length, carried%y, carried%center, carried%center_l, &
+                        carried%tip, carried%tip_l, carried%tip_x, carried%center_y, &
+                        carried%tip_y, carried%work)
+        allocate (carried%half_length(n), carried%y(n), carried%center(n, n), &
+                  carried%center_l(n, n), carried%tip(n, n), carried%tip_l(n, n), &
+                  carried%tip_x(n, n), carried%center_y(n, n), carried%tip_y(n, n), &
+                  carried%work(n, 5), source=0.0_wp)
+        carried%most = n
+    end subroutine reserve_carried
+
+    !> Are the numbers those of patches like these?
+    pure logical function carries(carried, patches)
+        type(carried_t), intent(in) :: carried
+        type(patches_t), intent(in) :: patches !! shared into strips
+
+        carries = carried%known .and. carried%n_patches == patches%n
+        if (carries) carries = all(carried%n_strips(:patches%n) == patches%at(:patches%n)%n_strips)
+    end function carries
+
+    !> Evaluate all numbers of the strips where they are, exactly.
+    pure subroutine carry(carried, strips, patches)
+        type(carried_t), intent(inout) :: carried    !! known afterwards, if there is room
+        type(pass_strips_t), intent(inout) :: strips !! its centre lines are set, nothing else
+        type(patches_t), intent(in) :: patches       !! those of the strips
+
+        integer :: n, s, p, first
+
+        n = strips%n
+        carried%known = n <= carried%most
+        if (.not. carried%known) return
+        carried%n = n
+        carried%n_patches = patches%n
+        first = 1
+        do p = 1, patches%n
+            carried%n_strips(p) = patches%at(p)%n_strips
+            carried%width(p) = width_of(strips, first, patches%at(p)%n_strips)
+            first = first + patches%at(p)%n_strips
+        end do
+        associate (y => carried%y(:n), half_length => carried%half_length(:n))
+            y = 0.5_wp*(strips%y_left(:n) + strips%y_right(:n))
+            half_length = strips%half_length(:n)
+            do s = 1, n
+                call center_influence_column_gradient(half_length(s), strips%y_left(s), &
+                                                      strips%y_right(s), y, &
+                                                      carried%center(:n, s), &
+                                                      carried%center_l(:n, s))
+                call tip_influence_column_gradient(half_length(s), strips%y_left(s), &
+                                                   strips%y_right(s), half_length, y, &
+                                                   carried%tip(:n, s), carried%tip_x(:n, s), &
+                                                   carried%tip_l(:n, s))
+            end do
+        end associate
+        if (patches%n == 1) return
+        first = 1
+        do p = 1, patches%n
+            do s = first, first + patches%at(p)%n_strips - 1
+                if (first > 1) call carry_distance(carried, strips, s, 1, first - 1)
+                call carry_distance(carried, strips, s, first + patches%at(p)%n_strips, n)
+            end do
+            first = first + patches%at(p)%n_strips
+        end do
+    end subroutine carry
+
+    !> Derivatives in the distance of a strip's numbers at field points of other patches, by
+    !> differences.
+    pure subroutine carry_distance(carried, strips, s, from, to)
+        type(carried_t), intent(inout) :: carried
+        type(pass_strips_t), intent(in) :: strips
+        integer, intent(in) :: s, from, to
+
+        real(wp) :: step, r, per_r2
+        integer :: k
+
+        if (to < from) return
+        ! Of the nearest point's distance; the source moves away.
+        step = -difference*min(abs(carried%y(from) - carried%y(s)), &
+                               abs(carried%y(to) - carried%y(s)))
+        if (from > s) step = -step
+        associate (y => carried%y(from:to), x => carried%half_length(from:to), &
+                   center => carried%center(from:to, s), tip => carried%tip(from:to, s), &
+                   center_y => carried%center_y(from:to, s), tip_y => carried%tip_y(from:to, s))
+            call center_influence_column(carried%half_length(s), strips%y_left(s) - step, &
+                                         strips%y_right(s) - step, y, center_y)
+            call tip_influence_column(carried%half_length(s), strips%y_left(s) - step, &
+                                      strips%y_right(s) - step, x, y, tip_y)
+            do k = 1, size(y)
+                r = y(k) - carried%y(s)
+                per_r2 = 1.0_wp/(r**2 + x(k)**2)
+                center_y(k) = (center_y(k) - center(k))/step + center(k)/r
+                tip_y(k) = (tip_y(k) - tip(k))/step + tip(k)*r*per_r2
+            end do
+        end associate
+    end subroutine carry_distance
+
+    !> The largest relative change of a length, beside the growth of its patch, and of the distance
+    !> between two patches beside theirs. Twice the numbers' relative error is about its square.
+    pure real(wp) function carried_change(carried, strips) result(change)
+        type(carried_t), intent(in) :: carried    !! known
+        type(pass_strips_t), intent(in) :: strips !! as many
+
+        real(wp) :: sigma, apart, before
+        integer :: p, k, first
+
+        change = 0.0_wp
+        first = 1
+        do p = 1, carried%n_patches
+            sigma = growth(carried, strips, p, first)
+            do k = first, first + carried%n_strips(p) - 1
+                change = max(change, abs(strips%half_length(k) &
+                                         /(sigma*carried%half_length(k)) - 1.0_wp))
+            end do
+            if (first > 1) then
+                ! Between the end strips of neighbouring patches.
+                apart = 0.5_wp*(strips%y_left(first) + strips%y_right(first) &
+                                - strips%y_left(first - 1) - strips%y_right(first - 1))
+                before = carried%y(first) - carried%y(first - 1)
+                change = max(change, abs(apart/(sigma*before) - 1.0_wp))
+            end if
+            first = first + carried%n_strips(p)
+        end do
+    end function carried_change
+
+    !> As `strip_residual`, by carried numbers.
+    pure subroutine carried_residual(carried, strips, compliance, demand, residual)
+        type(carried_t), intent(inout) :: carried    !! known; its work changes, nothing else
+        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+
+        real(wp) :: sigma, pressure
+        integer :: n, p, s, first, last
+
+        n = strips%n
+        call start_residual(strips, demand, residual)
+        first = 1
+        do p = 1, carried%n_patches
+            last = first + carried%n_strips(p) - 1
+            sigma = growth(carried, strips, p, first)
+            do s = first, last
+                call carried_column(carried, strips, s, first, last, sigma)
+                pressure = compliance/strips%penetration*strips%p0(s)
+                residual(:n) = residual(:n) - pressure*carried%work(:n, 1)
+                residual(n + 1:2*n) = residual(n + 1:2*n) - pressure*carried%work(:n, 3)
+            end do
+            first = last + 1
+        end do
+    end subroutine carried_residual
+
+    !> As `strip_jacobian`, by carried numbers.
+    pure subroutine carried_jacobian(carried, strips, compliance, demand, p_scale, jacobian, &
+                                     residual)
+        type(carried_t), intent(inout) :: carried    !! known; its work changes, nothing else
+        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: p_scale              !! unit of the pressures' changes, MPa
+        real(wp), intent(inout) :: jacobian(:, :)    !! first 2n + 1 rows and columns
+        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+
+        real(wp) :: sigma
+        integer :: n, p, s, first, last
+
+        n = strips%n
+        call start_residual(strips, demand, residual)
+        call start_jacobian(strips, jacobian)
+        first = 1
+        do p = 1, carried%n_patches
+            last = first + carried%n_strips(p) - 1
+            sigma = growth(carried, strips, p, first)
+            do s = first, last
+                call carried_column(carried, strips, s, first, last, sigma)
+                call add_column(strips, s, carried%work, compliance/strips%penetration, p_scale, &
+                                jacobian, residual)
+            end do
+            first = last + 1
+        end do
+        call end_jacobian(strips, demand, p_scale, jacobian)
+    end subroutine carried_jacobian
+
+    !> Column s of the numbers for the strips where they are, into `work`.
+    pure subroutine carried_column(carried, strips, s, first, last, sigma)
+        type(carried_t), intent(inout) :: carried
+        type(pass_strips_t), intent(in) :: strips ! their centre lines set
+        integer, intent(in) :: s, first, last     ! the source, first and last strip of its patch
+        real(wp), intent(in) :: sigma             ! growth of that patch
+
+        real(wp) :: longer, per_sigma
+        integer :: k
+
+        per_sigma = 1.0_wp/sigma
+        longer = strips%half_length(s)*per_sigma - carried%half_length(s)
+        associate (center => carried%work(:, 1), center_l => carried%work(:, 2), &
+                   tip => carried%work(:, 3), tip_l => carried%work(:, 4), &
+                   tip_x => carried%work(:, 5))
+            do k = first, last
+                center(k) = sigma*(carried%center(k, s) + longer*carried%center_l(k, s))
+                center_l(k) = carried%center_l(k, s)
+                tip(k) = sigma*(carried%tip(k, s) + longer*carried%tip_l(k, s) &
+                                + (strips%half_length(k)*per_sigma - carried%half_length(k)) &
+                                *carried%tip_x(k, s))
+                tip_l(k) = carried%tip_l(k, s)
+                tip_x(k) = carried%tip_x(k, s)
+            end do
+        end associate
+        if (first > 1) call far_column(carried, strips, s, 1, first - 1, sigma)
+        if (last < carried%n) call far_column(carried, strips, s, last + 1, carried%n, sigma)
+    end subroutine carried_column
+
+    !> A part of column s whose field points are in other patches: besides the growth of the source
+    !> their distance changes.
+    pure subroutine far_column(carried, strips, s, from, to, sigma)
+        type(carried_t), intent(inout) :: carried
+        type(pass_strips_t), intent(in) :: strips
+        integer, intent(in) :: s, from, to
+        real(wp), intent(in) :: sigma
+
+        real(wp) :: longer, per_sigma, before, now, x, nearer
+        integer :: k
+
+        per_sigma = 1.0_wp/sigma
+        longer = strips%half_length(s)*per_sigma - carried%half_length(s)
+        do k = from, to
+            before = carried%y(k) - carried%y(s)
+            now = (strips%y(k) - strips%y(s))*per_sigma
+            nearer = before/now
+            carried%work(k, 1) = nearer*sigma*(carried%center(k, s) &
+                                               + longer*carried%center_l(k, s) &
+                                               + (now - before)*carried%center_y(k, s))
+            carried%work(k, 2) = nearer*carried%center_l(k, s)
+            x = strips%half_length(k)*per_sigma
+            nearer = sqrt((before**2 + x**2)/(now**2 + x**2))
+            carried%work(k, 3) = nearer*sigma*(carried%tip(k, s) &
+                                               + longer*carried%tip_l(k, s) &
+                                               + (x - carried%half_length(k))*carried%tip_x(k, s) &
+                                               + (now - before)*carried%tip_y(k, s))
+            carried%work(k, 4) = nearer*carried%tip_l(k, s)
+            carried%work(k, 5) = nearer*carried%tip_x(k, s)
+        end do
+    end subroutine far_column
+
+    !> By how much a patch has grown.
+    pure real(wp) function growth(carried, strips, p, first)
+        type(carried_t), intent(in) :: carried
+        type(pass_strips_t), intent(in) :: strips
+        integer, intent(in) :: p, first ! the patch and its first strip
+
+        growth = width_of(strips, first, carried%n_strips(p))/carried%width(p)
+    end function growth
+
+    pure real(wp) function width_of(strips, first, n)
+        type(pass_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, n ! first strip of a patch, and how many
+
+        width_of = strips%y_right(first + n - 1) - strips%y_left(first)
+    end function width_of
+end module faststrip_normal_strip_carried
