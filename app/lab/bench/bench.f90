@@ -149,8 +149,8 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'integral, tangential, steps: how often everything is timed,' &
-                     // new_line('a') // '1 to 1000 (default 21)'), &
+            option_t('--rounds', 'N', 'integral, tangential, steps: how often everything is' &
+                     // new_line('a') // 'timed, 1 to 1000 (default 21)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
                      reads=.true.), &
             option_t('--strips', 'N', 'steps: strips of the widest patch (default 15)'), &
@@ -187,10 +187,10 @@ contains
             '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
             '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
             'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
-            'steps: microseconds of the next solution of a history by 15 strips: 2.5 % steps of the', &
-            'load, 0.1 mm steps of the wheelset, both with 5 % of load; beside each the cold', &
-            'solution and the errors against one to all digits; then the contacts and scenes by', &
-            'themselves. One row a solution; least of the rounds. Median, 95th percentile, worst.', &
+            'steps: microseconds of the next solution of a history by 15 strips: 2.5 % steps of', &
+            'the load, 0.1 mm steps of the wheelset, both with 5 % of load; beside each the cold', &
+            'solution and errors against one to all digits; then contacts and scenes by', &
+            'themselves. A row a solution, least of the rounds; median, 95th percentile, worst.', &
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &

@@ -8,11 +8,11 @@ module faststrip_lab_bench_steps
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
     use faststrip_base_text, only: integer_text
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           standard_cant
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
@@ -31,8 +31,8 @@ module faststrip_lab_bench_steps
     integer, parameter :: load_steps = 1, shift_steps = 2, steps_of_both = 3, cold = 4
     character(len=*), parameter :: kinds(4) = [character(len=5) :: 'load', 'shift', 'both', 'cold']
 
-    ! Tuned [steps]: of a history, half of them before the contact. Origin: chosen: by 2.5 % the load
-    ! goes from .78 to 1.28 of the contact's, the wheelset goes 2 mm.
+    ! Tuned [steps]: of a history, half of them before the contact. Origin: chosen: by 2.5 % the
+    ! load goes from .78 to 1.28 of the contact's, the wheelset goes 2 mm.
     integer, parameter :: n_steps = 20
     ! Given: the steps that are promised: of the load alone, with the place, and of the place, mm.
     real(wp), parameter :: load_factor = 1.025_wp, larger_factor = 1.05_wp, shift_step = 0.1_wp
@@ -50,9 +50,8 @@ module faststrip_lab_bench_steps
     end type bench_t
 
     !> One step: what is solved, and what came of it.
-    type :: step_t
-        type(gap_t) :: gap
-        real(wp) :: load = 0.0_wp, shift = 0.0_wp
+    type, extends(contact_case_t) :: step_t
+        real(wp) :: shift = 0.0_wp ! mm
         real(wp) :: warm_us = 0.0_wp, cold_us = 0.0_wp, judge_us = 0.0_wp
         type(normal_result_t) :: warm, cold, judge
         type(status_t) :: status
@@ -114,24 +113,23 @@ contains
         do kind = load_steps, steps_of_both
             call start_tally(size(cases)*(n_steps + 1), tally)
             do i = 1, size(cases)
-                call make_history(cases(i), kind, wheel, rail, history)
-                write(0,*) 'HIST ', kinds(kind), ' ', cases(i)%name
-                call run_history(bench, cases(i)%material, history)
+                call make_steps(cases(i), kind, wheel, rail, history)
+                call run_history(bench, history)
                 call put_history(cases(i)%name, kind, strips, history, writer, tally)
             end do
             call tell(kind, tally)
         end do
         call start_tally(size(cases) + size(others), tally)
         do i = 1, size(cases)
-            history = [step_t(gap=cases(i)%gap, load=cases(i)%load, shift=cases(i)%shift)]
-            call run_history(bench, cases(i)%material, history)
+            call make_history(cases(i), history)
+            history%shift = cases(i)%shift
+            call run_history(bench, history)
             call put_history(cases(i)%name, cold, strips, history, writer, tally)
         end do
         do i = 1, size(others)
             if (.not. others(i)%by_load) cycle
-            history = [step_t(gap=others(i)%gap, load=others(i)%load)]
-            write(0,*) 'CASE ', others(i)%name
-            call run_history(bench, others(i)%material, history)
+            call make_history(others(i), history)
+            call run_history(bench, history)
             call put_history(others(i)%name, cold, strips, history, writer, tally)
         end do
         call tell(cold, tally)
@@ -139,8 +137,19 @@ contains
         call fail_on_error(status)
     end subroutine bench_steps
 
+    !> A history of one solution.
+    subroutine make_history(one, history)
+        class(contact_case_t), intent(in) :: one
+        type(step_t), allocatable, intent(out) :: history(:)
+
+        allocate (history(1))
+        history(1)%gap = one%gap
+        history(1)%load = one%load
+        history(1)%material = one%material
+    end subroutine make_history
+
     !> The steps of a history, with the contact itself in their middle.
-    subroutine make_history(one, kind, wheel, rail, history)
+    subroutine make_steps(one, kind, wheel, rail, history)
         type(bench_case_t), intent(in) :: one
         integer, intent(in) :: kind
         type(profile_t), intent(in) :: wheel, rail
@@ -152,6 +161,7 @@ contains
         allocate (history(0:n_steps))
         factor = merge(larger_factor, load_factor, kind == steps_of_both)
         do k = 0, n_steps
+            history(k)%material = one%material
             history(k)%load = one%load
             if (kind /= shift_steps) history(k)%load = one%load*factor**(k - n_steps/2)
             history(k)%shift = one%shift
@@ -162,12 +172,11 @@ contains
                 call gap_of_shift(wheel, rail, history(k)%shift, history(k)%gap)
             end if
         end do
-    end subroutine make_history
+    end subroutine make_steps
 
     !> Solve a history, each step warm (the first one cold), cold, and cold to all digits.
-    subroutine run_history(bench, material, history)
+    subroutine run_history(bench, history)
         type(bench_t), intent(inout) :: bench
-        type(material_t), intent(in) :: material
         type(step_t), intent(inout) :: history(:)
 
         type(strip_options_t) :: options
@@ -180,29 +189,28 @@ contains
         do round = 1, bench%rounds
             do k = 1, size(history)
                 options%warm_start = k > 1
-                call time_solution(bench, material, history(k), options, history(k)%warm_us, &
+                call time_solution(bench, history(k), options, history(k)%warm_us, &
                                    history(k)%warm, history(k)%status)
             end do
         end do
         options%warm_start = .false.
         do k = 1, size(history)
             do round = 1, bench%rounds
-                call time_solution(bench, material, history(k), options, history(k)%cold_us, &
+                call time_solution(bench, history(k), options, history(k)%cold_us, &
                                    history(k)%cold, status)
             end do
         end do
         options%tolerance = judge_tolerance
         do k = 1, size(history)
             history(k)%judge_us = huge(1.0_wp)
-            call time_solution(bench, material, history(k), options, history(k)%judge_us, &
+            call time_solution(bench, history(k), options, history(k)%judge_us, &
                                history(k)%judge, status)
         end do
     end subroutine run_history
 
     !> Solve one step; the time is kept if it is less than that of the rounds before.
-    subroutine time_solution(bench, material, step, options, us, result, status)
+    subroutine time_solution(bench, step, options, us, result, status)
         type(bench_t), intent(inout) :: bench
-        type(material_t), intent(in) :: material
         type(step_t), intent(in) :: step
         type(strip_options_t), intent(in) :: options
         real(wp), intent(inout) :: us
@@ -214,7 +222,7 @@ contains
         call set_strip_gap(bench%workspace, step%gap, status)
         if (is_error(status)) return
         from = cpu_microseconds()
-        call strip_solve(bench%workspace, normal_compliance(material), step%load, options, &
+        call strip_solve(bench%workspace, normal_compliance(step%material), step%load, options, &
                          bench%strips, result, status)
         us = min(us, cpu_microseconds() - from)
     end subroutine time_solution

@@ -11,8 +11,8 @@
 !>
 !> Two patches do not grow together. Of a strip and field points in another patch the distance `r`
 !> changes besides: far strips act as points, as 1/r, and what the numbers of near ones do besides
-!> is kept as a derivative too, by differences. Errors are of second order in what changes besides the
-!> growth (`carried_change`).
+!> is kept as a derivative too, by differences. Errors are of second order in what changes besides
+!> the growth (`carried_change`).
 module faststrip_normal_strip_carried
     use faststrip_base_kinds, only: wp
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient

@@ -43,8 +43,13 @@ module faststrip_normal_strip_coupled
                            max_end_step = 1.0_wp
     ! Tuned [evaluations]: of carried numbers in one solution. Origin: safeguard: two do.
     integer, parameter :: max_evaluations = 6
-    ! Tuned [1]: error of carried numbers over the square of what has changed. Origin: measured.
-    real(wp), parameter :: second_order = 3.0_wp
+    ! Tuned [1]: Error of carried numbers over the square of what has changed. Origin: measured.
+    real(wp), parameter :: second_order = 10.0_wp
+    ! Tuned [1]: Tolerance with carried numbers over the one asked for. Origin: chosen: trials with
+    ! them cost little.
+    real(wp), parameter :: carried_share = 0.01_wp
+    ! Tuned [1]: no tolerance below. Origin: safeguard: above the rounding of a step.
+    real(wp), parameter :: rounding = 1.0e-11_wp
     ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
     ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
@@ -110,7 +115,8 @@ contains
             end if
         end if
         do evaluation = 1, max_evaluations
-            call converge(workspace, compliance, demand, tolerance, .true., patches, cost, settled)
+            call converge(workspace, compliance, demand, max(carried_share*tolerance, rounding), &
+                          .true., patches, cost, settled)
             if (.not. settled) return
             settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
                       <= tolerance
