@@ -25,12 +25,16 @@ module faststrip_normal_strip_coupled
     implicit none
     private
 
-    public :: settle_coupled, settle_carried
+    public :: settle_coupled, settle_carried, max_factorings, few_factorings
 
     ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
-    ! Tuned [Jacobians]: Most factorings. Origin: safeguard.
+    !> Most factorings of a Jacobian.
+    !> Tuned [Jacobians]. Origin: safeguard.
     integer, parameter :: max_factorings = 6
+    !> The same where a last solution was not near for carried numbers.
+    !> Tuned [Jacobians]. Origin: chosen for the time: starting anew costs as much.
+    integer, parameter :: few_factorings = 2
     ! Tuned [1]. Origin: chosen for the time: a Jacobian costs some updates.
     real(wp), parameter :: slow = 0.5_wp       ! steps that shrink less ask for a new Jacobian
     ! Tuned [1]. Origin: chosen for the time.
@@ -48,8 +52,6 @@ module faststrip_normal_strip_coupled
     ! Tuned [1]: Tolerance with carried numbers over the one asked for. Origin: chosen: trials with
     ! them cost little.
     real(wp), parameter :: carried_share = 0.01_wp
-    ! Tuned [1]: no tolerance below. Origin: safeguard: above the rounding of a step.
-    real(wp), parameter :: rounding = 1.0e-11_wp
     ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
     ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
@@ -66,6 +68,7 @@ module faststrip_normal_strip_coupled
     !> What one step hands to the next.
     type :: steps_t
         logical :: by_carried = .false. ! numbers, or exact ones
+        integer :: most_factorings = max_factorings ! of a Jacobian
         integer :: factored = 0   ! how often the Jacobian was
         integer :: updates = 0    ! of the factors, by Broyden's formula
         logical :: exact = .false. ! are the factors those of this step?
@@ -76,18 +79,21 @@ module faststrip_normal_strip_coupled
 
 contains
 
-    !> Solve for strips and ends together; `settled` is false if that does not succeed, and then
-    !> nothing of the patches and the workspace's strips counts.
-    pure subroutine settle_coupled(workspace, compliance, demand, tolerance, patches, cost, settled)
+    !> Solve for strips and ends together by exact influence numbers; `settled` is false if that
+    !> does not succeed, and then nothing of the patches and the workspace's strips counts.
+    pure subroutine settle_coupled(workspace, compliance, demand, tolerance, most_factorings, &
+                                   patches, cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
         real(wp), intent(in) :: tolerance            !! relative size of the residuals left
+        integer, intent(in) :: most_factorings       !! of a Jacobian
         type(patches_t), intent(inout) :: patches    !! their ends move
         type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
-        call converge(workspace, compliance, demand, tolerance, .false., patches, cost, settled)
+        call converge(workspace, compliance, demand, tolerance, .false., most_factorings, patches, &
+                      cost, settled)
         if (settled) call meet_load(workspace, demand)
     end subroutine settle_coupled
 
@@ -109,14 +115,14 @@ contains
         if (.not. carries(workspace%carried, patches)) then
             call evaluate(workspace, patches, cost)
             if (.not. workspace%carried%known) then
-                call settle_coupled(workspace, compliance, demand, tolerance, patches, cost, &
-                                    settled)
+                call settle_coupled(workspace, compliance, demand, tolerance, max_factorings, &
+                                    patches, cost, settled)
                 return
             end if
         end if
         do evaluation = 1, max_evaluations
-            call converge(workspace, compliance, demand, max(carried_share*tolerance, rounding), &
-                          .true., patches, cost, settled)
+            call converge(workspace, compliance, demand, tolerance, .true., max_factorings, &
+                          patches, cost, settled)
             if (.not. settled) return
             settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
                       <= tolerance
@@ -125,7 +131,7 @@ contains
         end do
         ! What the carried numbers cannot follow is near the solution by now.
         if (.not. settled) call converge(workspace, compliance, demand, tolerance, .false., &
-                                         patches, cost, settled)
+                                         max_factorings, patches, cost, settled)
         if (settled) call meet_load(workspace, demand)
     end subroutine settle_carried
 
@@ -139,13 +145,15 @@ contains
         if (workspace%carried%known) call add_cost(cost, workspace%strips%n, 0, .false., 1)
     end subroutine evaluate
 
-    !> Steps until they are small.
-    pure subroutine converge(workspace, compliance, demand, tolerance, by_carried, patches, cost, &
-                             settled)
+    !> Steps until they are small: with carried numbers, which cost little, smaller than that, but
+    !> not below rounding.
+    pure subroutine converge(workspace, compliance, demand, tolerance, by_carried, &
+                             most_factorings, patches, cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance, tolerance
         type(demand_t), intent(in) :: demand
         logical, intent(in) :: by_carried ! numbers, or exact ones
+        integer, intent(in) :: most_factorings
         type(patches_t), intent(inout) :: patches
         type(cost_t), intent(inout) :: cost
         logical, intent(out) :: settled
@@ -153,11 +161,14 @@ contains
         type(end_t) :: ends(2*max_patches)
         type(steps_t) :: steps
         integer :: m, n_ends, trial
-        real(wp) :: scale, p_scale
+        real(wp) :: scale, p_scale, goal
         logical :: possible
 
         settled = .false.
+        goal = tolerance
+        if (by_carried) goal = carried_share*tolerance
         steps%by_carried = by_carried
+        steps%most_factorings = most_factorings
         call list_ends(workspace, patches, ends, n_ends)
         m = 2*workspace%strips%n + 1 + n_ends
         call check_kept(workspace%newton, demand, patches, ends(:n_ends))
@@ -168,6 +179,9 @@ contains
             if (.not. possible) return
             call find_step(workspace%newton, m, steps, possible)
             if (.not. possible) return
+            ! What does not shrink any more is rounding.
+            settled = steps%ratio > slow .and. steps%size_now <= tolerance
+            if (settled) exit
             if (.not. workspace%newton%kept) cycle
             call take_step(workspace, ends(:n_ends), p_scale, patches, scale, possible)
             if (.not. possible) return
@@ -175,7 +189,7 @@ contains
                 workspace%newton%kept = .false.
             else
                 ! The residuals left are about the next step.
-                settled = steps%size_now*min(steps%ratio, slow)/(1.0_wp - slow) <= tolerance
+                settled = steps%size_now*min(steps%ratio, slow)/(1.0_wp - slow) <= goal
                 if (settled) exit
                 call keep_step(workspace%newton, m, steps, settled)
                 if (settled) exit
@@ -225,7 +239,7 @@ contains
                                   workspace%newton%step)
             return
         end if
-        possible = steps%factored < max_factorings
+        possible = steps%factored < steps%most_factorings
         if (.not. possible) return
         steps%factored = steps%factored + 1
         if (steps%by_carried) then

@@ -12,7 +12,8 @@
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried
+    use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, max_factorings, &
+                                              few_factorings
     use faststrip_normal_strip_ends, only: move_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize
@@ -290,17 +291,18 @@ contains
         if (level%near .and. settling%pass == 1) then
             call settle_carried(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
-            if (.not. (found .or. level%resumes)) then
+            if (.not. found) then
                 settling%solved = settling%patches
                 call position_strips(workspace, settling%solved, n)
                 workspace%strips%penetration = settling%penetration
                 workspace%newton%kept = .false.
                 call settle_coupled(workspace, compliance, demand, level%tolerance, &
+                                    merge(few_factorings, max_factorings, level%resumes), &
                                     settling%solved, result%cost, found)
             end if
         else
-            call settle_coupled(workspace, compliance, demand, level%tolerance, settling%solved, &
-                                result%cost, found)
+            call settle_coupled(workspace, compliance, demand, level%tolerance, max_factorings, &
+                                settling%solved, result%cost, found)
         end if
         if (.not. found) return
         settling%patches = settling%solved
