@@ -19,7 +19,8 @@ module faststrip_normal_strip_coupled
                                               carried_jacobian
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
-    use faststrip_normal_strip_ends, only: end_step, end_width, end_stride
+    use faststrip_normal_strip_ends, only: end_width
+    use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, wanted, shift_ends, in_order
     use faststrip_normal_strip_state, only: strip_workspace_t, position_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
@@ -56,14 +57,6 @@ module faststrip_normal_strip_coupled
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
     ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
     real(wp), parameter :: length_difference = 1.0e-6_wp
-
-    !> An end of a patch.
-    type :: end_t
-        integer :: patch = 0, strip = 0
-        integer :: inward = 1 ! 1 at a left end, -1 at a right end
-        integer :: stride = 1
-        logical :: fixed = .false. ! at the end of the gap's points
-    end type end_t
 
     !> What one step hands to the next.
     type :: steps_t
@@ -314,7 +307,7 @@ contains
             strips%p0(:n) = strips%p0(:n) + scale*p_scale*step(:n)
             strips%half_length(:n) = strips%half_length(:n)*exp(scale*step(n + 1:2*n))
             strips%penetration = strips%penetration*(1.0_wp + scale*step(2*n + 1))
-            call move(workspace, ends, scale, step(2*n + 2:m), patches)
+            call shift_ends(workspace, ends, scale, step(2*n + 2:m), patches)
             possible = in_order(workspace, patches)
             if (.not. possible) return
             call position_edges(workspace, patches)
@@ -343,30 +336,6 @@ contains
 
         limit_of = largest/max(largest, maxval(abs(step)))
     end function limit_of
-
-    !> The ends of all patches, left and right in turn.
-    pure subroutine list_ends(workspace, patches, ends, n_ends)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(patches_t), intent(in) :: patches
-        type(end_t), intent(inout) :: ends(:)
-        integer, intent(out) :: n_ends
-
-        integer :: p, last
-
-        last = 0
-        do p = 1, patches%n
-            ends(2*p - 1) = end_t(p, last + 1, 1, end_stride(patches%at(p)%n_strips))
-            last = last + patches%at(p)%n_strips
-            ends(2*p) = end_t(p, last, -1, end_stride(patches%at(p)%n_strips))
-            ends(2*p - 1)%fixed = patches%at(p)%y_from <= workspace%curve%y(1)
-            ends(2*p)%fixed = patches%at(p)%y_to >= workspace%curve%y(workspace%curve%n)
-        end do
-        n_ends = 2*patches%n
-        do p = 1, n_ends
-            if (ends(p)%fixed) ends(p)%fixed = &
-                end_step(workspace, ends(p)%strip, ends(p)%inward, ends(p)%stride) >= 0.0_wp
-        end do
-    end subroutine list_ends
 
     !> Keep the last factors only if they are of a system of the same kind.
     pure subroutine check_kept(newton, demand, patches, ends)
@@ -408,16 +377,6 @@ contains
             residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
         end do
     end subroutine coupled_residual
-
-    !> How far an end should move outwards.
-    pure real(wp) function wanted(workspace, one_end)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(end_t), intent(in) :: one_end
-
-        wanted = 0.0_wp
-        if (.not. one_end%fixed) &
-            wanted = end_step(workspace, one_end%strip, one_end%inward, one_end%stride)
-    end function wanted
 
     !> Residual, into `step`, and the factored Jacobian.
     pure subroutine factor(workspace, compliance, demand, patches, ends, p_scale, by_carried, &
@@ -486,44 +445,4 @@ contains
             call lu_factor(m, jacobian, workspace%newton%pivot, singular)
         end associate
     end subroutine factor
-
-    !> Move the ends by steps in units of their widths, not beyond the gap's points.
-    pure subroutine move(workspace, ends, scale, step, patches)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(end_t), intent(in) :: ends(:)
-        real(wp), intent(in) :: scale, step(:)
-        type(patches_t), intent(inout) :: patches
-
-        integer :: e
-        real(wp) :: outwards
-
-        do e = 1, size(ends)
-            if (ends(e)%fixed) cycle
-            outwards = scale*step(e)*end_width(workspace, ends(e)%strip, ends(e)%stride)
-            associate (patch => patches%at(ends(e)%patch))
-                if (ends(e)%inward == 1) then
-                    patch%y_from = patch%y_from - outwards
-                else
-                    patch%y_to = patch%y_to + outwards
-                end if
-            end associate
-        end do
-    end subroutine move
-
-    !> Are the patches apart, of some width and within the gap's points, as they have to be?
-    pure logical function in_order(workspace, patches)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(patches_t), intent(in) :: patches
-
-        integer :: p
-
-        in_order = patches%at(1)%y_from >= workspace%curve%y(1) &
-                   .and. patches%at(patches%n)%y_to <= workspace%curve%y(workspace%curve%n)
-        do p = 1, patches%n
-            in_order = in_order .and. patches%at(p)%y_to > patches%at(p)%y_from
-        end do
-        do p = 2, patches%n
-            in_order = in_order .and. patches%at(p)%y_from > patches%at(p - 1)%y_to
-        end do
-    end function in_order
 end module faststrip_normal_strip_coupled
