@@ -41,7 +41,7 @@ contains
         integer, intent(in) :: m                !! equations
         logical, intent(in) :: factored         !! was a Jacobian factored?
         integer, intent(in) :: residuals        !! residuals taken besides
-        logical, intent(in), optional :: by_carried !! numbers: none is computed
+        logical, intent(in), optional :: by_carried !! if it is there, none was computed
 
         if (.not. present(by_carried)) cost%iterations = cost%iterations + 1
         cost%values = cost%values + 2*n*n*residuals
