@@ -10,6 +10,7 @@ module faststrip_files_csv_writer
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_write
     use faststrip_base_text, only: trim_blanks, integer_text
     use faststrip_files_lines, only: is_folder
+    use faststrip_files_stdio, only: c_fopen, c_fdopen, c_fputs, c_fclose, c_rename, c_remove
     use faststrip_files_temporary, only: most_temporaries, temporary_name, final_path
     implicit none
     private
@@ -36,52 +37,12 @@ module faststrip_files_csv_writer
         module procedure put_text_cell, put_integer_cell, put_real_cell
     end interface put_cell
 
-    ! Files are written through the C library: its streams report every failed write, also one
-    ! that shows only when the buffer is emptied, where FLUSH and CLOSE may stay silent.
     interface
-        function c_fopen(path, mode) bind(c, name='fopen') result(stream)
-            import :: c_char, c_ptr
-            character(kind=c_char), intent(in) :: path(*), mode(*)
-            type(c_ptr) :: stream
-        end function c_fopen
-
-        function c_fdopen(descriptor, mode) bind(c, name='fdopen') result(stream)
-            import :: c_char, c_int, c_ptr
-            integer(c_int), value :: descriptor
-            character(kind=c_char), intent(in) :: mode(*)
-            type(c_ptr) :: stream
-        end function c_fdopen
-
         function c_dup(descriptor) bind(c, name='dup') result(copy)
             import :: c_int
             integer(c_int), value :: descriptor
             integer(c_int) :: copy
         end function c_dup
-
-        function c_fputs(text, stream) bind(c, name='fputs') result(code)
-            import :: c_char, c_int, c_ptr
-            character(kind=c_char), intent(in) :: text(*)
-            type(c_ptr), value :: stream
-            integer(c_int) :: code
-        end function c_fputs
-
-        function c_fclose(stream) bind(c, name='fclose') result(code)
-            import :: c_int, c_ptr
-            type(c_ptr), value :: stream
-            integer(c_int) :: code
-        end function c_fclose
-
-        function c_rename(old, new) bind(c, name='rename') result(code)
-            import :: c_char, c_int
-            character(kind=c_char), intent(in) :: old(*), new(*)
-            integer(c_int) :: code
-        end function c_rename
-
-        function c_remove(path) bind(c, name='remove') result(code)
-            import :: c_char, c_int
-            character(kind=c_char), intent(in) :: path(*)
-            integer(c_int) :: code
-        end function c_remove
 
         ! Where the C library keeps the number of its last error (errno), by the name that the
         ! Linux Standard Base gives it.

@@ -7,6 +7,7 @@ module faststrip_files_lines
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_missing, &
                                      st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
+    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose
     implicit none
     private
 
@@ -39,35 +40,7 @@ module faststrip_files_lines
 
     character(len=1), parameter :: line_feed = achar(10), carriage_return = achar(13)
 
-    ! Files are read through the C library, which tells how much there was: the last piece of a
-    ! stream is shorter than asked for, which READ does not say by how much.
     interface
-        function c_fopen(path, mode) bind(c, name='fopen') result(stream)
-            import :: c_char, c_ptr
-            character(kind=c_char), intent(in) :: path(*), mode(*)
-            type(c_ptr) :: stream
-        end function c_fopen
-
-        function c_fread(to, size, count, stream) bind(c, name='fread') result(n)
-            import :: c_char, c_ptr, c_size_t
-            character(kind=c_char), intent(inout) :: to(*)
-            integer(c_size_t), value :: size, count
-            type(c_ptr), value :: stream
-            integer(c_size_t) :: n
-        end function c_fread
-
-        function c_ferror(stream) bind(c, name='ferror') result(code)
-            import :: c_int, c_ptr
-            type(c_ptr), value :: stream
-            integer(c_int) :: code
-        end function c_ferror
-
-        function c_fclose(stream) bind(c, name='fclose') result(code)
-            import :: c_int, c_ptr
-            type(c_ptr), value :: stream
-            integer(c_int) :: code
-        end function c_fclose
-
         function c_access(path, mode) bind(c, name='access') result(code)
             import :: c_char, c_int
             character(kind=c_char), intent(in) :: path(*)
