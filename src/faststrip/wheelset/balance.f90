@@ -37,6 +37,9 @@ module faststrip_wheelset_balance
     real(wp), parameter :: difference = 1.0e-4_wp
     ! Tuned [steps]: halvings of a step. Origin: capacity.
     integer, parameter :: most_halvings = 8
+    ! Tuned [1]: how far apart, of the approach, the wheels' heights may be at the start. Origin:
+    ! chosen: the steps that follow find the rest.
+    real(wp), parameter :: start_apart = 0.1_wp
 
 contains
 
@@ -322,8 +325,7 @@ contains
             apart = touch(side_right) + approach(side_right) - touch(side_left) &
                     - approach(side_left)
             state%z = 0.5_wp*(sum(touch) + sum(approach))
-            ! As near as a tenth of the approach is a start.
-            if (abs(apart) <= 0.1_wp*minval(approach)) return
+            if (abs(apart) <= start_apart*minval(approach)) return
             call next_roll(search, apart, model%pair(side_right)%y_line, state%roll)
         end do
         call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')
