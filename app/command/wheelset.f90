@@ -44,7 +44,7 @@ module faststrip_command_wheelset
     !> What a run has at hand.
     type :: run_t
         type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspace
+        type(wheelset_workspace_t) :: workspaces(2)      !! one for each state beside; first: state
         type(wheel_strips_t) :: strips                   !! of the last contact
         type(wear_choice_t) :: wear                      !! wear law, yield stress
         real(wp) :: yield_mpa = 0.0_wp                   !! pmax above is named, MPa; 0: no limit
@@ -67,7 +67,7 @@ contains
         type(state_columns_t) :: columns
         type(given_state_t) :: state
         type(status_t) :: status
-        integer :: row, n_failed
+        integer :: i, row, n_failed
 
         command%name = 'wheelset'
         command%usage = 'CASE.nml'
@@ -118,8 +118,10 @@ contains
         run%wants_strips = given(command, '--strips')
         run%wants_profiles = given(command, '--profiles')
         run%profiles_of = option_text(command, '--profiles-of', '')
-        call reserve_wheelset(run%workspace, run%model, status)
-        call fail_on_error(status)
+        do i = 1, merge(2, 1, run%beside > 0.0_wp)
+            call reserve_wheelset(run%workspaces(i), run%model, status)
+            call fail_on_error(status)
+        end do
         if (.not. case%has_state) then
             call read_csv(option_text(command, '--states', ''), table, status)
             call fail_on_error(status)
@@ -205,9 +207,9 @@ contains
         logical :: wants(2)
 
         call take_state(given, run%model, state, demand, status)
-        run%workspace%has_last = .false.
+        run%workspaces(1)%has_last = .false.
         if (.not. is_error(status)) &
-            call solve_wheelset(run%model, run%workspace, state, demand, result, status)
+            call solve_wheelset(run%model, run%workspaces(1), state, demand, result, status)
         if (is_error(status)) then
             call put_failed_state(run%writer(1), name, trim(given%side), status)
             return
@@ -218,7 +220,7 @@ contains
             if (len(run%profiles_of) == 0) run%profiles_of = name
             if (run%profiles_of == name) then
                 call put_wheelset_profiles(run%writer(3), name, run%model, &
-                                           run%workspace%last_state, result, wants)
+                                           run%workspaces(1)%last_state, result, wants)
                 run%has_profiles = .true.
             end if
         end if
@@ -244,8 +246,6 @@ contains
             if (.not. is_jump(result(1), result(2), wants)) return
         end if
         do i = 1, 2
-            ! Strips are those of the last solution.
-            call solve_beside(i)
             if (has_result(i)) call put_sides(run, name, wants, result(i), i + 1)
         end do
 
@@ -259,13 +259,13 @@ contains
 
             there = state
             there%y = state%y + merge(-run%beside, run%beside, i == 1)
-            run%workspace%has_last = .false.
-            call solve_wheelset(run%model, run%workspace, there, demand, result(i), status)
+            run%workspaces(i)%has_last = .false.
+            call solve_wheelset(run%model, run%workspaces(i), there, demand, result(i), status)
             has_result(i) = .not. is_error(status)
         end subroutine solve_beside
     end subroutine put_beside
 
-    ! One solution of a state.
+    ! One solution of a state: 1, or 2 and 3 beside it.
     subroutine put_sides(run, name, wants, result, solution)
         type(run_t), intent(inout) :: run
         character(len=*), intent(in) :: name
@@ -289,13 +289,14 @@ contains
         type(wheel_result_t) :: wheel
         type(status_t) :: status
         logical :: has_forces
-        integer :: i
+        integer :: i, w
 
         has_forces = run%model%case%methods%tangential /= tangential_none
+        w = max(1, solution - 1)
         do i = 1, result%wheel(side)%n
             associate (contact => result%wheel(side)%contact(i))
                 if (run%wants_strips .or. run%wear%law%n > 0) then
-                    call find_wheel_strips(run%model, run%workspace, result, side, i, &
+                    call find_wheel_strips(run%model, run%workspaces(w), result, side, i, &
                                            run%strips, status)
                     call fail_on_error(status)
                 end if
@@ -319,6 +320,6 @@ contains
                             wheel%contact(i)%status)
         end do
         call put_wheel(run%writer(1), name, trim(side_names(side)), wheel, figures, &
-                       has_forces, solution, run%workspace%last_state%y)
+                       has_forces, solution, run%workspaces(w)%last_state%y)
     end subroutine put_side
 end module faststrip_command_wheelset
