@@ -339,7 +339,7 @@ contains
                 workspace%is_estimated = .not. is_error(estimate)
                 if (workspace%is_estimated) &
                     call raise_estimates(workspace%curve, compliance, workspace%grid, &
-                                         workspace%certificate)
+                                         workspace%coarse, workspace%certificate)
                 if (options%error_target > 0.0_wp .and. workspace%is_estimated .and. &
                     max(workspace%certificate%est_err_penetration, &
                         workspace%certificate%est_err_pmax) <= options%error_target) exit

@@ -21,7 +21,7 @@
 !>   element slides the compliance leaves its direction as it is.
 !> - **K3** *True edge.* The square of the pressure falls linearly to zero at the edge: f from the
 !>   first three elements of a row. Pressures that NORM found on the same grid are those of a
-!>   lattice too, and f follows from the ratio of the first two (`norm_edge`).
+!>   lattice too, and f follows from the ratio of the first two (`lattice_edge`).
 !>
 !> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
 !>
@@ -34,6 +34,7 @@ module faststrip_kalker_tangential_problem
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence
+    use faststrip_kalker_border, only: lattice_edge, lone_edge
     use faststrip_kalker_convolution, only: convolution_t, reserve_convolution, set_kernel, &
                                             release_convolution, transform_source, collect, even, &
                                             odd
@@ -56,14 +57,8 @@ module faststrip_kalker_tangential_problem
     ! Given: fitted, the plane contact of cylinders.
     real(wp), parameter :: edge_reach = 0.174_wp
     ! Smallest position of an edge, just short of where the element carries nothing.
-    ! Given: fitted, see edge_fit.
+    ! Given: fitted, see lattice_edge.
     real(wp), parameter :: nearest_edge = -0.17_wp
-    ! norm_edge: of the plane contact of cylinders, 60 positions of its edge in the grid.
-    ! Given: coefficients of a fit.
-    real(wp), parameter :: edge_fit(0:4) = [-0.17462861_wp, 0.99658564_wp, 0.43443832_wp, &
-                                            0.13650724_wp, 0.15087991_wp]
-    ! Tuned [1]: Largest proportion of neighbouring pressures. Origin: safeguard of the fit.
-    real(wp), parameter :: largest_ratio = 0.75_wp
     ! CONTACT's rigid slip is that of dx/6 ahead of the middle.
     ! Given: as CONTACT.
     real(wp), parameter :: contact_lead = 1.0_wp/6.0_wp
@@ -296,15 +291,11 @@ contains
         real(wp), intent(in) :: p(:)  !! up to three, leading one first
         integer, intent(in) :: edges
 
-        real(wp) :: slope, bend, root, q(3), t
+        real(wp) :: slope, bend, root, q(3)
 
         if (edges == edges_of_norm) then
-            position = 0.5_wp - edge_reach
-            if (size(p) < 2) return
-            if (p(2) <= p(1)) return
-            t = min(p(1)/p(2), largest_ratio)
-            position = edge_fit(0) + t*(edge_fit(1) + t*(edge_fit(2) + t*(edge_fit(3) &
-                                                                       + t*edge_fit(4))))
+            position = lone_edge
+            if (size(p) > 1) position = lattice_edge(p(1), p(2))
             return
         end if
         position = 0.5_wp

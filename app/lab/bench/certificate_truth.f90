@@ -1,7 +1,7 @@
 !> The truth that estimates of errors are judged by: Kalker's method on two grids, carried on.
 !>
-!> Penetration and largest pressure are of second order in the sides of the elements, the area of
-!> first. Half the difference of the two grids is what the truth itself may be wrong by: where that
+!> Penetration, largest pressure and the area under the border (`faststrip_kalker_border`) are of
+!> second order in the sides of the elements. Half the difference of the two grids is what the truth itself may be wrong by: where that
 !> is no small part of an error, nothing can be said of its estimate.
 module faststrip_lab_bench_certificate_truth
     use faststrip_base_kinds, only: wp
@@ -13,6 +13,7 @@ module faststrip_lab_bench_certificate_truth
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        set_norm_curve, norm_solve_demand
+    use faststrip_kalker_border, only: border_area
     use faststrip_contact_case, only: contact_case_t
     implicit none
     private
@@ -52,7 +53,7 @@ contains
         type(norm_options_t) :: options
         type(normal_result_t) :: fine
         type(status_t) :: status
-        real(wp) :: compliance, coarse_figure(3), fine_figure(3)
+        real(wp) :: compliance, coarse_figure(3), fine_figure(3), coarse_area
 
         is_found = .false.
         options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
@@ -66,6 +67,7 @@ contains
                                status)
         if (status%code /= st_ok .or. .not. workspace%is_estimated) return
         truth%estimated = workspace%certificate
+        coarse_area = border_area(workspace%grid)
         options%dx = 0.5_wp*options%dx
         options%dy = 0.5_wp*options%dy
         options%two_levels = .false.
@@ -73,10 +75,10 @@ contains
         call norm_solve_demand(workspace, compliance, contact%demand_t, options, fine, status)
         if (status%code /= st_ok) return
         coarse_figure = [truth%coarse%penetration - curve%h_lowest, truth%coarse%pmax, &
-                         truth%coarse%area]
-        fine_figure = [fine%penetration - curve%h_lowest, fine%pmax, fine%area]
-        truth%figure(:2) = fine_figure(:2) + (fine_figure(:2) - coarse_figure(:2))/3.0_wp
-        truth%figure(3) = 2.0_wp*fine_figure(3) - coarse_figure(3)
+                         coarse_area]
+        fine_figure = [fine%penetration - curve%h_lowest, fine%pmax, &
+                       border_area(workspace%grid)]
+        truth%figure = fine_figure + (fine_figure - coarse_figure)/3.0_wp
         is_found = all(truth%figure > 0.0_wp)
         if (is_found) truth%doubt = 0.5_wp*abs(fine_figure - coarse_figure)/truth%figure
     end subroutine find_truth
