@@ -15,8 +15,8 @@
 !> - penetration: a tenth of the estimate for pmax.
 !>
 !> The factors were chosen on 400 random contacts of 16 families, 60 by 120 elements, against grids
-!> twice as fine and carried on; each bounds 95 % of them. Those of the area were chosen on 154 of 11
-!> families, 5 to 40 elements across, against the area under the border on 150 by 150.
+!> twice as fine and carried on; each bounds 95 % of them. Those of the area were chosen on 154 of
+!> 11 families, 5 to 40 elements across, against the area under the border on 150 by 150.
 module faststrip_kalker_normal_estimate
     use faststrip_base_kinds, only: wp, pi
     use faststrip_normal_certificate, only: certificate_t

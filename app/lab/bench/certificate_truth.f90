@@ -1,8 +1,9 @@
 !> The truth that estimates of errors are judged by: Kalker's method on two grids, carried on.
 !>
 !> Penetration, largest pressure and the area under the border (`faststrip_kalker_border`) are of
-!> second order in the sides of the elements. Half the difference of the two grids is what the truth itself may be wrong by: where that
-!> is no small part of an error, nothing can be said of its estimate.
+!> second order in the sides of the elements. Half the difference of the two grids is what the
+!> truth itself may be wrong by: where that is no small part of an error, nothing can be said of
+!> its estimate.
 module faststrip_lab_bench_certificate_truth
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok
