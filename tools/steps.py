@@ -47,6 +47,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LOGS = pathlib.Path("build/logs")
+# Holds what stands for gfortran in fpm's builds.
+COMPILER = pathlib.Path("build/compiler")
 FPM = ".venv/bin/fpm"
 PROGRAMS = ("faststrip", "faststrip-lab")
 
@@ -178,13 +180,13 @@ def do(*words, output=None):
         sys.exit(code)
 
 
-def quietly(name, words, trouble):
+def quietly(name, words, trouble, environment=None):
     """Run a command in silence; what it said is in its log, and told only if it fails."""
     LOGS.mkdir(parents=True, exist_ok=True)
     log = LOGS / f"{name}.log"
     with open(log, "wb") as stream:
         code = subprocess.run(words, stdout=stream, stderr=subprocess.STDOUT,
-                              check=False).returncode
+                              env=environment, check=False).returncode
     if code != 0:
         raise Trouble(trouble, log.read_text(encoding="utf-8", errors="replace"))
 
@@ -243,9 +245,37 @@ end module faststrip_command_revision
         path.write_text(text, encoding="utf-8")
 
 
+def compiler():
+    """An environment in which gfortran is tools/recompile.py: it keeps what sees no change."""
+    real = shutil.which("gfortran")
+    if real is None:
+        raise Trouble("there is no gfortran")
+    words = [sys.executable, "-IS", str(ROOT / "tools" / "recompile.py"), real]
+    text = f'#!/bin/sh\nexec {shlex.join(words)} "$@"\n'
+    path = COMPILER / "gfortran"
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        COMPILER.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        path.chmod(0o755)
+    return {**os.environ, "PATH": f"{COMPILER.resolve()}{os.pathsep}{os.environ['PATH']}"}
+
+
+def fpm(name, package, command, flags, *words, trouble):
+    """Let fpm build. After a build that was not finished it takes what it had not yet come to for
+    finished too: it is made to forget."""
+    unfinished = pathlib.Path(package, "build", "unfinished")
+    if unfinished.exists():
+        for path in unfinished.parent.rglob("*.digest"):
+            path.unlink()
+    unfinished.parent.mkdir(exist_ok=True)
+    unfinished.touch()
+    quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags, *words],
+            trouble, compiler())
+    unfinished.unlink()
+
+
 def fpm_build(name, package, flags):
-    quietly(name, [FPM, "build", "-C", package, "--compiler", "gfortran", "--flag", flags],
-            "the build failed")
+    fpm(name, package, "build", flags, trouble="the build failed")
 
 
 def built(package, flags, target):
@@ -505,8 +535,8 @@ def report(*words):
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
-    quietly("stage", [FPM, "install", "--compiler", "gfortran", "--flag", RELEASE_FLAGS,
-                      "--c-flag", "-fPIC", "--prefix", "build/stage"], "fpm install failed")
+    fpm("stage", ".", "install", RELEASE_FLAGS, "--c-flag", "-fPIC", "--prefix", "build/stage",
+        trouble="fpm install failed")
     if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
                        "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
         raise Trouble("the installation failed")

@@ -66,7 +66,7 @@ class Project(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
         for name in ("run", "fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             self.copy(name)
-        for name in ("requirements.txt", "steps.py", "pf2f90.py", "run_pytests.py"):
+        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py"):
             self.copy(f"tools/{name}")
         self.manifest("app", 'faststrip-command.path = "command"')
         self.manifest("app/command", 'faststrip.path = "../.."')
@@ -263,6 +263,43 @@ class Testing(Project):
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         self.assertEqual(result.stderr.splitlines()[-1], "run: the build failed")
         self.assertIn("prnt", result.stderr)
+
+    def test_only_what_sees_a_change_is_compiled(self):
+        library, kept = "src/faststrip/base/kinds.f90", "faststrip_lab.f90"
+
+        def built():
+            """The objects that were compiled, and what the first program says."""
+            before = {path: path.stat().st_mtime_ns for path in self.folder.glob("app/**/*.o")}
+            result = self.run_it("build")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            said = subprocess.run([self.folder / "bin/faststrip"], stdout=subprocess.PIPE,
+                                  text=True, check=True).stdout
+            return [path.name for path in self.folder.glob("app/**/*.o")
+                    if before.get(path) != path.stat().st_mtime_ns], said
+
+        text = LIBRARY.replace("public :: wp",
+                               "public :: wp, say\n    integer, parameter :: say = 1")
+        main = MAIN.replace("    implicit none", "    use faststrip_base_kinds, only: say\n"
+                            "    implicit none\n    print '(i0)', say")
+        self.write(library, text)
+        self.write("app/programs/faststrip.f90", main)
+        objects, said = built()
+        self.assertEqual((len(objects), said), (4, "1\nrevision unknown\n"))
+        self.write(library, "! A comment.\n" + text)
+        objects, said = built()
+        self.assertEqual((len(objects), said), (1, "1\nrevision unknown\n"))
+        text = text.replace("say = 1", "say = 2")
+        self.write(library, text)
+        objects, said = built()
+        self.assertEqual((len(objects), said), (2, "2\nrevision unknown\n"))
+        self.assertFalse([name for name in objects if kept in name])
+        # After a build that failed nothing is taken for done that is not.
+        self.write(library, text.replace("say = 2", "say = 3"))
+        self.write("app/programs/faststrip.f90", main.replace("print", "prnt"))
+        self.assertEqual(self.run_it("build").returncode, 1)
+        self.write("app/programs/faststrip.f90", main)
+        objects, said = built()
+        self.assertEqual((objects, said), (["programs_faststrip.f90.o"], "3\nrevision unknown\n"))
 
     def test_lint_counts(self):
         self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
