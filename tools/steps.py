@@ -271,7 +271,7 @@ def fpm(name, package, command, flags, *words, trouble):
     unfinished.touch()
     quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags, *words],
             trouble, compiler())
-    unfinished.unlink()
+    unfinished.unlink(missing_ok=True)
 
 
 def fpm_build(name, package, flags):
@@ -370,8 +370,9 @@ def release_build(_):
 def python_tests(text):
     folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
                if os.path.isdir(name)]
-    # Two at a time: most of them wait for one program.
-    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", "2",
+    # Two at a time at least: most of them wait for one program.
+    jobs = max(2, len(os.sched_getaffinity(0)))
+    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", str(jobs),
                 "--whole", "test/embed", *folders)
 
 
