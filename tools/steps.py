@@ -35,6 +35,7 @@ What is missing is installed first: Debian packages as root or with sudo, Python
 .venv. FASTSTRIP_FFLAGS adds compiler flags to the release build, for example -march=native.
 """
 
+import fcntl
 import filecmp
 import os
 import pathlib
@@ -263,15 +264,19 @@ def compiler():
 def fpm(name, package, command, flags, *words, trouble):
     """Let fpm build. After a build that was not finished it takes what it had not yet come to for
     finished too: it is made to forget."""
-    unfinished = pathlib.Path(package, "build", "unfinished")
-    if unfinished.exists():
-        for path in unfinished.parent.rglob("*.digest"):
-            path.unlink()
-    unfinished.parent.mkdir(exist_ok=True)
-    unfinished.touch()
-    quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags, *words],
-            trouble, compiler())
-    unfinished.unlink(missing_ok=True)
+    place = pathlib.Path(package, "build")
+    place.mkdir(exist_ok=True)
+    unfinished = place / "unfinished"
+    with open(place / "lock", "w", encoding="utf-8") as lock:
+        # One build at a time in a folder.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if unfinished.exists():
+            for path in place.rglob("*.digest"):
+                path.unlink()
+        unfinished.touch()
+        quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags,
+                       *words], trouble, compiler())
+        unfinished.unlink()
 
 
 def fpm_build(name, package, flags):
@@ -282,7 +287,8 @@ def built(package, flags, target):
     """Path of a program that fpm has built; fpm names it from the package's folder."""
     said = subprocess.run([FPM, "run", "-C", package, "--target", target, "--compiler", "gfortran",
                            "--flag", flags, "--runner", "echo"], stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, encoding="utf-8", check=False).stdout
+                          stderr=subprocess.DEVNULL, encoding="utf-8", env=compiler(),
+                          check=False).stdout
     for line in said.splitlines():
         path = pathlib.Path(package, line.strip())
         if path.name == target and path.is_file():
