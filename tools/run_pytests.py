@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Run the unittest files test_*.py of some folders, or some files, and count them.
 
-    run_pytests.py [--filter TEXT] [--jobs N] [--whole FOLDER] FOLDER|FILE...
+    run_pytests.py [--filter TEXT] [--jobs N] [--whole FOLDER] [--times] FOLDER|FILE...
 
 With --jobs files are run N at a time, each in a process of its own, but those of the folder of
 --whole, which share what they install, in one. The last line is
 `all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or none ran. With
---filter only tests run whose `folder/module::class.test` contains TEXT.
+--filter only tests run whose `folder/module::class.test` contains TEXT. With --times each file's
+line ends with the processor seconds of its tests and of what they ran.
 """
 
 import argparse
@@ -14,6 +15,7 @@ import concurrent.futures
 import importlib.util
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import unittest
@@ -94,11 +96,18 @@ def summary(totals):
     return f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else "")
 
 
-def run_here(paths, text):
+def seconds():
+    """Processor time of this process and of those that it has waited for."""
+    return sum(sum(resource.getrusage(who)[:2])
+               for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+
+
+def run_here(paths, text, times):
     """Run files one after the other; what they count together."""
     together = [0, 0, 0]
     for path in paths:
         title = f"{path.parent.as_posix()}/{path.stem}"
+        start = seconds()
         suite = unittest.TestSuite(
             test
             for test in flatten(load(path, title))
@@ -109,13 +118,15 @@ def run_here(paths, text):
         counts = Counts()
         suite.run(counts)
         together = [a + b for a, b in zip(together, counts.totals())]
-        print(f"{title:43} {summary(counts.totals())}", flush=True)
+        spent = f", {seconds() - start:.1f} s" if times else ""
+        print(f"{title:43} {summary(counts.totals())}{spent}", flush=True)
     return together
 
 
-def run_apart(paths, text):
+def run_apart(paths, text, times):
     """Run files in a process of their own; what it counts, and what it says before that."""
-    done = subprocess.run([sys.executable, __file__, "--filter", text, *paths],
+    done = subprocess.run([sys.executable, __file__, "--filter", text,
+                           *(["--times"] if times else []), *paths],
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, encoding="utf-8", errors="replace",
                           check=False)
@@ -132,12 +143,13 @@ def main():
     parser.add_argument("--filter", default="")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--whole", type=pathlib.Path)
+    parser.add_argument("--times", action="store_true")
     parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="FOLDER")
     options = parser.parse_args()
     files = [(folder, path) for folder in options.folders
              for path in ([folder] if folder.is_file() else sorted(folder.glob("test_*.py")))]
     if options.jobs == 1:
-        together = run_here([path for _, path in files], options.filter)
+        together = run_here([path for _, path in files], options.filter, options.times)
     else:
         whole = [path for folder, path in files if folder == options.whole]
         units = [[path] for folder, path in files if folder != options.whole]
@@ -146,7 +158,7 @@ def main():
             units.insert(0, whole)
         together = [0, 0, 0]
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            runs = [pool.submit(run_apart, unit, options.filter) for unit in units]
+            runs = [pool.submit(run_apart, unit, options.filter, options.times) for unit in units]
             for run in concurrent.futures.as_completed(runs):
                 totals, said = run.result()
                 together = [a + b for a, b in zip(together, totals)]

@@ -379,7 +379,7 @@ def python_tests(text):
     # Two at a time at least: most of them wait for one program.
     jobs = max(2, len(os.sched_getaffinity(0)))
     return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", str(jobs),
-                "--whole", "test/embed", *folders)
+                "--times", "--whole", "test/embed", *folders)
 
 
 def lint_checks(text):

@@ -1,6 +1,7 @@
 """What tools/run_pytests.py counts and returns."""
 
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -50,6 +51,13 @@ import unittest
 class Good(unittest.TestCase):
     def test_passes(self):
         pass
+"""
+# What a file runs takes processor time, whatever else the machine does.
+BUSY = """\
+import subprocess
+import sys
+subprocess.run([sys.executable, "-c",
+                "import time\\nwhile time.process_time() < 0.3: pass"], check=True)
 """
 
 
@@ -104,6 +112,15 @@ class Runs(unittest.TestCase):
         self.assertIn("no_such_module", said)
         self.assertRegex(said, r"(?m)^b/test_good +1 passed, 0 failed\nb/test_more +1 passed")
         self.check(files, 0, "2 passed, 0 failed", "--jobs", "2", "--filter", "b/")
+
+    def test_times_are_of_each_file_and_of_what_it_runs(self):
+        files = {"a/test_busy.py": BUSY + GOOD, "a/test_good.py": GOOD}
+        for jobs in ("1", "2"):
+            said = self.check(files, 0, "2 passed, 0 failed", "--jobs", jobs, "--times")
+            busy, good = (float(re.search(rf"(?m)^a/test_{name} .* 0 failed, (\S+) s$", said)[1])
+                          for name in ("busy", "good"))
+            self.assertGreaterEqual(busy, 0.3)
+            self.assertLess(good, busy)
 
     def test_a_file_that_ends_its_process_fails(self):
         files = {"a/test_end.py": "import os\nos._exit(3)\n", "a/test_good.py": GOOD}
