@@ -3,7 +3,8 @@
 !> Given pressures on a grid of rectangles, friction and creepages, tractions are sought that are
 !> nowhere above mu times the pressure, oppose the slip where they reach it, and have no slip where
 !> they do not (Kalker 1990): in steady rolling (T = 3) or in a single shift (T = 1). How slip is
-!> discretised says `variational_problem`, how the equations are solved `variational_newton`.
+!> discretised says `variational_problem`, how the equations are solved `variational_newton`, where
+!> that starts `tangential_nested`.
 !>
 !> In steady rolling bodies store nothing: the friction power is what the forces do on the
 !> creepages, and is taken from these. The sum of tractions on slips lacks more the less slides, for
@@ -30,6 +31,8 @@ module faststrip_kalker_tangential
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, state_adhesion, state_slip
+    use faststrip_kalker_tangential_nested, only: nested_t, choice_t, start_from_coarse, &
+                                                  release_nested
     use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
                                                    scheme_second_order, scheme_first_order, &
@@ -90,12 +93,14 @@ module faststrip_kalker_tangential
     !> grow with the grid, before the iteration.
     type :: tang_workspace_t
         integer :: elements = 0       !! in contact, of the last solution
-        integer :: steps = 0          !! of Newton's method
-        integer :: products = 0       !! applications of the influence
+        integer :: steps = 0          !! of Newton's method, on the grid itself
+        integer :: products = 0       !! applications of the influence, on the grid itself
+        integer :: iterations = 0     !! of GMRES in all Newton's steps, on the grid itself
         real(wp) :: residual = 0.0_wp !! of Coulomb's law over that without tractions
         integer :: passes = 0         !! solutions under a bound, more than one if friction falls
         type(problem_t), private :: problem
         type(newton_t), private :: newton
+        type(nested_t), private :: nested
         real(wp), allocatable, private :: bound(:) ! of the tractions, MPa
         logical, private :: is_solved = .false.
     end type tang_workspace_t
@@ -138,6 +143,7 @@ contains
         workspace%elements = 0
         workspace%steps = 0
         workspace%products = 0
+        workspace%iterations = 0
         workspace%residual = 0.0_wp
         workspace%passes = 0
         if (present(friction)) law = friction
@@ -166,11 +172,18 @@ contains
         end if
         call size_newton(workspace%newton, workspace%problem)
         workspace%newton%products = 0
+        workspace%newton%iterations = 0
         if (mu*maxval(workspace%problem%pn(:workspace%problem%n)) <= smallest &
             .and. .not. options%sticks_everywhere) then
             call slide_freely(workspace%newton, workspace%problem)
             workspace%is_solved = .false.
         else
+            if (.not. (workspace%is_solved .or. options%sticks_everywhere)) &
+                call start_from_coarse(workspace%nested, workspace%newton, workspace%problem, &
+                                       grid, material, creepage, mu, &
+                                       choice_t(options%motion == motion_rolling, options%scheme, &
+                                                options%edges, scalings(1), options%max_steps), &
+                                       workspace%is_solved)
             call find_tractions(workspace, mu, law, options, status)
             if (is_error(status)) return
         end if
@@ -232,6 +245,7 @@ contains
         end do
         workspace%residual = workspace%newton%residual
         workspace%products = workspace%newton%products
+        workspace%iterations = workspace%newton%iterations
         if (.not. workspace%newton%is_converged) then
             call set_status(status, st_no_convergence, 'the tractions did not converge: ' // &
                             'residual '//number_text(workspace%residual))
@@ -269,6 +283,7 @@ contains
         type(tang_workspace_t), intent(inout) :: workspace !! serves again
 
         call release_problem(workspace%problem)
+        call release_nested(workspace%nested)
     end subroutine release_tang
 
     subroutine check_options(options, status)

@@ -38,6 +38,7 @@ module faststrip_kalker_tangential_newton
     type :: newton_t
         integer :: steps = 0           !! of Newton's method in the last solution
         integer :: products = 0        !! applications of the influence in the last solution
+        integer :: iterations = 0      !! of GMRES in the last solution
         real(wp) :: residual = 0.0_wp  !! |F| over its value without tractions
         logical :: is_converged = .false.
         real(wp), allocatable :: p(:, :)    !! tractions, MPa, shape (2, n)
@@ -333,6 +334,7 @@ contains
             rest(1) = beta
             last = 0
             do j = 1, most_vectors
+                newton%iterations = newton%iterations + 1
                 newton%work(:m) = newton%basis(:m, j)
                 call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
                                 newton%is_carried, newton%work(:m))

@@ -12,6 +12,7 @@ module faststrip_lab_bench
     use faststrip_lab_bench_accuracy, only: bench_accuracy
     use faststrip_lab_bench_kalker, only: bench_kalker
     use faststrip_lab_bench_tangential, only: bench_tangential
+    use faststrip_lab_bench_tang, only: bench_tang, bench_tang_most_elements
     use faststrip_lab_bench_robust, only: bench_robust
     use faststrip_lab_bench_convergence, only: bench_convergence
     use faststrip_lab_bench_extremes, only: bench_extremes, extreme_parts
@@ -70,6 +71,12 @@ contains
         case ('tangential')
             call allow([character(len=name_length) :: '--contacts', '--rounds'])
             call bench_tangential(file, folder, rounds)
+        case ('tang')
+            call allow([character(len=name_length) :: '--contacts', '--most-elements', &
+                        '--rounds', '--quick'])
+            call bench_tang(file, folder, option_integer(command, '--most-elements', &
+                            bench_tang_most_elements, least=1), option_integer(command, &
+                            '--rounds', 3, least=1, most=1000), given(command, '--quick'))
         case ('forces')
             call allow([character(len=name_length) :: '--contacts', '--scenes'])
             scenes = option_text(command, '--scenes', in_checkout('reference/scenes/scenes.csv'))
@@ -149,19 +156,19 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'integral, tangential, steps: how often everything is' &
-                     // new_line('a') // 'timed, 1 to 1000 (default 21)'), &
+            option_t('--rounds', 'N', 'integral, tangential, tang, steps: how often all is' &
+                     // new_line('a') // 'timed, 1 to 1000 (default 21; tang 3)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
                      reads=.true.), &
             option_t('--strips', 'N', 'steps: strips of the widest patch (default 15)'), &
             option_t('--most-strips', 'N', 'normal, convergence: no more strips than that'), &
-            option_t('--most-elements', 'N', 'reference: no more elements in contact than that'), &
+            option_t('--most-elements', 'N', 'reference, tang: no more elements in contact'), &
             option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
                      // new_line('a') // 'elements (default 6)'), &
             option_t('--methods', 'FILE', 'trade: the methods (default' &
                      // ' reference/trade_methods.csv)', reads=.true.), &
-            option_t('--quick', '', 'trade, extremes, kalker, correction: few methods, few' // &
-                     new_line('a') // 'contacts'), &
+            option_t('--quick', '', 'trade, extremes, kalker, correction, tang: few methods,' // &
+                     new_line('a') // 'few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
@@ -177,7 +184,7 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(44) = [character(len=84) :: &
+        character(len=*), parameter :: lines(49) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
@@ -198,6 +205,11 @@ contains
             'tangential: microseconds and nanoseconds per element of all tangential methods on', &
             'the strips of 5 to 61 by as many points, forces only and with the field; ratio:', &
             'to FASTSIM with the same number of elements. Processor time, medians.', &
+            'tang: Newton''s steps, iterations and times of kalker_tangential with about 3700,', &
+            '15000 and 60000 elements in contact; each contact with its own creepages, without', &
+            'spin and with much of it, on pressures of the same grid, which are not counted.', &
+            'Processor time from nothing, a row a contact and its creepages; median, 95th', &
+            'percentile, worst.', &
             'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
             'the paper''s with either sign of the creepages, and against TANG on 240 others.', &
             'correction: what the march misses of ellipses'' forces by TANG, and what is added.', &
