@@ -13,7 +13,6 @@ module faststrip_command_auto_stage
     use faststrip_contact_target, only: unknown_error
     use faststrip_contact_wanted, only: wanted_t, others_t, others_across, others_time, &
                                         needs_forces, margin, target_area, target_pmax
-    use faststrip_kalker_tangential, only: are_alike
     use faststrip_command_methods, only: numerics_t
     implicit none
     private
@@ -68,7 +67,6 @@ contains
             wanted%target = target_pmax
         if (wanted%budget_us > 0.0_wp .and. .not. numerics%tolerance_is_given) &
             wanted%tolerance = 0.0_wp
-        if (needs_forces(wanted%target) .and. .not. are_alike(case%material)) return
         if (wanted%budget_us > 0.0_wp .and. others_time(kalker(wanted%target), least_across) &
             > share_of_budget*wanted%budget_us) return
         wanted%others = kalker(wanted%target)

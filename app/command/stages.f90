@@ -12,6 +12,7 @@ module faststrip_command_stages
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
                                           strip_forces_t, reserve_strip_forces
+    use faststrip_kalker_tangential, only: are_alike
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_norm, &
                                          tangential_none, tangential_faststrip, &
@@ -25,7 +26,8 @@ module faststrip_command_stages
     use faststrip_command_norm_stage, only: norm_stage_t, reserve_norm_stage, solve_by_norm, &
                                             take_rows
     use faststrip_command_wear_figures, only: wear_figures_t
-    use faststrip_command_tang_stage, only: tang_stage_t, solve_by_tang, estimate_by_tang
+    use faststrip_command_tang_stage, only: tang_stage_t, solve_by_tang, settle_by_tang, &
+                                            estimate_by_tang
     implicit none
     private
 
@@ -124,7 +126,14 @@ contains
 
         cpu = cpu_microseconds()
         call system_clock(before)
-        if (solver%chosen%tangential == tangential_tang) then
+        if (solver%chosen%tangential == tangential_tang .and. &
+            solver%chosen%normal == normal_norm .and. .not. are_alike(solver%case%material)) then
+            call settle_by_tang(solver%tang, solver%case, solver%norm, solver%with_field, &
+                                outcome%normal, outcome%tangential, solver%field, &
+                                tangential_status)
+            if (.not. is_error(tangential_status)) &
+                call take_rows(solver%norm, solver%workspace, tangential_status)
+        else if (solver%chosen%tangential == tangential_tang) then
             call solve_by_tang(solver%tang, solver%chosen, solver%case, solver%workspace, &
                                solver%norm, solver%with_field, outcome%tangential, solver%field, &
                                tangential_status)

@@ -2,16 +2,20 @@
 module faststrip_command_tang_stage
     use faststrip_base_friction, only: falls, softened
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, message_length, st_under_resolved
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     message_length, st_bad_argument, st_under_resolved
     use faststrip_base_text, only: integer_text
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
-                                           release_tang, edges_of_norm, edges_sampled
+                                           release_tang, edges_of_norm, edges_sampled, are_alike
+    use faststrip_kalker_unlike, only: unlike_problem_t, unlike_workspace_t, solve_unlike, &
+                                       release_unlike
     use faststrip_kalker_tangential_estimate, only: estimate_tang, shares_of_grid, &
                                                     shares_of_strips
     use faststrip_kalker_tangential_pressures, only: sample_strips, sample_ellipse
     use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_limitations, only: add_limitation, name_force_resolution
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_command_system, only: set_detail
@@ -23,11 +27,12 @@ module faststrip_command_tang_stage
     implicit none
     private
 
-    public :: tang_stage_t, release_tang_stage, solve_by_tang, estimate_by_tang
+    public :: tang_stage_t, release_tang_stage, solve_by_tang, settle_by_tang, estimate_by_tang
 
     !> The method with its workspace.
     type :: tang_stage_t
         type(tang_workspace_t), private :: workspace
+        type(unlike_workspace_t), private :: unlike ! of unlike materials with NORM
         type(contact_grid_t), private :: grid ! pressures, unless they are NORM's
         ! The same for elements twice as long and wide.
         type(tang_workspace_t), private :: coarse_workspace
@@ -42,6 +47,7 @@ contains
 
         call release_tang(stage%workspace)
         call release_tang(stage%coarse_workspace)
+        call release_unlike(stage%unlike)
     end subroutine release_tang_stage
 
     !> Solve the tangential problem on NORM's grid, or on one under the ellipse or the strips.
@@ -67,6 +73,58 @@ contains
         call solve_on_grid(stage%workspace, stage%grid, edges_sampled, case, with_field, &
                            tangential, field, status)
     end subroutine solve_by_tang
+
+    !> Solve both problems of unlike materials in turn on NORM's grid, until its pressures stay.
+    subroutine settle_by_tang(stage, case, norm, with_field, normal, tangential, field, status)
+        type(tang_stage_t), intent(inout) :: stage   !! grows
+        type(contact_case_t), intent(in) :: case     !! material, friction, creepages
+        type(norm_stage_t), intent(inout) :: norm    !! with a solution; its pressures change
+        logical, intent(in) :: with_field            !! are the elements wanted?
+        type(normal_result_t), intent(inout) :: normal !! of that solution, and of the new one
+        type(tangential_result_t), intent(out) :: tangential !! figures
+        type(tangential_field_t), intent(inout) :: field !! grows and is filled, if wanted
+        type(status_t), intent(out) :: status        !! of `solve_unlike`
+
+        type(unlike_problem_t) :: problem
+        type(normal_result_t) :: settled
+
+        problem%material = case%material
+        problem%demand = case%demand_t
+        problem%mu = case%mu
+        problem%creepage = case%creepage
+        problem%friction = case%friction
+        problem%options%edges = edges_of_norm
+        call check_softness(case, status)
+        if (is_error(status)) return
+        call set_detail('norm and tang: ' // integer_text(count(norm%workspace%grid%pressure &
+                        > 0.0_wp)) // ' elements in contact')
+        if (with_field) then
+            if (size(norm%workspace%grid%pressure) > size(field%x)) &
+                call reserve_field(field, size(norm%workspace%grid%pressure), status)
+            call solve_unlike(stage%unlike, norm%workspace%grid, problem, settled, tangential, &
+                              status, field)
+        else
+            call solve_unlike(stage%unlike, norm%workspace%grid, problem, settled, tangential, &
+                              status)
+        end if
+        if (is_error(status)) return
+        settled%passes = normal%passes + settled%passes
+        settled%iterations = normal%iterations + settled%iterations
+        normal = settled
+        norm%workspace%grid%pressure = stage%unlike%norm%grid%pressure
+    end subroutine settle_by_tang
+
+    !> Refuse unlike materials with a smaller initial slope: moduli that are lowered for it would
+    !> let pressures do more.
+    pure subroutine check_softness(case, status)
+        type(contact_case_t), intent(in) :: case
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (are_alike(case%material) .or. case%friction%slope_factor >= 1.0_wp) return
+        call set_status(status, st_bad_argument, 'tang takes no initial_slope_factor for bodies ' &
+                        // 'of unlike materials')
+    end subroutine check_softness
 
     !> How wrong the forces are that `solve_by_tang` gave, from elements twice as long and wide: a
     !> sixth of its time. More than the limit is named in the status.
@@ -157,6 +215,8 @@ contains
         type(tang_options_t) :: options
         integer :: elements
 
+        call check_softness(case, status)
+        if (is_error(status)) return
         options%edges = edges
         elements = count(grid%pressure > 0.0_wp)
         call set_detail('tang: ' // integer_text(elements) // ' elements in contact')

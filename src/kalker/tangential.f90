@@ -1,4 +1,4 @@
-!> TANG, the tangential problem by Kalker's variational method, for bodies of like materials.
+!> TANG, the tangential problem by Kalker's variational method.
 !>
 !> Given pressures on a grid of rectangles, friction and creepages, tractions are sought that are
 !> nowhere above mu times the pressure, oppose the slip where they reach it, and have no slip where
@@ -9,7 +9,8 @@
 !> In steady rolling bodies store nothing: the friction power is what the forces do on the
 !> creepages, and is taken from these. The sum of tractions on slips lacks more the less slides, for
 !> the slip is then at the trailing edge, in less than an element: in the mean of 110 contacts 15 %
-!> with 18 elements across, 9 % with 36.
+!> with 18 elements across, 9 % with 36. Between unlike materials tractions work on the slip by
+!> pressures as well.
 !>
 !> Friction that falls with slip is found by repetition: a bound of each element's slip, tractions
 !> under it, and so on, until the bound stays. The first slip is that of the static coefficient. The
@@ -26,7 +27,6 @@ module faststrip_kalker_tangential
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
-    use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
@@ -36,13 +36,14 @@ module faststrip_kalker_tangential
     use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
                                                    scheme_second_order, scheme_first_order, &
-                                                   edges_sampled, edges_of_norm
+                                                   edges_sampled, edges_of_norm, are_alike
     implicit none
     private
 
     public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
+    public :: take_tractions, are_alike
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
-    public :: motion_rolling, motion_shift, are_alike
+    public :: motion_rolling, motion_shift
 
     !> Steady rolling, or a shift of bodies that were not displaced before.
     !> Given: CONTACT's numbers.
@@ -54,9 +55,6 @@ module faststrip_kalker_tangential
     ! Sizes beyond which nothing is promised.
     ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
-    ! Coupling of pressures and slip below this part of 1 is none: materials given with few digits.
-    ! Tuned [1]. Origin: moduli given with six digits.
-    real(wp), parameter :: no_coupling = 1.0e-6_wp
     ! r of `variational_newton` times the own compliance, tried one after the other.
     ! Tuned [1]. Origin: chosen for the number of Newton's steps.
     real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
@@ -107,18 +105,10 @@ module faststrip_kalker_tangential
 
 contains
 
-    !> Do pressures cause no slip between bodies of these materials? TANG needs that.
-    pure logical function are_alike(material)
-        type(material_t), intent(in) :: material !! checked moduli, MPa
-
-        are_alike = abs(coupling_constant(material)) <= no_coupling
-    end function are_alike
-
     !> Solve the tangential problem of a grid of pressures.
     !>
     !> Errors: `st_bad_argument` (options, a grid without elements or sides, negative pressures or
-    !> mu), `st_not_finite`, `st_bad_material` (also materials so unlike that pressures cause
-    !> slip: their coupling is not built), `st_no_contact`, `st_out_of_range` (more elements in
+    !> mu), `st_not_finite`, `st_bad_material`, `st_no_contact`, `st_out_of_range` (more elements in
     !> contact than allowed; sizes beyond all proportion), `st_workspace_too_small` (the field, no
     !> memory), `st_no_convergence`.
     subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, &
@@ -189,8 +179,8 @@ contains
         end if
         call add_up(workspace%newton, workspace%problem, result, field)
         if (options%motion == motion_rolling) result%friction_power = &
-            max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi), &
-                0.0_wp)
+            max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi) &
+                - power_on_pressed(workspace%newton, workspace%problem), 0.0_wp)
     end subroutine tang_solve
 
     !> Tractions under a bound that may fall with their slip.
@@ -278,6 +268,24 @@ contains
         change = sqrt(change/squares)
     end subroutine follow_slip
 
+    !> The tractions of a solution on its grid.
+    pure subroutine take_tractions(workspace, grid, px, py)
+        type(tang_workspace_t), intent(in) :: workspace !! with a solution
+        type(contact_grid_t), intent(in) :: grid        !! the places of its elements
+        real(wp), intent(out) :: px(:, :), py(:, :)     !! MPa, as many as the grid's elements
+
+        integer :: i, k(2)
+
+        px = 0.0_wp
+        py = 0.0_wp
+        do i = 1, workspace%problem%n
+            k = 1 + nint([(workspace%problem%x(i) - grid%x_first)/grid%dx, &
+                          (workspace%problem%y(i) - grid%y_first)/grid%dy])
+            px(k(1), k(2)) = workspace%newton%p(1, i)
+            py(k(1), k(2)) = workspace%newton%p(2, i)
+        end do
+    end subroutine take_tractions
+
     !> Give back what the compiler does not: plans of workspaces in an array.
     subroutine release_tang(workspace)
         type(tang_workspace_t), intent(inout) :: workspace !! serves again
@@ -326,10 +334,6 @@ contains
         g = combined_shear_modulus(material)
         if (g > largest .or. g < smallest) then
             call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
-        else if (.not. are_alike(material)) then
-            call set_status(status, st_bad_material, 'TANG is for like materials; here ' // &
-                            'pressures cause slip, K = ' // &
-                            number_text(coupling_constant(material)))
         end if
     end subroutine check_bodies
 
@@ -392,6 +396,26 @@ contains
             newton%sticks(i) = all(problem%rigid(:, i) == 0.0_wp)
         end do
     end subroutine slide_freely
+
+    !> What tractions do on the slip by pressures of unlike materials: the mean of the nodes about
+    !> an element.
+    pure real(wp) function power_on_pressed(newton, problem) result(power)
+        type(newton_t), intent(in) :: newton
+        type(problem_t), intent(in) :: problem
+
+        real(wp) :: slip(2)
+        integer :: i
+
+        power = 0.0_wp
+        do i = 1, problem%n
+            slip = problem%pressed(:, i)
+            if (i < problem%n) then
+                if (.not. problem%is_leading(i + 1)) &
+                    slip = 0.5_wp*(slip + problem%pressed(:, i + 1))
+            end if
+            power = power + problem%dx*problem%dy*dot_product(newton%p(:, i), slip)
+        end do
+    end function power_on_pressed
 
     !> Sums, and the field.
     pure subroutine add_up(newton, problem, result, field)

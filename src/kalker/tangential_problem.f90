@@ -25,6 +25,10 @@
 !>
 !> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
 !>
+!> **Unlike materials.** Pressures move points along the surface too (K of
+!> `faststrip_influence_rectangle`). With pressures given that is rigid slip: at the nodes the same
+!> differences of u, in a shift u itself.
+!>
 !> **Shift.** s = w + u, the rigid shift and the displacement: symmetric, no nodes, no edges.
 module faststrip_kalker_tangential_problem
     use faststrip_base_kinds, only: wp, pi
@@ -33,7 +37,8 @@ module faststrip_kalker_tangential_problem
                                      st_out_of_range
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence
+    use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence, &
+                                             coupling_constant
     use faststrip_kalker_border, only: lattice_edge, lone_edge
     use faststrip_kalker_convolution, only: convolution_t, reserve_convolution, set_kernel, &
                                             release_convolution, transform_source, collect, even, &
@@ -43,7 +48,7 @@ module faststrip_kalker_tangential_problem
     private
 
     public :: problem_t, make_problem, release_problem, apply_influence, node_slip
-    public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
+    public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm, are_alike
 
     !> How slip is made of displacements.
     !> Given: numbers of kinds.
@@ -67,7 +72,10 @@ module faststrip_kalker_tangential_problem
     real(wp), parameter :: least_pressure = 1.0e-10_wp
 
     ! Given: numbers of kinds.
-    integer, parameter :: kernel_xx = 1, kernel_xy = 2, kernel_yy = 3
+    integer, parameter :: kernel_xx = 1, kernel_xy = 2, kernel_yy = 3, kernel_zx = 4, kernel_zy = 5
+    ! Coupling of pressures and slip below this part of 1 is none: materials given with few digits.
+    ! Tuned [1]. Origin: moduli given with six digits.
+    real(wp), parameter :: no_coupling = 1.0e-6_wp
 
     !> Elements, influence and rigid slip; arrays grow with the grid.
     type :: problem_t
@@ -86,6 +94,7 @@ module faststrip_kalker_tangential_problem
         real(wp), allocatable :: x(:), y(:) !! middle of an element, mm
         real(wp), allocatable :: pn(:)     !! its pressure, MPa
         real(wp), allocatable :: rigid(:, :) !! its rigid slip, shape (2, n)
+        real(wp), allocatable :: pressed(:, :) !! its part by the pressures of unlike materials
         real(wp), allocatable :: edge(:, :)  !! slip at its node by its own traction, the leading
                                              !! edge's part, 1/MPa, shape (2, n)
         real(wp), allocatable :: own_row(:, :)
@@ -94,7 +103,7 @@ module faststrip_kalker_tangential_problem
         type(convolution_t), private :: convolution
         real(wp), allocatable, private :: field_x(:, :), field_y(:, :) ! tractions, then u
         ! What the kernels were made for.
-        real(wp), private :: made_for(4) = 0.0_wp
+        real(wp), private :: made_for(5) = 0.0_wp
         integer, private :: made_size(2) = 0
     end type problem_t
 
@@ -170,6 +179,8 @@ contains
             end do
         end do
         problem%row_start(problem%n_rows + 1) = n + 1
+        problem%pressed(:, :n) = 0.0_wp
+        if (.not. are_alike(material)) call add_pressures(problem)
         problem%edge(:, :n) = 0.0_wp
         if (problem%is_second_order) call treat_edges(problem, material, edges)
     end subroutine make_problem
@@ -193,13 +204,13 @@ contains
         if (allocated(problem%x)) then
             if (size(problem%x) < n) &
                 deallocate (problem%column, problem%row, problem%is_leading, problem%x, problem%y, &
-                            problem%pn, problem%rigid, problem%edge)
+                            problem%pn, problem%rigid, problem%pressed, problem%edge)
         end if
         if (.not. allocated(problem%x)) then
             allocate (problem%column(n), problem%row(n), source=0)
             allocate (problem%is_leading(n), source=.false.)
             allocate (problem%x(n), problem%y(n), problem%pn(n), source=0.0_wp)
-            allocate (problem%rigid(2, n), problem%edge(2, n), source=0.0_wp)
+            allocate (problem%rigid(2, n), problem%pressed(2, n), problem%edge(2, n), source=0.0_wp)
         end if
         if (allocated(problem%field_x)) then
             if (any(shape(problem%field_x) /= [nx, ny])) &
@@ -220,16 +231,17 @@ contains
 
         real(wp), allocatable :: kernels(:, :, :)
         type(rectangle_influence_t) :: influence
-        real(wp) :: wanted(4)
-        integer :: i, j
+        real(wp) :: wanted(5)
+        integer :: i, j, n_kernels
 
-        call reserve_convolution(problem%convolution, problem%nx, problem%ny, 3, 2, status)
+        n_kernels = merge(kernel_yy, kernel_zy, are_alike(material))
+        call reserve_convolution(problem%convolution, problem%nx, problem%ny, n_kernels, 2, status)
         if (is_error(status)) return
         wanted = [problem%dx, problem%dy, combined_shear_modulus(material), &
-                  combined_poisson_ratio(material)]
+                  combined_poisson_ratio(material), coupling_constant(material)]
         if (any(problem%made_for /= wanted) .or. &
             any(problem%made_size /= [problem%nx, problem%ny])) then
-            allocate (kernels(0:problem%nx, 0:problem%ny, 3))
+            allocate (kernels(0:problem%nx, 0:problem%ny, kernel_zy))
             do j = 0, problem%ny
                 do i = 0, problem%nx
                     call rectangle_influence(i*problem%dx, j*problem%dy, problem%dx, problem%dy, &
@@ -237,6 +249,8 @@ contains
                     kernels(i, j, kernel_xx) = influence%xx
                     kernels(i, j, kernel_xy) = influence%xy
                     kernels(i, j, kernel_yy) = influence%yy
+                    kernels(i, j, kernel_zx) = influence%zx
+                    kernels(i, j, kernel_zy) = influence%zy
                 end do
             end do
             call set_kernel(problem%convolution, kernel_xx, kernels(:, :, kernel_xx), even, even, &
@@ -245,6 +259,12 @@ contains
                             status)
             call set_kernel(problem%convolution, kernel_yy, kernels(:, :, kernel_yy), even, even, &
                             status)
+            if (n_kernels == kernel_zy) then
+                call set_kernel(problem%convolution, kernel_zx, kernels(:, :, kernel_zx), odd, &
+                                even, status)
+                call set_kernel(problem%convolution, kernel_zy, kernels(:, :, kernel_zy), even, &
+                                odd, status)
+            end if
             problem%made_for = wanted
             problem%made_size = [problem%nx, problem%ny]
         end if
@@ -260,6 +280,39 @@ contains
             end do
         end if
     end subroutine make_kernels
+
+    !> Do pressures cause no slip between bodies of these materials?
+    pure logical function are_alike(material)
+        type(material_t), intent(in) :: material !! checked moduli, MPa
+
+        are_alike = abs(coupling_constant(material)) <= no_coupling
+    end function are_alike
+
+    !> Add to the rigid slip what the pressures of unlike materials do.
+    subroutine add_pressures(problem)
+        type(problem_t), intent(inout) :: problem ! with elements and kernels
+
+        integer :: i
+
+        associate (fx => problem%field_x, fy => problem%field_y, c => problem%column, &
+                   r => problem%row)
+            fx = 0.0_wp
+            do i = 1, problem%n
+                fx(c(i), r(i)) = problem%pn(i)
+            end do
+            call transform_source(problem%convolution, 1, fx)
+            ! Tractions move points down as pressures move them ahead, with the other sign.
+            call collect(problem%convolution, [kernel_zx], [1], [-1.0_wp], fx)
+            call collect(problem%convolution, [kernel_zy], [1], [-1.0_wp], fy)
+            do i = 1, problem%n
+                problem%pressed(:, i) = [fx(c(i), r(i)), fy(c(i), r(i))]
+                if (problem%is_rolling) problem%pressed(:, i) = (problem%pressed(:, i) &
+                    - [fx(c(i) + 1, r(i)), fy(c(i) + 1, r(i))])/problem%dx
+            end do
+        end associate
+        problem%rigid(:, :problem%n) = problem%rigid(:, :problem%n) &
+                                       + problem%pressed(:, :problem%n)
+    end subroutine add_pressures
 
     !> The compliances of the leading elements.
     pure subroutine treat_edges(problem, material, edges)

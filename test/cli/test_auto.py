@@ -121,8 +121,8 @@ class Auto(ProgramTest):
             self.assert_close(load, 1e5, 0.01, what=target)
 
     def test_unlike_materials_get_the_best_there_is(self):
-        row = self.missed(CASES / "polymer_roller.nml", "--tolerance", "0.0001")
-        self.assertTrue(all(step[0] != "norm" for step in steps_of(row)))
+        row = self.auto(CASES / "polymer_roller.nml", "--tolerance", "0.02")
+        self.assertEqual(steps_of(row)[-1][0], "norm", row["choice"])
         self.assertLess(float(row["Fx_N"]), 0.0)
         # The pressures are no matter of that.
         row = self.auto(CASES / "polymer_roller.nml", "--target", "pmax", "--tolerance", "0.002")

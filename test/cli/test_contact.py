@@ -333,12 +333,42 @@ class GapFile(ProgramTest):
             self.assertEqual(slides, element["state"] == "2")
             self.assertTrue(at_bound or not slides)
 
+    def test_unlike_materials(self):
+        text = gap_case(motion="cksi = 0.0")
+        self.write("case.nml", text.replace("mu = 0.3", "mu = 0.3, E_rail_MPa = 7e4"))
+        self.write("turned.nml", text.replace("mu = 0.3", "mu = 0.3, E_rail_MPa = 209920.0, "
+                                              "E_wheel_MPa = 7e4"))
+        words = ("--tangential", "tang", "--element-dx", 0.4, "--element-dy", 0.4)
+        both = self.solved("contact", "case.nml", "--normal", "norm", *words)
+        plain = self.solved("contact", "case.nml", "--normal", "norm", "--tangential", "none",
+                            *words[2:])
+        one_way = self.solved("contact", "case.nml", "--normal", "strip", *words)
+        # A soft rail is drawn together under the wheel: it creeps forwards and is driven back.
+        self.assertLess(float(both["Fx_N"]), -0.05 * 0.3 * 1e5)
+        self.assert_close(float(one_way["Fx_N"]), float(both["Fx_N"]), 0.05)
+        # Tractions press the middle, for they point inwards on the stiffer body.
+        self.assertGreater(float(both["pmax_MPa"]), 1.001 * float(plain["pmax_MPa"]))
+        self.assert_close(float(both["pmax_MPa"]), float(plain["pmax_MPa"]), 0.03)
+        turned = self.solved("contact", "turned.nml", "--normal", "norm", *words)
+        self.assert_close(-float(turned["Fx_N"]), float(both["Fx_N"]), 1e-6)
+        self.assert_close(float(turned["pmax_MPa"]), float(both["pmax_MPa"]), 1e-9)
+        # All others say that they leave it out.
+        for tangential in ("faststrip", "fastsim", "linear", "polach"):
+            done = self.run_program("contact", "case.nml", "--tangential", tangential)
+            self.assertEqual(rows_of(done.stdout)[0]["status"], "under_resolved", tangential)
+            self.assertIn("unlike materials", done.stderr, tangential)
+            if tangential == "faststrip":
+                error = abs(float(rows_of(done.stdout)[0]["Fx_N"]) - float(both["Fx_N"]))
+                self.assertGreater(error, 0.1 * 0.3 * 1e5)
+                self.assertGreater(float(rows_of(done.stdout)[0]["est_err_Fx"]) * 0.3 * 1e5, error)
+
     def test_what_tang_refuses(self):
         text = gap_case(motion="cksi = 0.001")
-        self.write("unlike.nml", text.replace("mu = 0.3", "mu = 0.3, nu_wheel = 0.3"))
+        self.write("unlike.nml", text.replace("mu = 0.3", "mu = 0.3, nu_wheel = 0.3")
+                   + "&friction\n  initial_slope_factor = 0.6\n/\n")
         for normal in ("strip", "hertz", "norm"):
             self.refused(1, "contact", "unlike.nml", "--normal", normal, "--tangential", "tang",
-                         says=["TANG", "like materials", "unlike.nml"])
+                         says=["tang", "initial_slope_factor", "unlike materials", "unlike.nml"])
         self.write("case.nml", text)
         self.refused(1, "contact", "case.nml", "--tangential", "tang", "--element-dx", "1e-3",
                      "--element-dy", "1e-3", says=["elements", "case.nml"])

@@ -13,6 +13,7 @@ module faststrip_contact_solve
     use faststrip_base_friction, only: check_friction, falls, softened
     use faststrip_base_material, only: material_t, check_material, normal_compliance
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
                                             set_gap_curve_points, copy_gap_curve
@@ -71,6 +72,9 @@ module faststrip_contact_solve
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
+    ! Tuned [1]: Force by the coupling of unlike materials, over K N; at most over mu N. Origin: line
+    ! contact in free rolling (Bentall and Johnson 1967), linear.
+    real(wp), parameter :: force_of_coupling = 3.0_wp, most_left_out = 2.0_wp
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
     ! Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip, a pair
@@ -340,6 +344,7 @@ contains
             call name_falling_friction(status)
             return
         end if
+        call name_unlike(case, status)
         points = case%methods%points_per_strip
         select case (case%methods%tangential)
         case (tangential_faststrip)
@@ -363,9 +368,33 @@ contains
                                        method, points, certificate, errors, estimate, finer)
         end if
         is_estimated = .not. is_error(estimate)
+        if (is_estimated) then
+            errors%fx = errors%fx + left_out(case)
+            errors%fy = errors%fy + left_out(case)
+            errors%mz = errors%mz + left_out(case)
+        end if
         if (is_estimated) call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
                                                      case%force_limit, status)
     end subroutine estimate_forces
+
+    !> What methods of the core leave out of forces over mu N where materials are unlike: pressures
+    !> cause slip of a creepage of about 1.25 K p0/G, which makes three times K N of force.
+    pure real(wp) function left_out(case) result(error)
+        type(contact_case_t), intent(in) :: case
+
+        error = min(force_of_coupling*abs(coupling_constant(case%material)), &
+                    most_left_out*case%mu)/max(case%mu, tiny(error))
+    end function left_out
+
+    !> Name that a method leaves out what pressures of unlike materials do.
+    pure subroutine name_unlike(case, status)
+        type(contact_case_t), intent(in) :: case
+        type(status_t), intent(inout) :: status
+
+        if (left_out(case) <= case%force_limit) return
+        call add_limitation(status, st_under_resolved, 'between unlike materials pressures ' // &
+                            'cause slip, with which only tang reckons')
+    end subroutine name_unlike
 
     !> Name that no error of forces is estimated where friction falls with slip: what the estimates
     !> were calibrated on has constant friction.
