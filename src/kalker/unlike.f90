@@ -72,8 +72,9 @@ contains
 
     !> Solve both problems on NORM's grid, from its solution.
     !>
-    !> Errors: those of `tang_solve` and `norm_solve_heights`; `st_out_of_range` also where tractions
-    !> widen the contact to the rim of the grid; `st_no_convergence`: the pressures do not stay.
+    !> Errors: those of `tang_solve` and `norm_solve_heights`; `st_out_of_range` also where
+    !> tractions widen the contact to the rim of the grid; `st_no_convergence`: the pressures do
+    !> not stay.
     subroutine solve_unlike(workspace, grid, problem, normal, tangential, status, field)
         type(unlike_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid             !! heights, and NORM's pressures

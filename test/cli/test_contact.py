@@ -339,7 +339,11 @@ class GapFile(ProgramTest):
         self.write("turned.nml", text.replace("mu = 0.3", "mu = 0.3, E_rail_MPa = 209920.0, "
                                               "E_wheel_MPa = 7e4"))
         words = ("--tangential", "tang", "--element-dx", 0.4, "--element-dy", 0.4)
-        both = self.solved("contact", "case.nml", "--normal", "norm", *words)
+        both = self.solved("contact", "case.nml", "--normal", "norm", *words, "--strips",
+                           "strips.csv")
+        # The strips have the pressures that stay.
+        self.assert_close(max(numbers(self.read("strips.csv"), "p0_MPa")),
+                          float(both["pmax_MPa"]), 0.01)
         plain = self.solved("contact", "case.nml", "--normal", "norm", "--tangential", "none",
                             *words[2:])
         one_way = self.solved("contact", "case.nml", "--normal", "strip", *words)

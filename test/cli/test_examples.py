@@ -45,7 +45,8 @@ class Examples(ProgramTest):
         self.assertGreater(width(conformal), 7.0 * conformal["xmax_mm"])
         roller = self.example("polymer_roller")
         self.assertGreater(roller["penetration_mm"], 0.1)
-        self.assertAlmostEqual(roller["Fy_N"], 0.0, 9)
+        # Symmetric; TANG's residual is 1e-7 of its tractions.
+        self.assertLess(abs(roller["Fy_N"]), 1e-9 * abs(roller["Fx_N"]))
         for name in ("freight_25t", "tram_small_wheel"):
             self.assertGreater(self.example(name)["stick_fraction"], 0.6, name)
 

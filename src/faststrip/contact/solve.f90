@@ -72,8 +72,8 @@ module faststrip_contact_solve
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
-    ! Tuned [1]: Force by the coupling of unlike materials, over K N; at most over mu N. Origin: line
-    ! contact in free rolling (Bentall and Johnson 1967), linear.
+    ! Tuned [1]: Force by the coupling of unlike materials, over K N; at most over mu N. Origin: a
+    ! line contact in free rolling (Bentall and Johnson 1967), linear.
     real(wp), parameter :: force_of_coupling = 3.0_wp, most_left_out = 2.0_wp
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
