@@ -71,7 +71,10 @@ enum faststrip_normal {
     FASTSTRIP_NORMAL_HERTZ = 2,         /* the Hertz ellipse where the gap is lowest */
     FASTSTRIP_NORMAL_EQUAL_AREA = 3,    /* ellipses of equal area, proportions of Hertz */
     FASTSTRIP_NORMAL_EQUAL_MOMENTS = 4, /* the same, proportions of the second moments */
-    FASTSTRIP_NORMAL_AUTO = 6           /* both methods, as fine as estimated errors ask */
+    FASTSTRIP_NORMAL_AUTO = 6,          /* both methods, as fine as estimated errors ask */
+    FASTSTRIP_NORMAL_KPEC = 7,          /* Kik and Piotrowski with the elliptic correction */
+    FASTSTRIP_NORMAL_ANALYN = 8,        /* Sichani, Enblom and Berg, strips as local ellipses */
+    FASTSTRIP_NORMAL_KPEC_STRIPS = 9    /* strips in the patch of KPEC, pressures their own */
 };
 
 enum faststrip_tangential {

@@ -31,12 +31,19 @@ FAMILIES = {
     "closed": ("#0b3c78", "D", ("closed",)),
     "laws: linear, SHE, Polach": ("#8a8a8a", "X", ("linear", "SHE", "Polach")),
     "Hertz": ("#f08519", "s", ("Hertz",)),
+    "peers: KPEC, ANALYN": ("#c0392b", "*", ("KPEC", "ANALYN")),
     "ellipses of the strips": ("#b8870b", "D", ("equal-area",)),
     "FASTSIM": ("#a8326e", "^", ("FASTSIM",)),
     "FASTSTRIP as printed, corrected": ("#5f4ba8", "P", ("FASTSTRIP-",)),
+    "strips in KPEC's patch": ("#3a86c8", "d", ("strips in KPEC",)),
     "strips": ("#0b3c78", "o", ("strips", "FASTSTRIP")),
     "Kalker's NORM, TANG": ("#2f7d32", "v", ("NORM", "TANG")),
 }
+# Fast normal methods of other programs: no one of them may be better than ours in both.
+PEERS = ("KPEC", "ANALYN")
+# Contacts on which they are compared, and the words for them.
+FRONT_SETS = {"s1002_uic60": "the paper's 20 contacts", "scenes": "scenes of many kinds"}
+FRONT_US = (1.0, 1e6)  # from 1 us to 1 s
 MOST = 2.0  # larger errors are drawn at the upper edge
 LEAST = 1e-15  # and smaller ones, zero too, at the lower
 
@@ -60,6 +67,15 @@ def main(arguments=None):
             draw(own, heading, os.path.join(options.folder, name), revision(table))
             announced.append((name, heading, f"Errors of {what} against time; the line joins the"
                               " methods that no other beats in both.", "trade"))
+    fronts = normal_fronts(table)
+    if fronts:
+        draw_fronts(fronts, os.path.join(options.folder, "trade_front.png"), revision(table))
+        write_rows(os.path.join(options.folder, "trade_front.csv"), tuple(fronts[0]),
+                   [tuple(row.values()) for row in fronts])
+        announced.append(("trade_front.png", "Normal methods of ours and of others",
+                          f"Mean error against processor time without the gap's curve; line: the"
+                          f" best of ours so far; stars: {' and '.join(PEERS)}, as written here"
+                          f" from their authors' equations. {verdict(fronts)}", "trade"))
     write_rows(os.path.join(options.folder, "figures.csv"),
                ("file", "title", "caption", "chapter"), announced)
     write_rows(os.path.join(options.folder, "trade_points.csv"), tuple(points[0]),
@@ -118,6 +134,84 @@ def front(points, error):
             best = point[error]
             found.append(point)
     return found
+
+
+def normal_fronts(table):
+    """Mean errors and times of the normal methods, one row per set and method: `below` says in
+    which errors a peer lies below all of ours that take no longer."""
+    if "cpu_us_solution_median" not in table.columns:
+        return []
+    stage, method, sets = (table.words(name) for name in ("stage", "method", "set"))
+    alone = table.numbers("cpu_us_solution_median", missing=True)
+    times = np.where(np.isnan(alone), table.numbers("us", missing=True), alone)
+    figures = FIGURES[:3]
+    errors = np.abs([table.numbers("err_" + name, missing=True) for name in figures])
+    rows = []
+    for name in FRONT_SETS:
+        own = []
+        for key in dict.fromkeys(m for m, s in zip(method, stage) if s == "normal"):
+            mask = np.array([(s, m, n) == ("normal", key, name)
+                             for s, m, n in zip(stage, method, sets)]) & ~np.isnan(times)
+            known = [f for f in range(3) if mask.any() and not np.isnan(errors[f, mask]).any()]
+            if not known:
+                continue
+            row = {"set": name, "method": key, "peer": "yes" if key in PEERS else "no",
+                   "contacts": int(mask.sum()), "us": float(np.median(times[mask])),
+                   "us_p95": float(np.quantile(times[mask], 0.95, method="inverted_cdf")),
+                   "us_worst": float(times[mask].max()),
+                   "worst_case": table.words("case")[int(np.argmax(np.where(mask, times, -1)))],
+                   "mean": float(errors[np.ix_(known, mask)].max(axis=0).mean())}
+            for f, figure in enumerate(figures):
+                row[f"mean_{figure}"] = float(errors[f, mask].mean()) if f in known else ""
+            own.append(row)
+        for row in own:
+            row["below"] = " ".join(
+                error for error in ("mean", *(f"mean_{figure}" for figure in figures))
+                if row["peer"] == "yes" and row[error] != "" and not any(
+                    other["peer"] == "no" and other["us"] <= row["us"]
+                    and other[error] <= row[error] for other in own))
+        rows += own
+    return rows
+
+
+def verdict(fronts):
+    """Where a peer lies below ours, in words."""
+    below = [f"{row['method']} ({row['set']})" for row in fronts if "mean" in row["below"].split()]
+    return ("Below ours: " + ", ".join(below) if below else "No one lies below ours") + "."
+
+
+def draw_fronts(rows, path, stamp):
+    """One panel for each set of contacts, one curve for our best so far."""
+    figure = new_figure(11.5, 5.0)
+    panels = figure.subplots(1, len(FRONT_SETS), sharex=True, sharey=True)
+    for axes, (name, words) in zip(panels, FRONT_SETS.items()):
+        points = [row for row in rows if row["set"] == name]
+        best = front([row for row in points if row["peer"] == "no"], "mean")
+        if best:
+            axes.step([p["us"] for p in best] + [FRONT_US[1]],
+                      [drawn(p["mean"]) for p in [*best, best[-1]]], where="post",
+                      color="#333333", linewidth=1.0, zorder=1, label="the best of ours so far")
+        for kind, (colour, marker, _) in FAMILIES.items():
+            own = [p for p in points if family(p["method"]) == kind]
+            if own:
+                axes.plot([p["us"] for p in own], [drawn(p["mean"]) for p in own],
+                          linestyle="none", marker=marker, color=colour, markeredgecolor="white",
+                          markersize=11 if own[0]["peer"] == "yes" else 6.5, label=kind)
+        for point in points:
+            if point not in best and point["peer"] == "no":
+                continue
+            outside = point["peer"] == "yes" or point is best[0]
+            axes.annotate(shorter(point["method"]), (point["us"], drawn(point["mean"])),
+                          xytext=(5, 5) if outside else (-5, -9), textcoords="offset points",
+                          ha="left" if outside else "right", fontsize=7.5, color="#333333")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlim(0.5 * FRONT_US[0], FRONT_US[1])
+        axes.set_xlabel("processor time of a solution in µs, median over the contacts")
+        axes.set_ylabel("mean error of the worst figure in %")
+        title(axes, words)
+    legend_above(figure, *panels)
+    save(figure, path, [stamp], "")
 
 
 def choices(points):

@@ -21,9 +21,9 @@ LINK = re.compile(r"!?\[(?:[^\]\[]|\[[^\]]*\])*\]\((?P<target>[^()\s]+)\)")
 
 # LaTeX that both GitHub and latex2mathml show. latex2mathml leaves others out without a word.
 COMMANDS = frozenset(
-    "Delta Rightarrow alpha bar delta ell eta frac gamma ge int kappa lambda le left ln log lvert"
-    " mathrm mu ne nu omega operatorname overline partial pi qquad rho right rvert sigma sin sinh"
-    " cos sqrt sum tau theta varphi xi".split())
+    "Delta Rightarrow alpha bar beta delta ell eta frac gamma ge int kappa lambda le left ln log"
+    " lvert mathrm mu ne nu omega operatorname overline partial pi qquad rho right rvert sigma sin"
+    " sinh cos sqrt sum tau theta varphi xi".split())
 
 
 def prose(text):

@@ -49,6 +49,9 @@ NORMAL = {
     "equal_area": 3,      # ellipses of equal area, proportions of Hertz
     "equal_moments": 4,   # the same, proportions of the second moments
     "auto": 6,            # both methods, as fine as estimated errors ask
+    "kpec": 7,            # Kik and Piotrowski with the elliptic correction
+    "analyn": 8,          # Sichani, Enblom and Berg, strips as local ellipses
+    "kpec_strips": 9,     # strips in the patch of KPEC, pressures their own
 }
 TANGENTIAL = {
     "none": 0,                  # no forces

@@ -79,6 +79,7 @@ module faststrip
     ! BEGIN methods, written by tools/methods.py
     use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_equal_area, &
                                          normal_equal_moments, normal_norm, normal_auto, &
+                                         normal_kpec, normal_analyn, normal_kpec_strips, &
                                          tangential_none, tangential_faststrip, &
                                          tangential_fastsim, tangential_faststrip_paper, &
                                          tangential_faststrip_corrected, &

@@ -49,8 +49,8 @@ class Words(ProgramTest):
             (("--tolerance", "-1"), "--tolerance must be a number above 0, got '-1'"),
             (("--error-target", "NaN"), "--error-target must be a number from 0 on, got 'NaN'"),
             (("--smooth", ""), "--smooth must be a number from 0 on, got ''"),
-            (("--normal", "strap"), "--normal must be strip, hertz, equal_area, equal_moments, norm"
-                                    " or auto, got 'strap'"),
+            (("--normal", "strap"), "--normal must be strip, hertz, equal_area, equal_moments,"
+                                    " kpec, kpec_strips, analyn, norm or auto, got 'strap'"),
             (("--normal", "strip" + 30 * " " + "x"), "--normal must be "),
             (("--target", ""), "--target must be forces, pmax, penetration, area or power, got ''"),
         ):

@@ -9,6 +9,7 @@ import unittest
 from installed import HOSTS, HostTest
 
 NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
+GUESSED = {"kpec": 7, "analyn": 8, "kpec_strips": 9}
 AUTO = "auto", 6
 TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
               "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
@@ -78,7 +79,7 @@ def contacts():
     for *numbers, first, second, rows in smooth_contacts():
         yield (*numbers, *USUAL, *WANTED, first, second, rows)
     usual = gap(lopsided, -14.0, 17.0, 201)
-    for normal in NORMAL:
+    for normal in (*NORMAL, *GUESSED):
         for estimate in ((0, 0.1), (1, 1e-9), (1, -0.1)):
             yield (normal, "faststrip", 8, 6, 7, 11, 1, 0, 0, *estimate, *WANTED, FIRST, SECOND,
                    usual)
@@ -104,11 +105,11 @@ def auto_contacts(usual):
 def smooth_contacts():
     """The same without estimate and limit."""
     usual = gap(lopsided, -14.0, 17.0, 201)
-    for normal in NORMAL:
+    for normal in (*NORMAL, *GUESSED):
         for tangential in TANGENTIAL:
             yield (normal, tangential, 11, 7, 13, 9, 1, int(tangential not in FORCES_ONLY), 0,
                    FIRST, SECOND, usual)
-    for normal in NORMAL:
+    for normal in (*NORMAL, *GUESSED):
         for by_load in (0, 1):
             for rows in (usual, gap(valleys, -13.0, 14.0, 181)):
                 yield (normal, "faststrip", 9, 5, 7, 11, by_load, 0, 0, SECOND, FIRST, rows)
@@ -128,7 +129,8 @@ def input_text():
     rows = list(contacts())
     lines = [str(len(rows))]
     for normal, tangential, *numbers, first, second, points in rows:
-        numbered = {**{name: i for i, name in enumerate(NORMAL, 1)}, AUTO[0]: AUTO[1]}
+        numbered = {**{name: i for i, name in enumerate(NORMAL, 1)}, **GUESSED,
+                    AUTO[0]: AUTO[1]}
         lines.append(" ".join(map(str, (normal, tangential, numbered[normal],
                                         11 if tangential == "faststrip-plain" else
                                         TANGENTIAL.index(tangential), *numbers, len(points)))))

@@ -23,6 +23,18 @@ ROWS = (
     "s,2,normal,strips 9,no_convergence,,,,,,,\n"
     "s,1,both,strips 5,ok,60,,,,0.001,0.002,-0.004\n"
 )
+FRONT_HEADER = HEADER.replace("err_Mz", "err_Mz,cpu_us_solution_median")
+FRONT_ROWS = (
+    "scenes,1,normal,Hertz,ok,31,0.2,-0.3,,,,,1\n"
+    "scenes,2,normal,Hertz,ok,33,0.1,0.2,,,,,1\n"
+    "scenes,1,normal,KPEC,ok,70,0.01,-0.2,,,,,30\n"
+    "scenes,2,normal,KPEC,ok,70,0.03,-0.1,,,,,40\n"
+    "scenes,1,normal,strips 5,ok,60,0.03,0.02,,,,,20\n"
+    "scenes,2,normal,strips 5,ok,90,0.04,0.03,,,,,25\n"
+    "scenes,1,normal,ANALYN,ok,50,0.04,0.01,,,,,10\n"
+    "scenes,2,normal,ANALYN,ok,50,0.04,0.01,,,,,10\n"
+    "scenes,1,normal,NORM 0.4 mm,ok,5000,0.001,0.001,,,,,\n"
+)
 
 
 class Trade(unittest.TestCase):
@@ -54,6 +66,22 @@ class Trade(unittest.TestCase):
         self.assertEqual(rows["10 %"], "strips 5, 50 µs (strips 5, 50 µs)")
         self.assertEqual(rows["3 %"], "strips 5, 50 µs (strips 5, 50 µs)")
         self.assertEqual(rows["1 %"], "none (none)")
+
+    def test_peers_below_ours_are_told(self):
+        (self.folder / "trade.csv").write_text(FRONT_HEADER + FRONT_ROWS, encoding="utf-8")
+        rows = trade.normal_fronts(read_table(str(self.folder / "trade.csv")))
+        by_name = {row["method"]: row for row in rows}
+        self.assertEqual([by_name[name]["us"] for name in ("Hertz", "KPEC", "NORM 0.4 mm")],
+                         [1.0, 35.0, 5000.0])
+        self.assertAlmostEqual(by_name["KPEC"]["mean"], 0.15)
+        self.assertAlmostEqual(by_name["KPEC"]["mean_penetration"], 0.02)
+        self.assertEqual((by_name["KPEC"]["us_worst"], by_name["KPEC"]["worst_case"]), (40.0, "2"))
+        self.assertEqual([by_name[name]["below"] for name in ("KPEC", "ANALYN", "strips 5")],
+                         ["mean_penetration", "mean mean_penetration mean_pmax", ""])
+        self.assertEqual(trade.verdict(rows), "Below ours: ANALYN (scenes).")
+        self.assertEqual(trade.verdict(rows[:3]), "No one lies below ours.")
+        trade.draw_fronts(rows, str(self.folder / "front.png"), "rev")
+        self.assertGreater((self.folder / "front.png").stat().st_size, 10000)
 
     def test_the_command(self):
         done = subprocess.run(

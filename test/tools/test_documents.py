@@ -14,7 +14,7 @@ import document  # noqa: E402
 import pages  # noqa: E402
 
 PAGES = [ROOT / source for _, source, _ in document.PAGES]
-LABEL = r"- \*\*([NFSPLK]\d+)\*\* "
+LABEL = r"- \*\*([NFSPLKV]\d+)\*\* "
 
 # Tuned numbers of the code, by file and name, and how docs/method.md says them.
 CONSTANTS = (

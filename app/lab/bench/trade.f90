@@ -5,16 +5,20 @@
 !> method of stage `normal` is judged by penetration, largest pressure and area, one of stage
 !> `tangential` or `both` by forces and moment, in units of mu N and mu N c, c = sqrt(area/pi).
 !> Times are those of the processor: of some runs of a contact the median (`us` is an older name of
-!> it), the 95th percentile and the worst.
+!> it), the 95th percentile and the worst; they begin with the curve through the gap's points. Of
+!> the core's normal methods those of the solution alone stand besides.
 module faststrip_lab_bench_trade
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
     use faststrip_lab_bench_trade_influence, only: trade_influence
+    use faststrip_lab_bench_trade_times, only: solution_columns, time_solution
     use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
     use faststrip_command_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_methods, only: in_core
     use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
+                                         normal_table, &
                                          normal_norm, tangential_tang
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
@@ -59,10 +63,11 @@ contains
         call put_origin(writer)
         call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
                          // 'mu N c; times: of the stage, processor')
-        call put_header(writer, [[character(len=15) :: 'set', 'case', 'stage', 'method', &
+        call put_header(writer, [[character(len=22) :: 'set', 'case', 'stage', 'method', &
                                   'normal', 'tangential', 'status', 'us'], &
-                                 [character(len=15) :: 'err_' // figure_names], &
-                                 [character(len=15) :: cpu_columns]])
+                                 [character(len=22) :: 'err_' // figure_names], &
+                                 [character(len=22) :: cpu_columns], &
+                                 [character(len=22) :: solution_columns]])
         call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
@@ -102,9 +107,10 @@ contains
         type(solver_t) :: solver
         type(outcome_t) :: outcome
         type(status_t) :: status
-        real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names))
+        real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names)), &
+                    solution(size(solution_columns))
         integer :: i, run, runs, figure
-        logical :: counts
+        logical :: counts, is_timed
 
         call make_solver(entry%numerics, .false., solver, status)
         call fail_on_error(status)
@@ -148,6 +154,16 @@ contains
                         call put_cell(writer, '')
                     else
                         call put_cell(writer, times(figure))
+                    end if
+                end do
+                is_timed = runs > 0 .and. entry%stage == 'normal' &
+                           .and. in_core(normal_table, entry%numerics%normal)
+                if (is_timed) call time_solution(solver, solution, is_timed)
+                do figure = 1, size(solution)
+                    if (is_timed) then
+                        call put_cell(writer, solution(figure))
+                    else
+                        call put_cell(writer, '')
                     end if
                 end do
                 call end_row(writer)

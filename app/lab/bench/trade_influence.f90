@@ -95,6 +95,10 @@ contains
                         call put_cell(writer, us(k, m))
                     end if
                 end do
+                ! No time of a normal solution alone.
+                do k = 1, size(us, 1)
+                    call put_cell(writer, '')
+                end do
                 call end_row(writer)
             end do
         end do

@@ -31,7 +31,8 @@ module faststrip_contact_methods
 
     ! Numbers of the methods, from the tables below; written by tools/methods.py.
     ! BEGIN methods
-    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments, normal_auto
+    public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments, normal_auto, &
+              normal_kpec, normal_analyn, normal_kpec_strips
     integer, parameter :: normal_strip = 1
         !! strips, for any patch and any number of patches
     integer, parameter :: normal_hertz = 2
@@ -42,6 +43,12 @@ module faststrip_contact_methods
         !! the same, proportions of the second moments
     integer, parameter :: normal_auto = 6
         !! both methods, as fine as estimated errors ask
+    integer, parameter :: normal_kpec = 7
+        !! Kik and Piotrowski with the elliptic correction
+    integer, parameter :: normal_analyn = 8
+        !! Sichani, Enblom and Berg, strips as local ellipses
+    integer, parameter :: normal_kpec_strips = 9
+        !! strips in the patch of KPEC, pressures their own
     integer, parameter, public :: normal_norm = 5
         !! NORM, Kalker's variational method: the reference
     public :: tangential_none, tangential_faststrip, tangential_fastsim, &
@@ -89,6 +96,12 @@ module faststrip_contact_methods
                  help='ellipses of equal area, proportions of Hertz'), &
         method_t(4, 'equal_moments', needs='LAPACK', &
                  help='the same, proportions of the second moments'), &
+        method_t(7, 'kpec', needs='a convex gap', &
+                 help='Kik and Piotrowski with the elliptic correction'), &
+        method_t(9, 'kpec_strips', needs='a convex gap', &
+                 help='strips in the patch of KPEC, pressures their own'), &
+        method_t(8, 'analyn', needs='a smooth gap', &
+                 help='Sichani, Enblom and Berg, strips as local ellipses'), &
         method_t(5, 'norm', needs='FFTW', in_core=.false., &
                  help='NORM, Kalker''s variational method: the reference'), &
         method_t(6, 'auto', needs='LAPACK', &

@@ -17,10 +17,13 @@ module faststrip_contact_solve
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
                                             set_gap_curve_points, copy_gap_curve
+    use faststrip_normal_analyn, only: analyn_solve
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap_demand, hertz_strips
     use faststrip_normal_hertz_certificate, only: certify_hertz
+    use faststrip_normal_kpec, only: kpec_solve
+    use faststrip_normal_kpec_strips, only: kpec_strips_solve
     use faststrip_normal_limitations, only: check_resolution, name_resolution, &
                                             name_force_resolution, add_limitation, &
                                             check_penetration, name_steps
@@ -45,6 +48,7 @@ module faststrip_contact_solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_hertz, &
                                          normal_strip, normal_auto, normal_equal_area, &
+                                         normal_kpec, normal_kpec_strips, normal_analyn, &
                                          tangential_none, &
                                          tangential_faststrip, tangential_faststrip_plain, &
                                          tangential_faststrip_paper, &
@@ -63,7 +67,7 @@ module faststrip_contact_solve
     public :: check_contact_friction, name_falling_friction
     public :: most_gap_points
 
-    ! Strips of a Hertz ellipse where the number is left to the solver.
+    ! Strips of Hertz, KPEC and ANALYN where the number is left to the solver.
     ! Tuned [strips]. Origin: as strips_per_patch.
     integer, parameter :: auto_hertz_strips = 15
     ! Tuned [patches]. Origin: as max_patches of the strips.
@@ -135,7 +139,7 @@ contains
         capacity = strip_capacity(methods)
         ! Tried as a whole first: what the parts find missing would stop the program.
         numbers = per_point*max_points + per_strip*capacity
-        if (methods%normal /= normal_hertz .and. workspace%solver%max_strips < capacity) &
+        if (needs_solver(methods%normal) .and. workspace%solver%max_strips < capacity) &
             numbers = numbers + per_pair*capacity*capacity + at_least
         allocate (trial(numbers), stat=failure)
         if (failure /= 0) then
@@ -148,12 +152,19 @@ contains
         if (.not. is_error(status) .and. methods%normal == normal_auto) &
             call reserve_strips(workspace%best_strips, capacity, status)
         if (is_error(status)) return
-        if (methods%normal == normal_hertz) then
-            call reserve_gap_curve(workspace%solver%curve, max_points, status)
-        else
+        if (needs_solver(methods%normal)) then
             call reserve_strip_workspace(workspace%solver, capacity, max_points, status)
+        else
+            call reserve_gap_curve(workspace%solver%curve, max_points, status)
         end if
     end subroutine reserve_workspace
+
+    !> Does a normal method need the strip solver's workspace, or the gap alone?
+    pure logical function needs_solver(normal)
+        integer, intent(in) :: normal
+
+        needs_solver = all(normal /= [normal_hertz, normal_kpec, normal_analyn])
+    end function needs_solver
 
     !> Allocate for the elements of a tangential method.
     subroutine reserve_contact_field(field, methods, status)
@@ -461,7 +472,9 @@ contains
             call set_gap_curve(workspace%solver%curve, case%gap, status)
         end if
         if (is_error(status)) return
-        if (case%methods%normal == normal_hertz) then
+        if (any(case%methods%normal == [normal_kpec, normal_kpec_strips, normal_analyn])) then
+            call solve_approximately(workspace, case, normal, status)
+        else if (case%methods%normal == normal_hertz) then
             call solve_hertz(workspace, case, normal, status)
             if (case%estimate .and. .not. is_error(status)) &
                 call estimate_hertz(workspace, case, certificate, is_estimated, status)
@@ -585,6 +598,37 @@ contains
             call name_steps(curve, hertz%penetration, workspace%strips, status)
         end associate
     end subroutine solve_hertz
+
+    !> By KPEC, strips in its patch, or ANALYN, of which no error is estimated.
+    subroutine solve_approximately(workspace, case, normal, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(normal_result_t), intent(out) :: normal
+        type(status_t), intent(out) :: status
+
+        integer :: n
+
+        n = case%methods%strips_per_patch
+        if (n == strips_auto) n = auto_hertz_strips
+        associate (curve => workspace%solver%curve, compliance => normal_compliance(case%material))
+            select case (case%methods%normal)
+            case (normal_kpec)
+                call kpec_solve(curve, compliance, case%demand_t, n, workspace%strips, normal, &
+                                status)
+            case (normal_kpec_strips)
+                if (workspace%solver%max_strips < strip_capacity(case%methods)) then
+                    call set_status(status, st_workspace_too_small, 'the workspace has no ' // &
+                                    'capacity for as many strips')
+                    return
+                end if
+                call kpec_strips_solve(curve, compliance, case%demand_t, n, &
+                                       workspace%solver%newton, workspace%strips, normal, status)
+            case default
+                call analyn_solve(curve, compliance, case%demand_t, n, workspace%strips, normal, &
+                                  status)
+            end select
+        end associate
+    end subroutine solve_approximately
 
     subroutine solve_tangential(workspace, case, tangential, status, field, per_strip)
         type(workspace_t), intent(in) :: workspace

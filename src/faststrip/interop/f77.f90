@@ -9,7 +9,8 @@
 !> target_missed, 8 under_resolved, 9 more_strips, 10 beyond_yield), from 100 on no result.
 !>
 !> ```
-!> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments, 6 auto
+!> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments, 6 auto, 7 kpec, 8 analyn,
+!>         9 kpec_strips
 !> IOPT(2) tangential method: 0 none, 1 faststrip, 2 fastsim, 3 faststrip-paper,
 !>         4 faststrip-corrected, 5 fastsim-elliptic, 6 fastsim-weighted, 7 linear, 8 she, 9 polach,
 !>         11 faststrip-plain

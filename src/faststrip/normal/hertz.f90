@@ -22,8 +22,8 @@ module faststrip_normal_hertz
     implicit none
     private
 
-    public :: hertz_t, hertz_solve, hertz_solve_gap, hertz_solve_gap_penetration, hertz_strips
-    public :: hertz_solve_gap_demand, put_hertz_strips
+    public :: hertz_t, hertz_solve, hertz_shape, hertz_solve_gap, hertz_solve_gap_penetration
+    public :: hertz_strips, hertz_solve_gap_demand, put_hertz_strips
 
     !> A Hertz contact.
     type :: hertz_t
@@ -60,11 +60,8 @@ contains
             !! `st_not_finite`, `st_bad_material`, `st_bad_load`, `st_no_hertz_ellipse` (a relative
             !! curvature that is not positive), `st_out_of_range` (axes beyond all proportion)
 
-        ! Tuned [steps]: Most steps for the ratio of the axes. Origin: safeguard: Newton's method
-        ! needs few.
-        integer, parameter :: most_steps = 40
-        real(wp) :: target, axes, step, k, d, s, slope, log_long, long, short
-        integer :: i
+        real(wp) :: axes, k, d, s, log_long, long, short
+        logical :: found
 
         call check_arguments(compliance, inv2r_x, inv2r_y, load, status)
         if (status%code /= 0) return
@@ -76,20 +73,13 @@ contains
                             // ' 1/mm')
             return
         end if
-        target = log(max(inv2r_x, inv2r_y)/min(inv2r_x, inv2r_y))
-        axes = target/1.5_wp ! Given: Hertz
-        do i = 1, most_steps
-            call ellipse_integrals(exp(-axes), k, d, s, slope)
-            ! ln(A_S/A_L) = ln(B/D) + 2 ln(L/S); B/D = (1/2 - s)/(1/2 + s).
-            step = (target - 2.0_wp*axes - log((0.5_wp - s)/(0.5_wp + s)))/slope
-            axes = max(axes + step, 0.0_wp)
-            if (abs(step) <= 4.0_wp*epsilon(1.0_wp)*(1.0_wp + axes)) exit
-        end do
-        if (i > most_steps) then
+        axes = log(max(inv2r_x, inv2r_y)/min(inv2r_x, inv2r_y))/1.5_wp ! Given: Hertz
+        call hertz_shape(inv2r_x, inv2r_y, axes, k, s, found)
+        if (.not. found) then
             call set_status(status, st_no_convergence, 'axes of the Hertz ellipse not found')
             return
         end if
-        call ellipse_integrals(exp(-axes), k, d, s, slope)
+        d = k*(0.5_wp + s)
 
         ! Given: Hertz
         log_long = (log(1.5_wp*d) + log(load) + log(compliance) &
@@ -116,6 +106,36 @@ contains
         hertz%pmax = 1.5_wp*load/hertz%area ! Given: Hertz
         hertz%load = load
     end subroutine hertz_solve
+
+    !> The shape of the Hertz ellipse of two curvatures: with D the approach, A_L and A_S the
+    !> curvatures along the long and the short axis L and S,
+    !>
+    !>     A_L L^2 = (1/2 + s) D,  A_S S^2 = (1/2 - s) D,  pmax = D/(pi H K S).
+    pure subroutine hertz_shape(inv2r_x, inv2r_y, axes, k, s, found)
+        real(wp), intent(in) :: inv2r_x  !! A, half the curvature along x, above 0, 1/mm
+        real(wp), intent(in) :: inv2r_y  !! B, half the curvature along y, above 0, 1/mm
+        real(wp), intent(inout) :: axes  !! ln(L/S): where to start, then what was found
+        real(wp), intent(out) :: k       !! K(m)
+        real(wp), intent(out) :: s       !! (D - B)/(2K) of the elliptic integrals, in [0, 1/2)
+        logical, intent(out) :: found    !! did Newton's method converge?
+
+        ! Tuned [steps]: Most steps for the ratio of the axes. Origin: safeguard: Newton's method
+        ! needs few.
+        integer, parameter :: most_steps = 40
+        real(wp) :: target, step, slope
+        integer :: i
+
+        target = log(max(inv2r_x, inv2r_y)/min(inv2r_x, inv2r_y))
+        do i = 1, most_steps
+            call ellipse_integrals(exp(-axes), k, s, slope)
+            ! ln(A_S/A_L) = ln(B/D) + 2 ln(L/S); B/D = (1/2 - s)/(1/2 + s).
+            step = (target - 2.0_wp*axes - log((0.5_wp - s)/(0.5_wp + s)))/slope
+            axes = max(axes + step, 0.0_wp)
+            if (abs(step) <= 4.0_wp*epsilon(1.0_wp)*(1.0_wp + axes)) exit
+        end do
+        found = i <= most_steps
+        call ellipse_integrals(exp(-axes), k, s, slope)
+    end subroutine hertz_shape
 
     !> Cube root of `mantissa*2**power`. With another unit of length or force that is a power of two
     !> the root has the same digits, which it would not have by a logarithm: so has all that starts
@@ -174,10 +194,9 @@ contains
     !> Complete elliptic integrals of modulus m = 1 - g^2 by the arithmetic-geometric mean, without
     !> the cancellation of K - E near the circle: `K - E = K sum 2^(n-1) c_n^2` with `c_0^2 = m`
     !> and `c_(n+1) = c_n^2/(4 a_(n+1))`, so that `(K - E)/m = K (1/2 + s)`.
-    pure subroutine ellipse_integrals(g, k, d, s, slope)
+    pure subroutine ellipse_integrals(g, k, s, slope)
         real(wp), intent(in) :: g      !! short over long axis, in (0, 1]
         real(wp), intent(out) :: k     !! K(m)
-        real(wp), intent(out) :: d     !! D(m) = (K - E)/m = K (1/2 + s)
         real(wp), intent(out) :: s     !! (D - B)/(2K), in [0, 1/2)
         real(wp), intent(out) :: slope !! d ln(A_S/A_L)/d ln(L/S)
 
@@ -201,7 +220,6 @@ contains
         end do
         k = pi/(mean + geometric)
         s = s_over_m*(1.0_wp - g)*(1.0_wp + g)
-        d = k*(0.5_wp + s)
         ! From dK/dm = B/(2 g^2), dE/dm = -D/2: no difference of nearly equal numbers is left.
         slope = 1.0_wp + 2.0_wp*s_over_m*(g*g/(0.5_wp - s) + 1.0_wp/(0.5_wp + s))
     end subroutine ellipse_integrals
