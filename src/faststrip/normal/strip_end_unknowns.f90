@@ -17,7 +17,7 @@ module faststrip_normal_strip_end_unknowns
         integer :: patch = 0, strip = 0
         integer :: inward = 1 ! 1 at a left end, -1 at a right end
         integer :: stride = 1
-        logical :: fixed = .false. ! at the end of the gap's points
+        logical :: fixed = .false. ! at the end of the gap's points, or shared by two patches
     end type end_t
 
 contains
@@ -43,6 +43,9 @@ contains
         do p = 1, n_ends
             if (ends(p)%fixed) ends(p)%fixed = &
                 end_step(workspace, ends(p)%strip, ends(p)%inward, ends(p)%stride) >= 0.0_wp
+        end do
+        do p = 1, patches%n - 1
+            if (patches%at(p)%meets_next) ends(2*p:2*p + 1)%fixed = .true.
         end do
     end subroutine list_ends
 
@@ -93,7 +96,8 @@ contains
             in_order = in_order .and. patches%at(p)%y_to > patches%at(p)%y_from
         end do
         do p = 2, patches%n
-            in_order = in_order .and. patches%at(p)%y_from > patches%at(p - 1)%y_to
+            in_order = in_order .and. (patches%at(p - 1)%meets_next .or. &
+                                       patches%at(p)%y_from > patches%at(p - 1)%y_to)
         end do
     end function in_order
 end module faststrip_normal_strip_end_unknowns

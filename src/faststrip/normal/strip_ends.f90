@@ -12,7 +12,12 @@ module faststrip_normal_strip_ends
     implicit none
     private
 
-    public :: move_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
+    public :: move_ends, part_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
+    public :: farthest_out
+
+    !> How far an end may be carried on, inwards and outwards.
+    !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
+    real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
 
     ! Tuned [points]. Origin: capacity.
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
@@ -43,6 +48,7 @@ contains
 
         real(wp) :: factor, step, width, y_low, y_high
         integer :: p, first, last, stride
+        logical :: shares
 
         factor = 1.0_wp
         if (pass >= damped_pass) factor = damping
@@ -50,17 +56,26 @@ contains
         y_high = workspace%curve%y(workspace%curve%n)
         move = 0.0_wp
         last = 0
+        shares = .false.
         do p = 1, patches%n
             first = last + 1
             last = last + patches%at(p)%n_strips
             associate (patch => patches%at(p))
                 stride = end_stride(patch%n_strips)
-                width = end_width(workspace, first, stride)
-                step = factor*end_step(workspace, first, 1, stride)*width
-                step = min(step, patch%y_from - y_low)
-                call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, step)
-                patch%y_from = patch%y_from - step
-                move = max(move, abs(step)/width)
+                if (.not. shares) then
+                    width = end_width(workspace, first, stride)
+                    step = factor*end_step(workspace, first, 1, stride)*width
+                    step = min(step, patch%y_from - y_low)
+                    call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, &
+                                   step)
+                    patch%y_from = patch%y_from - step
+                    move = max(move, abs(step)/width)
+                end if
+                shares = patch%meets_next
+                if (shares) then
+                    call move_shared_end(workspace, factor, last, patch, patches%at(p + 1), move)
+                    cycle
+                end if
                 width = end_width(workspace, last, stride)
                 step = factor*end_step(workspace, last, -1, stride)*width
                 step = min(step, y_high - patch%y_to)
@@ -70,6 +85,76 @@ contains
             end associate
         end do
     end subroutine move_ends
+
+    !> Move the end that two patches share to where both want to go on as far; or apart, where both
+    !> together want to draw back.
+    pure subroutine move_shared_end(workspace, factor, last, patch, next, move)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: factor        ! of the steps
+        integer, intent(in) :: last           ! strip of the left patch
+        type(patch_t), intent(inout) :: patch ! the left one
+        type(patch_t), intent(inout) :: next  ! and that beside it
+        real(wp), intent(inout) :: move       ! largest so far, in widths
+
+        real(wp) :: to, from, width_to, width_from
+
+        call shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
+        to = factor*to
+        from = factor*from
+        if (to + from >= 0.0_wp) then
+            to = 0.5_wp*(to - from)
+            from = -to
+        end if
+        patch%y_to = patch%y_to + to
+        next%y_from = next%y_from - from
+        if (to + from >= 0.0_wp) then
+            next%y_from = patch%y_to
+        else
+            move = max(move, abs(to)/width_to, abs(from)/width_from)
+        end if
+    end subroutine move_shared_end
+
+    !> Part patches that share an end from which both together want to draw back.
+    pure subroutine part_ends(workspace, tolerance, patches, parted)
+        type(strip_workspace_t), intent(in) :: workspace !! with their strips
+        real(wp), intent(in) :: tolerance                !! not by less than this, strip widths
+        type(patches_t), intent(inout) :: patches        !! the ends of those parted are moved
+        logical, intent(out) :: parted                   !! any
+
+        real(wp) :: to, from, width_to, width_from
+        integer :: p, last
+
+        parted = .false.
+        last = 0
+        do p = 1, patches%n - 1
+            last = last + patches%at(p)%n_strips
+            if (.not. patches%at(p)%meets_next) cycle
+            call shared_steps(workspace, patches%at(p), patches%at(p + 1), last, to, from, &
+                              width_to, width_from)
+            if (to + from >= -tolerance*min(width_to, width_from)) cycle
+            patches%at(p)%y_to = patches%at(p)%y_to + to
+            patches%at(p + 1)%y_from = patches%at(p + 1)%y_from - from
+            patches%at(p)%meets_next = .false.
+            parted = .true.
+        end do
+    end subroutine part_ends
+
+    !> How far both sides of a shared end want to go on, and widths there, mm.
+    pure subroutine shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(patch_t), intent(in) :: patch, next ! side by side
+        integer, intent(in) :: last              ! strip of the left one
+        real(wp), intent(out) :: to, from, width_to, width_from
+
+        integer :: stride
+
+        stride = end_stride(patch%n_strips)
+        width_to = end_width(workspace, last, stride)
+        to = end_step(workspace, last, -1, stride)*width_to
+        stride = end_stride(next%n_strips)
+        width_from = end_width(workspace, last + 1, stride)
+        from = end_step(workspace, last + 1, 1, stride)*width_from
+    end subroutine shared_steps
 
     !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
     !> the less the place counts: everything else may have moved since.
@@ -110,9 +195,6 @@ contains
         integer, intent(in) :: inward !! 1 at a left end, -1 at a right end
         integer, intent(in) :: stride !! strips from one of the three strips to the next
 
-        ! Tuned [strip widths]: How far an end may be carried on. Origin: safeguard: an end moves no
-        ! farther in a pass.
-        real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
         real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s
         integer :: j
 

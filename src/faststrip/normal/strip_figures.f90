@@ -13,24 +13,28 @@ module faststrip_normal_strip_figures
 
 contains
 
-    !> Hand a converged pass over as strips.
+    !> Hand a converged pass over as strips; patches that share an end are one there.
     pure subroutine hand_over(found, patches, strips)
         type(pass_strips_t), intent(in) :: found        !! the strips of the pass
         type(patches_t), intent(in) :: patches          !! that they fill
         type(contact_strips_t), intent(inout) :: strips !! with capacity enough
 
         integer :: p, n, last
+        logical :: goes_on
 
         n = found%n
         strips%n = n
-        strips%n_patches = patches%n
+        strips%n_patches = 0
+        goes_on = .false.
         strips%y_left(:n) = found%y_left(:n)
         strips%y_right(:n) = found%y_right(:n)
         strips%p0(:n) = found%p0(:n)
         strips%half_length(:n) = found%half_length(:n)
         last = 0
         do p = 1, patches%n
-            strips%patch(last + 1:last + patches%at(p)%n_strips) = p
+            if (.not. goes_on) strips%n_patches = strips%n_patches + 1
+            goes_on = patches%at(p)%meets_next
+            strips%patch(last + 1:last + patches%at(p)%n_strips) = strips%n_patches
             last = last + patches%at(p)%n_strips
         end do
     end subroutine hand_over

@@ -13,6 +13,7 @@ module faststrip_normal_strip_levels
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_figures, only: summarize
     use faststrip_normal_strip_patches, only: fewest_strips
+    use faststrip_normal_strip_row, only: find_patches
     use faststrip_normal_strip_settle, only: level_t, settling_t, settle
     use faststrip_normal_strip_start, only: start_patches, resume_patches
     use faststrip_normal_strip_state, only: strip_workspace_t
@@ -58,6 +59,7 @@ module faststrip_normal_strip_levels
     integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
     integer, parameter :: from_coarser = 3       ! the level before
     integer, parameter :: from_changed = 4       ! the last solution, where other patches joined in
+    integer, parameter :: from_row = 5           ! patches found by a row of fixed cells
 
     !> What the user chooses.
     type :: strip_options_t
@@ -98,14 +100,17 @@ contains
         type(settling_t) :: settling
         type(normal_result_t) :: coarser
         integer :: level, start
+        logical :: found, in_doubt
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
         level = 1
         start = from_nothing
+        in_doubt = .false.
         if (options%warm_start .and. workspace%old%n > 0) then
             start = from_last_solution
             call resume_patches(workspace, demand, settling%patches, settling%penetration)
+            in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
             level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
         end if
         n_settled = 0
@@ -115,10 +120,17 @@ contains
                                    settling%penetration)
                 workspace%old%n = 0
                 workspace%carried%known = .false.
+                in_doubt = .false.
+            else if (start == from_row) then
+                call find_patches(workspace, compliance, demand, settling%patches, &
+                                  settling%penetration, found)
+                if (.not. found) exit
+                in_doubt = .true.
             end if
             coarser = result
             call settle(workspace, compliance, demand, &
-                        level_of(plan, level, start, options%tolerance), settling, strips, result)
+                        level_of(plan, level, start, in_doubt, options%tolerance), settling, &
+                        strips, result)
             if (settling%settled) then
                 if (level >= plan%first_counted) n_settled = plan%strips(level)
                 start = from_coarser
@@ -127,7 +139,10 @@ contains
                 if (.not. is_resolved(workspace, compliance, strips, result, &
                                       options%resolution_limit)) cycle
                 if (is_enough(coarser, result)) exit
-            else if (start == from_nothing) then
+            else if (start == from_nothing .and. level == 1) then
+                start = from_row
+                level = max(level, plan%first_counted)
+            else if (start == from_nothing .or. start == from_row) then
                 if (n_settled > 0) exit
                 if (level == plan%n) call add_level(options%strips_per_patch, plan)
                 if (level == plan%n) exit
@@ -170,18 +185,21 @@ contains
     end function warm_level
 
     !> What a level of the plan asks for.
-    pure type(level_t) function level_of(plan, level, start, tolerance)
+    pure type(level_t) function level_of(plan, level, start, in_doubt, tolerance)
         type(plan_t), intent(in) :: plan
         integer, intent(in) :: level, start
+        logical, intent(in) :: in_doubt   ! do patches split and join?
         real(wp), intent(in) :: tolerance ! of the levels that count
 
         level_of%strips_per_patch = plan%strips(level)
         level_of%most_strips = maxval(plan%strips(:plan%n))
         level_of%tolerance = tolerance
         if (level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
-        level_of%near = start == from_last_solution .or. start == from_coarser
+        level_of%near = start == from_last_solution .or. start == from_coarser &
+                        .or. start == from_row
         level_of%resumes = start == from_last_solution
         level_of%scouts = level < plan%first_counted
+        level_of%in_doubt = in_doubt
     end function level_of
 
     !> Are so many strips enough that have changed so little?

@@ -39,6 +39,7 @@ module faststrip_normal_strip_patches
         ! Ends at which strips left: the true ends lie further in.
         real(wp) :: too_far_from = -far, too_far_to = far
         integer :: pushes_from = 0, pushes_to = 0
+        logical :: meets_next = .false. ! is its right end the left end of the next one?
     end type patch_t
 
     !> The patches of one pass, in the order of y.
@@ -167,7 +168,8 @@ contains
         end do
     end subroutine sort_patches
 
-    !> Merge patches that have met; if that is not allowed any more, let them share the middle.
+    !> Merge patches that have met; if that is not allowed any more, let them share an end, in the
+    !> middle.
     pure subroutine join_met_patches(may_merge, patches, changed)
         logical, intent(in) :: may_merge
         type(patches_t), intent(inout) :: patches
@@ -189,7 +191,8 @@ contains
                 patches%at(n)%n_strips = patches%at(n)%n_strips + patches%at(p)%n_strips
                 changed = .true.
             else
-                if (patches%at(p)%y_from < patches%at(n)%y_to) then
+                patches%at(n)%meets_next = patches%at(p)%y_from <= patches%at(n)%y_to
+                if (patches%at(n)%meets_next) then
                     middle = 0.5_wp*(patches%at(p)%y_from + patches%at(n)%y_to)
                     patches%at(n)%y_to = middle
                     patches%at(p)%y_from = middle
@@ -199,9 +202,11 @@ contains
             end if
         end do
         patches%n = n
+        if (n > 0) patches%at(n)%meets_next = .false.
     end subroutine join_met_patches
 
-    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped.
+    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped. A
+    !> piece of a patch that shares its other end with a neighbour becomes part of that.
     pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches, splits)
         real(wp), intent(in) :: y_left(:), y_right(:) !! edges of all strips, mm
         logical, intent(in) :: leaves(:)              !! strips to be cut off
@@ -209,7 +214,7 @@ contains
         integer, intent(inout) :: splits              !! increased by the patches split
 
         type(patches_t) :: cut
-        integer :: p, first, last, i, from
+        integer :: p, first, last, i, from, origin(max_patches)
 
         cut%n = 0
         last = 0
@@ -231,9 +236,11 @@ contains
                     end if
                     cut%n = cut%n + 1
                     cut%at(cut%n) = patches%at(p)
+                    origin(cut%n) = p
                     cut%at(cut%n)%y_from = y_left(from)
                     cut%at(cut%n)%y_to = y_right(i - 1)
                     cut%at(cut%n)%n_strips = i - from
+                    cut%at(cut%n)%meets_next = patches%at(p)%meets_next .and. i > last
                     if (from > first) then
                         cut%at(cut%n)%too_far_from = patches%at(p)%y_from
                         cut%at(cut%n)%pushes_from = 0
@@ -246,8 +253,46 @@ contains
                 from = 0
             end do
         end do
+        call give_pieces(origin, cut)
         patches = cut
     end subroutine cut_leaving_strips
+
+    !> Give pieces of patches to the neighbours they share an end with, and forget ends that are
+    !> shared no longer.
+    pure subroutine give_pieces(origin, cut)
+        integer, intent(in) :: origin(:)      ! the patch each is of
+        type(patches_t), intent(inout) :: cut ! those left
+
+        type(patches_t) :: given
+        integer :: p, n, before
+
+        given%n = 0
+        before = 0
+        do p = 1, cut%n
+            n = given%n
+            if (n > 0) then
+                if (given%at(n)%meets_next) then
+                    given%at(n)%meets_next = cut%at(p)%y_from <= given%at(n)%y_to
+                    if (given%at(n)%meets_next &
+                        .and. (count(origin(:cut%n) == before) > 1 &
+                               .or. count(origin(:cut%n) == origin(p)) > 1)) then
+                        given%at(n)%y_to = cut%at(p)%y_to
+                        given%at(n)%too_far_to = cut%at(p)%too_far_to
+                        given%at(n)%pushes_to = cut%at(p)%pushes_to
+                        given%at(n)%n_strips = given%at(n)%n_strips + cut%at(p)%n_strips
+                        given%at(n)%meets_next = cut%at(p)%meets_next
+                        before = origin(p)
+                        cycle
+                    end if
+                end if
+            end if
+            given%n = n + 1
+            given%at(n + 1) = cut%at(p)
+            before = origin(p)
+        end do
+        if (given%n > 0) given%at(given%n)%meets_next = .false.
+        cut = given
+    end subroutine give_pieces
 
     !> Forget how far out ends were too far: everything else has changed.
     pure subroutine free_ends(patches)
@@ -276,6 +321,8 @@ contains
                 to%too_far_to = -from%too_far_from
                 to%pushes_from = from%pushes_to
                 to%pushes_to = from%pushes_from
+                to%meets_next = .false.
+                if (p < patches%n) to%meets_next = seen%at(patches%n - p)%meets_next
             end associate
         end do
     end subroutine mirror_patches
@@ -289,7 +336,10 @@ contains
 
         n = 0
         do p = 1, patches%n
-            if (patches%at(p)%y_to - patches%at(p)%y_from < narrowest) cycle
+            if (patches%at(p)%y_to - patches%at(p)%y_from < narrowest) then
+                if (n > 0) patches%at(n)%meets_next = .false.
+                cycle
+            end if
             n = n + 1
             patches%at(n) = patches%at(p)
         end do

@@ -14,7 +14,7 @@ module faststrip_normal_strip_settle
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, max_factorings, &
                                               few_factorings
-    use faststrip_normal_strip_ends, only: move_ends, close_overlaps
+    use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
@@ -40,18 +40,22 @@ module faststrip_normal_strip_settle
     integer, parameter :: max_passes = 40    ! in one level
     ! Tuned [passes]: the same of a level that only finds patches. Origin: chosen for the time: the
     ! next level can go on from any.
-    integer, parameter :: max_scout_passes = 20
+    integer, parameter :: max_scout_passes = 8
     ! Tuned [passes]: the same from the last solution. Origin: chosen for the time: where it is not
     ! near, starting anew costs less.
     integer, parameter :: max_resumed_passes = 1
     ! Tuned [tries]. Origin: chosen; what fails four times does not settle.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
+    ! Tuned [tries]: the same in a level that only finds patches. Origin: chosen for the time.
+    integer, parameter :: max_scout_couplings = 2
     ! Tuned [splits]. Origin: chosen against cycles of splitting and merging.
     integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
     ! Tuned [splits]: the same in a level that only finds patches. Origin: chosen for the time.
     integer, parameter :: max_scout_splits = 2
     ! Tuned [splits]. Origin: chosen; in starts from the last solution.
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
+    ! Tuned [splits]. Origin: chosen for the time: a row of cells finds the patches then.
+    integer, parameter :: max_splits_scouting = 0
     ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all levels together: so much, and so many steps of all strips.
@@ -82,6 +86,7 @@ module faststrip_normal_strip_settle
         logical :: near = .false.         !! do the strips start near a solution?
         logical :: resumes = .false.      !! near the last one of the workspace?
         logical :: scouts = .false.       !! are patches to be found, and nothing else?
+        logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
     end type level_t
 
     !> Where the settling of a level stands, and what it leaves.
@@ -192,6 +197,15 @@ contains
         if (level%resumes) most_passes = max_resumed_passes
     end function most_passes
 
+    !> How often patches may split in a level.
+    pure integer function most_splits(level)
+        type(level_t), intent(in) :: level
+
+        most_splits = max_splits_at_all
+        if (level%scouts .and. .not. level%in_doubt) most_splits = max_splits_scouting
+        if (level%near) most_splits = max_splits_near
+    end function most_splits
+
     !> Newton: solve for the strips between ends that are given.
     subroutine solve_pass(workspace, compliance, demand, level, settling, result)
         type(strip_workspace_t), intent(inout) :: workspace
@@ -230,7 +244,7 @@ contains
                                     settling%patches, settling%splits)
         end associate
         if (settling%patches%n == 0 .or. &
-            settling%splits > merge(max_splits_near, max_splits_at_all, level%near)) then
+            settling%splits > most_splits(level)) then
             settling%state = state_give_up
         else
             call share_strips(level%strips_per_patch, settling%patches)
@@ -271,6 +285,8 @@ contains
             settling%tolerance = level%tolerance
         settling%state = merge(state_couple, state_position, moved < coupling_move &
                                .and. settling%couplings < max_couplings)
+        if (level%scouts .and. settling%couplings == max_scout_couplings .and. moved < coupling_move) &
+            settling%state = state_give_up
     end subroutine move
 
     !> Couple: solve for strips and ends together, from nearby.
@@ -308,6 +324,8 @@ contains
         settling%patches = settling%solved
         settling%penetration = workspace%strips%penetration
         call remember(workspace, settling%patches)
+        call part_ends(workspace, loose_end_tolerance, settling%patches, changed)
+        if (changed) return
         call join_overlaps(workspace, compliance, level, settling, changed)
         if (changed) return
         call keep(workspace, 0.0_wp, settling, strips, result)
@@ -324,7 +342,8 @@ contains
         logical, intent(out) :: changed
 
         call close_overlaps(workspace, compliance, settling%penetration, &
-                            settling%splits < merge(max_scout_splits, max_splits, level%scouts), &
+                            .not. level%in_doubt .and. settling%splits &
+                            < merge(max_scout_splits, max_splits, level%scouts), &
                             settling%patches, changed)
         if (.not. changed) return
         settling%at_rest = .false.

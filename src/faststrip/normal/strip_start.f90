@@ -101,6 +101,12 @@ contains
                 patch%y_to = min(middle + half, workspace%curve%y(workspace%curve%n))
             end associate
         end do
+        do p = 1, workspace%old%n - 1
+            if (.not. workspace%old%at(p)%meets_next) cycle
+            middle = 0.5_wp*(workspace%old%at(p)%y_to + workspace%old%at(p + 1)%y_from)
+            workspace%old%at(p)%y_to = middle
+            workspace%old%at(p + 1)%y_from = middle
+        end do
         patches = workspace%old
     end subroutine resume_patches
 
