@@ -1,4 +1,4 @@
-!> ANALYN: strips that are slices of the Hertz ellipses of the gap's local curvatures.
+!> Strips that are slices of the Hertz ellipses of the gap's local curvatures.
 !>
 !> Sichani, Enblom and Berg (Vehicle System Dynamics 52, 2014, "A novel method to model wheel-rail
 !> normal contact in vehicle dynamics simulation") approximate how the surfaces give way from

@@ -1,4 +1,4 @@
-!> KPEC: Kik and Piotrowski's virtual penetration with an elliptic correction of its shape.
+!> Kik and Piotrowski's virtual penetration with an elliptic correction of its shape.
 !>
 !> Kik and Piotrowski (2nd Mini Conference on Contact Mechanics, Budapest 1996; Piotrowski and
 !> Chollet, Vehicle System Dynamics 43, 2005, section 4; Piotrowski and Kik, VSD 46, 2008) take for

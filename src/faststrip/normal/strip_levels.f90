@@ -115,18 +115,8 @@ contains
         end if
         n_settled = 0
         do while (level <= plan%n)
-            if (start == from_nothing) then
-                call start_patches(workspace%curve, compliance, demand, settling%patches, &
-                                   settling%penetration)
-                workspace%old%n = 0
-                workspace%carried%known = .false.
-                in_doubt = .false.
-            else if (start == from_row) then
-                call find_patches(workspace, compliance, demand, settling%patches, &
-                                  settling%penetration, found)
-                if (.not. found) exit
-                in_doubt = .true.
-            end if
+            call begin(workspace, compliance, demand, start, settling, in_doubt, found)
+            if (.not. found) exit
             coarser = result
             call settle(workspace, compliance, demand, &
                         level_of(plan, level, start, in_doubt, options%tolerance), settling, &
@@ -172,6 +162,30 @@ contains
         ! What did not settle is no start for the next solution.
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
+
+    !> Patches for a level that does not start from strips.
+    subroutine begin(workspace, compliance, demand, start, settling, in_doubt, found)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        integer, intent(in) :: start             ! what the level starts from
+        type(settling_t), intent(inout) :: settling
+        logical, intent(inout) :: in_doubt       ! do patches split and join?
+        logical, intent(out) :: found            ! are there patches?
+
+        found = .true.
+        if (start == from_nothing) then
+            call start_patches(workspace%curve, compliance, demand, settling%patches, &
+                               settling%penetration)
+            workspace%old%n = 0
+            workspace%carried%known = .false.
+            in_doubt = .false.
+        else if (start == from_row) then
+            call find_patches(workspace, compliance, demand, settling%patches, &
+                              settling%penetration, found)
+            in_doubt = .true.
+        end if
+    end subroutine begin
 
     !> The level that a solution is near enough to be the start of.
     pure integer function warm_level(plan, strips)

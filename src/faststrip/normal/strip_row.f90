@@ -21,16 +21,16 @@ module faststrip_normal_strip_row
 
     public :: find_patches
 
-    ! Tuned [cells]: of a row; and room for the places of at least `fewest_strips` cells. Origin:
-    ! chosen for the time: a neck of a tenth of the contact is seen.
+    ! Tuned [cells]: of a row; fewest of a place; room. Origin: chosen for the time: a neck of a
+    ! tenth of the contact is seen.
     integer, parameter :: row_cells = 24, fewest_cells = 6, most_cells = 40
     ! Tuned [rows]: each over the patches of the one before. Origin: chosen for the time.
     integer, parameter :: most_rows = 3
-    ! Tuned [steps]: of the cells' lengths in a row; of the cells that press. Origin: chosen: lengths
-    ! count by their logarithm; safeguard.
+    ! Tuned [steps]: of the cells' lengths in a row; of the cells that press. Origin: chosen for the
+    ! time: lengths hardly change any more; safeguard.
     integer, parameter :: length_steps = 3, most_changes = 12
-    ! Tuned [1]: length of a cell over that of the undeformed overlap, to begin with. Origin: a round
-    ! contact.
+    ! Tuned [1]: length of a cell over that of the undeformed overlap, to begin with. Origin: a
+    ! round contact.
     real(wp), parameter :: first_share = 0.7_wp
     ! Tuned [1]: most that a length changes by in a step. Origin: safeguard.
     real(wp), parameter :: length_step = 2.0_wp
@@ -66,7 +66,7 @@ contains
         type(patches_t), intent(inout) :: patches  !! those found, not yet shared into strips
         real(wp), intent(inout) :: penetration     !! above the lowest height: a guess, which it
                                                    !! should not be far above; that found, mm
-        logical, intent(out) :: found              !! false: too many places, or no balance
+        logical, intent(out) :: found              !! are there, and are they not too many?
 
         type(row_t) :: row
         real(wp) :: from(max_patches), to(max_patches), level
@@ -371,6 +371,7 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(out) :: possible ! is there room in the workspace?
 
+        real(wp) :: width
         integer :: first, last, k, j, parts, n
 
         patches = patches_t()
@@ -387,10 +388,11 @@ contains
                 patches%n = patches%n + 1
                 patches%at(patches%n)%n_strips = parts*(last - first + 1)
                 do k = first, last
+                    width = row%right(k) - row%left(k)
                     do j = 1, parts
                         n = n + 1
-                        strips%y_left(n) = row%left(k) + (row%right(k) - row%left(k))*(j - 1)/parts
-                        strips%y_right(n) = row%left(k) + (row%right(k) - row%left(k))*j/parts
+                        strips%y_left(n) = row%left(k) + width*(j - 1)/parts
+                        strips%y_right(n) = row%left(k) + width*j/parts
                         strips%inv2r(n) = row%inv2r(k)
                         strips%p0(n) = row%p0(k)
                         strips%half_length(n) = row%half_length(k)
@@ -405,8 +407,8 @@ contains
         possible = patches%n > 0
     end subroutine hand_to_strips
 
-    !> How far the contact goes on beyond a cell, mm: to where the squared length runs out; a cell that
-    !> is longer than the one before it is at the end.
+    !> How far the contact goes on beyond a cell, mm: to where the squared length runs out; a cell
+    !> that is longer than the one before it is at the end.
     pure real(wp) function end_move(row, last, before) result(move)
         type(row_t), intent(in) :: row
         integer, intent(in) :: last   ! cell of the run

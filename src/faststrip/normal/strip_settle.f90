@@ -54,7 +54,8 @@ module faststrip_normal_strip_settle
     integer, parameter :: max_scout_splits = 2
     ! Tuned [splits]. Origin: chosen; in starts from the last solution.
     integer, parameter :: max_splits_near = 1  ! more: the start was not that near
-    ! Tuned [splits]. Origin: chosen for the time: a row of cells finds the patches then.
+    ! Tuned [splits]: most of a level that only finds patches. Origin: chosen for the time: a row of
+    ! cells finds them then.
     integer, parameter :: max_splits_scouting = 0
     ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
@@ -283,10 +284,13 @@ contains
         ! The last passes count, whatever they reach.
         if (settling%at_rest .or. settling%pass >= most_passes(level)/2) &
             settling%tolerance = level%tolerance
-        settling%state = merge(state_couple, state_position, moved < coupling_move &
-                               .and. settling%couplings < max_couplings)
-        if (level%scouts .and. settling%couplings == max_scout_couplings .and. moved < coupling_move) &
+        settling%state = state_position
+        if (.not. moved < coupling_move) return
+        if (level%scouts .and. settling%couplings == max_scout_couplings) then
             settling%state = state_give_up
+        else if (settling%couplings < max_couplings) then
+            settling%state = state_couple
+        end if
     end subroutine move
 
     !> Couple: solve for strips and ends together, from nearby.
