@@ -15,6 +15,9 @@
                 there in out/force_data/ is not made again
   demo          build, then compute and draw the example; results in out/
   strips        build, then time the strip solver and draw its convergence; in out/strips/
+  speed [--quick] [-o FILE]
+                build, then time everything beside FASTSIM and CONTACT, with the tail; table and
+                picture in out/ (--quick: half a minute)
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
                 precision and in all rounding modes; in out/extremes/
   forces        build, then judge, time and draw the tangential methods; in out/forces/
@@ -539,6 +542,14 @@ def report(*words):
     do(sys.executable, "tools/report_runs.py", *words)
 
 
+def speed(*words):
+    if not {"-h", "--help"} & set(words):
+        build()
+    words = [os.path.join(START, word) if before in ("-o", "--output") else word
+             for before, word in zip(("", *words), words)]
+    do(sys.executable, "tools/speed.py", *words)
+
+
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
@@ -614,11 +625,11 @@ FORCE_DATA = (("", 1, 14400), ("mixed", 2, 10000), ("ellipse", 3, 14000), ("zone
 FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 31), (31, 15),
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, extremes, forces,
-    scenes, stored, report, install, docs, embed, tables, compilers, clean)}
+    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, extremes,
+    forces, scenes, stored, report, install, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None}
+         "hostile": None, "stored": None, "report": None, "speed": None}
 
 
 def main(command="", *words):

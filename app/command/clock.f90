@@ -66,9 +66,10 @@ contains
         figures = [median(values), sorted((95*n + 99)/100), sorted(n)]
     end function spread_of
 
-    !> `spread_of` in words: three numbers and slashes between them.
-    function spread_text(values) result(text)
-        real(wp), intent(in) :: values(:) !! finite numbers in any order
+    !> `spread_of` in words: three numbers and slashes between them, and whose the worst is.
+    function spread_text(values, names) result(text)
+        real(wp), intent(in) :: values(:)                   !! finite numbers in any order
+        character(len=*), intent(in), optional :: names(:) !! of these, as many
         character(len=:), allocatable :: text
 
         real(wp) :: figures(size(spread_names))
@@ -76,6 +77,8 @@ contains
         figures = spread_of(values)
         text = trim(number_text(figures(1))) // '/' // trim(number_text(figures(2))) // '/' &
                // trim(number_text(figures(3)))
+        if (present(names) .and. size(values) > 0) &
+            text = text // ' (' // trim(names(maxloc(values, 1))) // ')'
     end function spread_text
 
     pure function in_order(values) result(sorted)

@@ -2,7 +2,8 @@
 
 from cli_program import LabTest
 
-COLUMNS = ["method", "n", "b", "loop", "ns", "ratio", "rel_err", "flags", "compiler", "cpu"]
+COLUMNS = ["method", "n", "b", "loop", "ns", "ratio", "rel_err", "flags", "compiler", "cpu",
+           "ns_p95", "ns_worst"]
 METHODS = {"published", "refit 6", "refit 9", "refit 12", "closed", "gsl 1-D", "gsl 2-D"}
 
 
@@ -28,6 +29,8 @@ class Bench(LabTest):
         self.assertEqual({row["method"] for row in row_loop}, METHODS - {"gsl 1-D", "gsl 2-D"})
         for row in rows:
             self.assertGreater(float(row["ns"]), 0.0)
+            self.assertLessEqual(float(row["ns"]), float(row["ns_p95"]))
+            self.assertLessEqual(float(row["ns_p95"]), float(row["ns_worst"]))
             self.assertGreater(float(row["ratio"]), 0.0)
             self.assertRegex(row["flags"], r"-O\w")
             self.assertTrue(row["compiler"].startswith("GCC"))

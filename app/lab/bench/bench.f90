@@ -8,6 +8,7 @@ module faststrip_lab_bench
     use faststrip_lab_bench_integral, only: bench_integral
     use faststrip_lab_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_lab_bench_steps, only: bench_steps
+    use faststrip_lab_bench_speed, only: bench_speed
     use faststrip_lab_bench_reference, only: bench_reference, bench_reference_most_elements
     use faststrip_lab_bench_accuracy, only: bench_accuracy
     use faststrip_lab_bench_kalker, only: bench_kalker
@@ -65,6 +66,12 @@ contains
             call take_input(scenes)
             call bench_steps(file, folder, scenes, option_integer(command, '--strips', 15, &
                              least=3, most=bench_normal_most_strips), rounds)
+        case ('speed')
+            call allow([character(len=name_length) :: '--contacts', '--methods', '--rounds', &
+                        '--quick'])
+            methods = option_text(command, '--methods', in_checkout('reference/speed_methods.csv'))
+            call take_input(methods)
+            call bench_speed(file, methods, folder, rounds, given(command, '--quick'))
         case ('reference')
             call allow([character(len=name_length) :: '--contacts', '--most-elements', '--seconds'])
             call bench_reference(file, folder, most_elements, seconds)
@@ -156,8 +163,8 @@ contains
         command%about = about()
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'integral, tangential, tang, steps: how often all is' &
-                     // new_line('a') // 'timed, 1 to 1000 (default 21; tang 3)'), &
+            option_t('--rounds', 'N', 'integral, tangential, tang, steps, speed: how often' &
+                     // new_line('a') // 'all is timed, 1 to 1000 (default 21; tang 3)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
                      reads=.true.), &
             option_t('--strips', 'N', 'steps: strips of the widest patch (default 15)'), &
@@ -165,10 +172,11 @@ contains
             option_t('--most-elements', 'N', 'reference, tang: no more elements in contact'), &
             option_t('--seconds', 'S', 'normal, reference: for each number of strips or' &
                      // new_line('a') // 'elements (default 6)'), &
-            option_t('--methods', 'FILE', 'trade: the methods (default' &
-                     // ' reference/trade_methods.csv)', reads=.true.), &
-            option_t('--quick', '', 'trade, extremes, kalker, correction, tang: few methods,' // &
-                     new_line('a') // 'few contacts'), &
+            option_t('--methods', 'FILE', 'trade, speed: the methods (default' &
+                     // ' reference/trade_methods.csv,' // new_line('a') &
+                     // 'reference/speed_methods.csv)', reads=.true.), &
+            option_t('--quick', '', 'trade, extremes, kalker, correction, tang, speed: few' // &
+                     new_line('a') // 'methods, few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
             option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
@@ -184,27 +192,31 @@ contains
     function about() result(text)
         character(len=:), allocatable :: text
 
-        character(len=*), parameter :: lines(49) = [character(len=84) :: &
+        character(len=*), parameter :: lines(53) = [character(len=84) :: &
             'integral: nanoseconds an influence number costs and its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
-            'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu; medians; ratio: to the', &
-            'published polynomial in the same loop.', &
+            'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu,ns_p95,ns_worst; ns and ratio', &
+            'are medians; ratio: to the published polynomial in the same loop.', &
             'normal: microseconds the strip solver takes with 5 to 400 strips, from nothing', &
             '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
-            '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, medians;', &
+            '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, with the tail;', &
             'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
             'steps: microseconds of the next solution of a history by 15 strips: 2.5 % steps of', &
             'the load, 0.1 mm steps of the wheelset, both with 5 % of load; beside each the cold', &
             'solution and errors against one to all digits; then contacts and scenes by', &
             'themselves. A row a solution, least of the rounds; median, 95th percentile, worst.', &
+            'speed: microseconds of all methods of a list on the contacts, in one run: what', &
+            './run speed sets beside FASTSIM and CONTACT. A row a method and contact, least of', &
+            'the rounds; also influence numbers of 15 strips, centre and tip, and the states of', &
+            'example/wheelset_states.csv.', &
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
             'the approach. Then its rolling on the same grids, to 1e-7 of the slip.', &
             'tangential: microseconds and nanoseconds per element of all tangential methods on', &
             'the strips of 5 to 61 by as many points, forces only and with the field; ratio:', &
-            'to FASTSIM with the same number of elements. Processor time, medians.', &
+            'to FASTSIM with the same number of elements. Processor time, with the tail.', &
             'tang: Newton''s steps, iterations and times of kalker_tangential with about 3700,', &
             '15000 and 60000 elements in contact; each contact with its own creepages, without', &
             'spin and with much of it, on pressures of the same grid, which are not counted.', &

@@ -1,7 +1,8 @@
 !> `faststrip-lab bench integral`: what an influence number costs by each method, and how wrong it
 !> is.
 !>
-!> All methods are timed in turn, again and again; a figure is the median over the rounds, and a
+!> All methods are timed in turn, again and again; a figure is the median over the rounds (beside
+!> it their 95th percentile and worst), and a
 !> ratio the median of the ratios within the rounds, so that what else the machine does falls out.
 module faststrip_lab_bench_integral
     use, intrinsic :: iso_fortran_env, only: int64
@@ -18,6 +19,7 @@ module faststrip_lab_bench_integral
     use faststrip_influence_row, only: influence_column
     use faststrip_lab_bench_exact_influence, only: qp
     use faststrip_lab_bench_polynomials, only: power_of_ten_influence, power_of_ten_row
+    use faststrip_command_clock, only: median, spread_of
     use faststrip_command_console, only: fail_on_error, put_origin
     use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
@@ -288,6 +290,7 @@ contains
         type(csv_writer_t) :: writer
         type(status_t) :: status
         character(len=:), allocatable :: cpu, flags, compiler
+        real(wp) :: ns(3)
         integer :: i
 
         cpu = cpu_name()
@@ -297,13 +300,14 @@ contains
         call fail_on_error(status)
         call put_origin(writer)
         call put_header(writer, [character(len=8) :: 'method', 'n', 'b', 'loop', 'ns', 'ratio', &
-                                 'rel_err', 'flags', 'compiler', 'cpu'])
+                                 'rel_err', 'flags', 'compiler', 'cpu', 'ns_p95', 'ns_worst'])
         do i = 1, size(cost)
             call put_cell(writer, trim(method_name(cost(i)%method)))
             call put_cell(writer, trim(cost(i)%n))
             call put_cell(writer, cost(i)%b)
             call put_cell(writer, trim(cost(i)%loop))
-            call put_cell(writer, 1.0e9_wp*median(cost(i)%seconds))
+            ns = 1.0e9_wp*spread_of(cost(i)%seconds)
+            call put_cell(writer, ns(1))
             associate (own => cost(i)%seconds, base => cost(cost(i)%baseline)%seconds)
                 call put_cell(writer, median(own/base(:size(own))))
             end associate
@@ -311,27 +315,11 @@ contains
             call put_cell(writer, flags)
             call put_cell(writer, compiler)
             call put_cell(writer, cpu)
+            call put_cell(writer, ns(2))
+            call put_cell(writer, ns(3))
             call end_row(writer)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
     end subroutine write_costs
-
-    pure real(wp) function median(values)
-        real(wp), intent(in) :: values(:)
-
-        real(wp) :: sorted(size(values)), next
-        integer :: i, j
-
-        do i = 1, size(values)
-            next = values(i)
-            do j = i - 1, 1, -1
-                if (sorted(j) <= next) exit
-                sorted(j + 1) = sorted(j)
-            end do
-            sorted(j + 1) = next
-        end do
-        i = size(values)
-        median = 0.5_wp*(sorted((i + 1)/2) + sorted(i/2 + 1))
-    end function median
 end module faststrip_lab_bench_integral

@@ -164,6 +164,7 @@ contains
         real(wp) :: entry_ns, value_ns, operation_ns, fastsim_us, share
         real(wp) :: us(size(bench%cases), size(starts))
         real(wp) :: fastsim(size(bench%cases))
+        character(len=16) :: names(size(bench%cases), size(starts))
         integer(int64) :: begin, now
         integer :: i, k, start, figure, counts(size(starts)), n_fastsim
         logical :: solved
@@ -189,6 +190,7 @@ contains
                 if (.not. solved) cycle
                 counts(start) = counts(start) + 1
                 us(counts(start), start) = times%us(1)
+                names(counts(start), start) = bench%cases(i)%name
                 if (entry_ns == 0.0_wp) then
                     entry_ns = entry_time(bench%strips, .true.)
                     value_ns = entry_time(bench%strips, .false.)
@@ -219,14 +221,15 @@ contains
             call system_clock(now)
             if (microseconds(begin, now) > budget_us) exit
         end do
-        call tell(n, us, counts, median(fastsim(:n_fastsim)))
+        call tell(n, us, names, counts, median(fastsim(:n_fastsim)))
     end subroutine measure_strips
 
     !> Say median, 95th percentile and worst over the contacts, which also shows that the work goes
     !> on.
-    subroutine tell(n, us, counts, fastsim_us)
+    subroutine tell(n, us, names, counts, fastsim_us)
         integer, intent(in) :: n, counts(:)
         real(wp), intent(in) :: us(:, :), fastsim_us
+        character(len=*), intent(in) :: names(:, :)
 
         character(len=:), allocatable :: text
         integer :: start
@@ -235,7 +238,7 @@ contains
                ' contacts, processor us, median/95th percentile/worst of them:'
         do start = 1, size(starts)
             text = text // ' ' // trim(starts(start)) // ' ' &
-                   // spread_text(us(:counts(start), start)) // ','
+                   // spread_text(us(:counts(start), start), names(:counts(start), start)) // ','
         end do
         call note(text // ' FASTSIM ' // trim(number_text(fastsim_us)) // ' us')
     end subroutine tell

@@ -111,6 +111,7 @@ contains
 
         type(times_t) :: times
         real(wp) :: us(size(bench%cases), size(starts)), share, dx
+        character(len=16) :: names(size(bench%cases), size(starts))
         integer(int64) :: begin, now
         integer :: i, k, start, t, figure, counts(size(starts))
         logical :: solved
@@ -130,6 +131,7 @@ contains
                     if (t == 1) then
                         counts(start) = counts(start) + 1
                         us(counts(start), start) = times%us(1)
+                        names(counts(start), start) = bench%cases(i)%name
                     end if
                     call put_cell(writer, 'norm')
                     call put_cell(writer, trim(starts(start)))
@@ -154,14 +156,15 @@ contains
             call system_clock(now)
             if (microseconds(begin, now) > budget_us) exit
         end do
-        call tell(elements, us, counts)
+        call tell(elements, us, names, counts)
     end subroutine measure_size
 
     !> Say median, 95th percentile and worst over the contacts, which also shows that the work goes
     !> on.
-    subroutine tell(elements, us, counts)
+    subroutine tell(elements, us, names, counts)
         integer, intent(in) :: elements, counts(:)
         real(wp), intent(in) :: us(:, :)
+        character(len=*), intent(in) :: names(:, :)
 
         character(len=:), allocatable :: text
         integer :: start
@@ -170,7 +173,8 @@ contains
                // ' contacts, processor ms, median/95th percentile/worst of them:'
         do start = 1, size(starts)
             text = text // ' ' // trim(starts(start)) // ' ' &
-                   // spread_text(1.0e-3_wp*us(:counts(start), start))
+                   // spread_text(1.0e-3_wp*us(:counts(start), start), &
+                                  names(:counts(start), start))
         end do
         call note(text)
     end subroutine tell

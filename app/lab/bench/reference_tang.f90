@@ -54,6 +54,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer   !! an open file
 
         real(wp) :: us(size(cases), size(starts))
+        character(len=16) :: names(size(cases))
         integer(int64) :: begin, now
         integer :: i, k, start, solved
 
@@ -64,6 +65,7 @@ contains
             i = 1 + modulo(7*(k - 1), size(cases))
             if (modulo(size(cases), 7) == 0) i = k
             solved = solved + 1
+            names(solved) = cases(i)%name
             call measure_case(cases(i), sqrt(cases(i)%truth%area/elements), &
                               budget_us/(size(starts)*size(cases)), writer, us(solved, :))
             call system_clock(now)
@@ -81,7 +83,7 @@ contains
             text = ''
             do start = 1, size(starts)
                 text = text // ' ' // trim(starts(start)) // ' ' &
-                       // spread_text(1.0e-3_wp*us(:solved, start))
+                       // spread_text(1.0e-3_wp*us(:solved, start), names(:solved))
             end do
         end function times_text
     end subroutine measure_tang

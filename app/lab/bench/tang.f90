@@ -86,7 +86,7 @@ contains
                 call measure_case(cases(i), sizes(k), rounds, runs(:, i))
                 call put_runs(writer, cases(i)%name, rounds, runs(:, i))
             end do
-            call tell(sizes(k), runs)
+            call tell(sizes(k), cases, runs)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
@@ -183,19 +183,24 @@ contains
     end subroutine put_runs
 
     !> Say median, 95th percentile and worst over the contacts.
-    subroutine tell(elements, runs)
+    subroutine tell(elements, cases, runs)
         integer, intent(in) :: elements
+        type(bench_case_t), intent(in) :: cases(:)
         type(run_t), intent(in) :: runs(:, :)
 
-        integer :: k
+        character(len=16) :: names(size(cases))
+        integer :: i, k
 
+        do i = 1, size(cases)
+            names(i) = cases(i)%name
+        end do
         do k = 1, size(runs, 1)
             call note('tang, ' // integer_text(elements) // ' elements, creepages ' &
                       // trim(creepages(k)) // ', median/95th percentile/worst of ' &
                       // integer_text(size(runs, 2)) // ' contacts: Newton steps ' &
                       // spread_text(real(runs(k, :)%steps, wp)) // ', iterations ' &
                       // spread_text(real(runs(k, :)%iterations, wp)) // ', processor ms ' &
-                      // spread_text(1.0e-3_wp*runs(k, :)%us(1)))
+                      // spread_text(1.0e-3_wp*runs(k, :)%us(1), names))
         end do
     end subroutine tell
 end module faststrip_lab_bench_tang

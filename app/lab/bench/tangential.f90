@@ -67,7 +67,7 @@ contains
                 call measure_case(cases(i), sizes(k), rounds, times(i))
                 call put_times(writer, cases(i)%name, sizes(k), times(i))
             end do
-            call tell(sizes(k), times)
+            call tell(sizes(k), cases, times)
         end do
         call close_csv(writer, status)
         call fail_on_error(status)
@@ -182,11 +182,13 @@ contains
     end subroutine put_times
 
     !> Say median, 95th percentile and worst over the contacts, of the rest the medians.
-    subroutine tell(n, times)
+    subroutine tell(n, cases, times)
         integer, intent(in) :: n
+        type(bench_case_t), intent(in) :: cases(:)
         type(times_t), intent(in) :: times(:)
 
         real(wp), dimension(size(times)) :: us, ns, ratio, field
+        character(len=16) :: names(size(times))
         character(len=method_name_length) :: name
         integer :: m, i
 
@@ -195,6 +197,7 @@ contains
                   // ', us with the field:')
         do m = 1, size(tangential_methods)
             do i = 1, size(times)
+                names(i) = cases(i)%name
                 us(i) = times(i)%forces(1, m)
                 ns(i) = 1.0e3_wp*us(i)/times(i)%elements
                 ratio(i) = us(i)/times(i)%forces(1, measured())
@@ -202,9 +205,9 @@ contains
             end do
             name = tangential_methods(m)%name
             if (.not. tangential_methods(m)%gives_elements) then
-                call note('  ' // name // spread_text(us))
+                call note('  ' // name // spread_text(us, names))
             else
-                call note('  ' // name // spread_text(us) // '  ' &
+                call note('  ' // name // spread_text(us, names) // '  ' &
                           // trim(number_text(median(ns))) // '  ' &
                           // trim(number_text(median(ratio))) // '  ' &
                           // trim(number_text(median(field))))
