@@ -37,6 +37,13 @@ MEASURED = "reference/measured.csv"
 MANIFEST = "reference/comparisons.csv"
 PROMISES = "reference/promises/promises.csv"
 ESTIMATED = "reference/promises/estimates.csv"
+SPEED = "reference/speed.csv"
+SPREAD = ("median", "p95", "worst")
+# What the README tells of it.
+TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
+         ("warm step, 15 strips", "load 2.5 %"), ("tangential", "FASTSIM 50x50"),
+         ("tangential", "FASTSTRIP 15x15"), ("wheelset", "from nothing"),
+         ("batch", "row, new gap"))
 ALL = "all"  # kinds together
 PROMISED = ("worst", "times_strips_sure", "times_strips", "times_kalker_sure", "times_kalker",
             "us_median", "us_p95")
@@ -316,6 +323,46 @@ def known(value):
     return "–" if math.isnan(value) else digits(value)
 
 
+SPEEDS = tuple(f"{name}_{word}" for name in ("us", "over_fastsim", "over_contact")
+               for word in SPREAD)
+
+
+def speeds(figures):
+    """What `./run speed` has measured, and a row's spread of one name."""
+    given = read_table(str(figures.root / SPEED),
+                       ("group", "what", "worst_case", "contact", *SPEEDS))
+    numbers = {name: given.numbers(name, missing=True) for name in SPEEDS}
+
+    def triple(name, k):
+        values = [numbers[f"{name}_{word}"][k] for word in SPREAD]
+        return "–" if math.isnan(values[0]) else " / ".join(map(digits, values))
+
+    return given, triple
+
+
+def speed_table(figures):
+    given, triple = speeds(figures)
+    return table(["median / 95th percentile / largest", "µs", "largest at", "over FASTSIM 50x50",
+                  "over CONTACT's time", "its mode and grid, mm"],
+                 [[f"{group}: {what}", triple("us", k), given.words("worst_case")[k],
+                   triple("over_fastsim", k), triple("over_contact", k),
+                   given.words("contact")[k] or "–"]
+                  for k, (group, what) in enumerate(zip(given.words("group"),
+                                                        given.words("what")))])
+
+
+def tails(figures):
+    """The README's few times in one row, with the case of the largest."""
+    given, triple = speeds(figures)
+    places = {key: k for k, key in enumerate(zip(given.words("group"), given.words("what")))}
+    for key in TAILS:
+        if key not in places:
+            raise InputError(f"no such time: {': '.join(key)} ({SPEED})")
+    return table([what if group == "normal" else f"{group}: {what}" for group, what in TAILS],
+                 [[f"{triple('us', places[key])} at {given.words('worst_case')[places[key]]}"
+                   for key in TAILS]])
+
+
 def statements_table(figures):
     return table(["verdict", "statements"],
                  [[row, figures.measured.word("statements", row, "count")]
@@ -353,6 +400,8 @@ TABLES = {
     "trade": trade_table,
     "influence": influence_table,
     "times": times_table,
+    "speed": speed_table,
+    "tails": tails,
     "extremes": extremes_table,
     "certificate": certificate_table,
     "promises": promises_table,
@@ -411,6 +460,10 @@ SECTIONS = (
      "influence"),
     ("Times of the stages", "Processor time on the paper's contacts (`bench normal`,"
      " `bench tangential`, 15 strips by 15 points).", "times"),
+    ("What it costs, in one run",
+     "Processor time of one contact, step, state or row each; ratios of the same contact each, to"
+     " FASTSIM in the same run and to the time recorded for CONTACT, on another machine; its KPEC"
+     " and ANALYN were given the penetration (`./run speed`, `./run stored speed`).", "speed"),
     ("The paper's statements",
      "The report tests the paper's statements one by one and gives each a verdict.", "statements"),
 )

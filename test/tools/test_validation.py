@@ -77,7 +77,7 @@ class InACopy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
-                     validation.PROMISES, validation.ESTIMATED):
+                     validation.PROMISES, validation.ESTIMATED, validation.SPEED):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         shutil.copytree(ROOT / "docs", self.root / "docs")
@@ -116,6 +116,22 @@ class InACopy(unittest.TestCase):
         run("--root", self.root)
         for name in ("README.md", validation.PAGE):
             self.assertIn("/ 78 |", (self.root / name).read_text(encoding="utf-8"))
+
+    def test_new_times_reach_the_readme_and_the_page(self):
+        path = self.root / validation.SPEED
+        lines = path.read_text(encoding="utf-8").splitlines()
+        place = next(k for k, line in enumerate(lines) if line.startswith("normal,strips 15,"))
+        names = next(line for line in lines if line.startswith("group,")).split(",")
+        cells = lines[place].split(",")
+        cells[names.index("us_worst")], cells[names.index("worst_case")] = "98765", "shift_77"
+        lines[place] = ",".join(cells)
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        self.assertIn("README.md", self.check()[1])
+        run("--root", self.root)
+        for name, words in (("README.md", "/ 98765 at shift_77 |"),
+                            (validation.PAGE, "/ 98765 | shift_77 |")):
+            self.assertIn(words, (self.root / name).read_text(encoding="utf-8"))
+        self.assertEqual(self.check(), (0, ""))
 
     def test_a_tolerance_is_judged_anew_and_a_new_row_is_not_measured(self):
         self.change(validation.MANIFEST, "mean_rel,0.0005,", "mean_rel,0.0001,")
