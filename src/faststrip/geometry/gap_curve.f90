@@ -497,6 +497,18 @@ contains
 
         i = 1
         high = curve%n
+        if (y > curve%y(1) .and. y < curve%y(high)) then
+            ! Points are mostly even: there, or one beside.
+            middle = 1 + int((y - curve%y(1))/(curve%y(high) - curve%y(1))*(high - 1))
+            middle = min(middle, high - 1)
+            if (y >= curve%y(middle)) then
+                i = middle
+                if (y < curve%y(middle + 1)) high = middle + 1
+            else
+                high = middle
+                if (y >= curve%y(middle - 1)) i = middle - 1
+            end if
+        end if
         do while (high - i > 1)
             middle = (i + high)/2
             if (y >= curve%y(middle)) then

@@ -3,11 +3,11 @@
 !> The paper gives the influence of a strip and not the algorithm that finds the patch. Here the
 !> strips of a patch always fill it: its two ends move until the squared strip length, carried on
 !> by a quadratic through the last three strips, vanishes at them. Near the solution strips and
-!> ends are solved for together (`faststrip_normal_strip_coupled`). Far from it, passes alternate
-!> between Newton's method for given edges (`faststrip_normal_strip_newton`) and moving ends; strips
-!> that leave cut or split a patch, and a scan outside the patches finds gaps that the deformed
-!> surfaces have closed, which makes patches appear, grow or merge
-!> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
+!> ends are solved for together (`faststrip_normal_strip_coupled`), and from the shape of a Hertz
+!> contact where that succeeds. Elsewhere passes alternate between Newton's method for given edges
+!> (`faststrip_normal_strip_newton`) and moving ends; strips that leave cut or split a patch, and a
+!> scan outside the patches finds gaps that the deformed surfaces have closed, which makes patches
+!> appear, grow or merge (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
 !>
 !> Many strips are reached by levels: 7 find the patches, 15 and more refine them. Where 20 or
 !> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them

@@ -26,7 +26,7 @@ module faststrip_normal_strip_coupled
     implicit none
     private
 
-    public :: settle_coupled, settle_carried, max_factorings, few_factorings
+    public :: settle_coupled, settle_carried, settle_at_once, max_factorings, few_factorings
 
     ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
@@ -53,6 +53,12 @@ module faststrip_normal_strip_coupled
     ! Tuned [1]: Tolerance with carried numbers over the one asked for. Origin: chosen: trials with
     ! them cost little.
     real(wp), parameter :: carried_share = 0.01_wp
+    ! Tuned [evaluations]: most of carried numbers from the shape of a Hertz contact. Origin: chosen
+    ! for the time: from then on exact residuals cost less.
+    integer, parameter :: first_evaluations = 2
+    ! Tuned [1]: What has changed, for the factors of carried numbers to serve exact residuals; the
+    ! tolerance of the steps up to there. Origin: chosen for the time.
+    real(wp), parameter :: near_change = 0.1_wp, near_enough = 0.1_wp
     ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
     real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
     ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
@@ -127,6 +133,34 @@ contains
                                          max_factorings, patches, cost, settled)
         if (settled) call meet_load(workspace, demand)
     end subroutine settle_carried
+
+    !> The same of few strips from the shape of a Hertz contact: the first steps by numbers carried
+    !> on from there, the last ones by exact residuals and the factors of carried numbers.
+    pure subroutine settle_at_once(workspace, compliance, demand, tolerance, patches, cost, settled)
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: tolerance            !! relative size of the residuals left
+        type(patches_t), intent(inout) :: patches    !! their ends move
+        type(cost_t), intent(inout) :: cost          !! increased
+        logical, intent(out) :: settled              !! converged
+
+        integer :: evaluation
+
+        settled = .false.
+        workspace%newton%kept = .false.
+        do evaluation = 1, first_evaluations
+            call evaluate(workspace, patches, cost)
+            if (.not. workspace%carried%known) return
+            call converge(workspace, compliance, demand, near_enough, .true., max_factorings, &
+                          patches, cost, settled)
+            if (.not. settled) return
+            if (carried_change(workspace%carried, workspace%strips) <= near_change) exit
+        end do
+        call converge(workspace, compliance, demand, tolerance, .false., few_factorings, patches, &
+                      cost, settled)
+        if (settled) call meet_load(workspace, demand)
+    end subroutine settle_at_once
 
     !> Evaluate the carried numbers anew, where the strips are.
     pure subroutine evaluate(workspace, patches, cost)

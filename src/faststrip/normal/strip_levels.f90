@@ -1,8 +1,9 @@
 !> Levels of the strip solver: the number of strips asked for is reached by way of smaller ones.
 !>
-!> 7 strips find the patches, 15 and more refine them. Where 20 or fewer strips do not settle twice
-!> as many are tried; a gap whose ends do not settle with them either, within a bounded work, gets
-!> the answer of `faststrip_normal_lattice`.
+!> 7 strips find the patches, 15 and more refine them. The first are solved for together with the
+!> ends to begin with, and find the patches by passes where that does not succeed. Where 20 or
+!> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
+!> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
@@ -211,6 +212,7 @@ contains
         if (level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
         level_of%near = start == from_last_solution .or. start == from_coarser &
                         .or. start == from_row
+        level_of%at_once = start == from_nothing
         level_of%resumes = start == from_last_solution
         level_of%scouts = level < plan%first_counted
         level_of%in_doubt = in_doubt

@@ -12,8 +12,8 @@
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, max_factorings, &
-                                              few_factorings
+    use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, settle_at_once, &
+                                              max_factorings, few_factorings
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize
@@ -85,6 +85,7 @@ module faststrip_normal_strip_settle
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
+        logical :: at_once = .false.      !! are strips and ends tried together first?
         logical :: resumes = .false.      !! near the last one of the workspace?
         logical :: scouts = .false.       !! are patches to be found, and nothing else?
         logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
@@ -104,6 +105,7 @@ module faststrip_normal_strip_settle
         logical :: changed = .false.      !! have overlaps joined the patches?
         ! Given: none yet.
         real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
+        logical :: at_once = .false.      !! are strips and ends still to be tried together?
         logical :: settled = .false.      !! is there a pass that stands?
     end type settling_t
 
@@ -149,6 +151,7 @@ contains
         settling%pass = 0
         settling%splits = 0
         settling%couplings = 0
+        settling%at_once = level%at_once
         settling%tolerance = merge(near_tolerance, far_tolerance, level%near)
         settling%at_rest = .false.
         settling%changed = .false.
@@ -186,7 +189,8 @@ contains
             return
         workspace%strips%penetration = settling%penetration
         settling%solved = settling%patches
-        settling%state = merge(state_couple, state_newton, level%near .and. settling%pass == 1)
+        settling%state = merge(state_couple, state_newton, &
+                               settling%pass == 1 .and. (level%near .or. settling%at_once))
     end subroutine position
 
     !> How often strips may be positioned in a level.
@@ -320,6 +324,12 @@ contains
                                     merge(few_factorings, max_factorings, level%resumes), &
                                     settling%solved, result%cost, found)
             end if
+        else if (settling%at_once) then
+            call settle_at_once(workspace, compliance, demand, level%tolerance, settling%solved, &
+                                result%cost, found)
+            settling%at_once = .false.
+            ! As if it had not been tried.
+            if (.not. found) call forget_try(workspace, settling)
         else
             call settle_coupled(workspace, compliance, demand, level%tolerance, max_factorings, &
                                 settling%solved, result%cost, found)
@@ -335,6 +345,17 @@ contains
         call keep(workspace, 0.0_wp, settling, strips, result)
         settling%state = state_done
     end subroutine couple
+
+    !> Nothing is left of a try but its cost.
+    pure subroutine forget_try(workspace, settling)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(settling_t), intent(inout) :: settling
+
+        settling%pass = 0
+        settling%couplings = 0
+        workspace%carried%known = .false.
+        workspace%newton%kept = .false.
+    end subroutine forget_try
 
     !> Let overlaps join the patches. If that changes them, they are positioned anew, far from a
     !> solution.
