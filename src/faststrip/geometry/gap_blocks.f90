@@ -6,6 +6,7 @@ module faststrip_geometry_gap_blocks
     private
 
     public :: gap_blocks_t, reserve_blocks, set_blocks, copy_blocks, next_across, next_valley
+    public :: swap_blocks, swap_reals, extent
 
     !> Nodes in a block.
     !> Tuned [nodes]. Origin: cost: a search goes through all blocks and through few of the nodes.
@@ -64,6 +65,57 @@ contains
         to%high(:blocks) = from%high(:blocks)
         to%has_valley(:blocks) = from%has_valley(:blocks)
     end subroutine copy_blocks
+
+    !> Exchange two sets of blocks, without copying.
+    pure subroutine swap_blocks(one, other)
+        type(gap_blocks_t), intent(inout) :: one, other
+
+        logical, allocatable :: kept(:)
+
+        call swap_reals(one%low, other%low)
+        call swap_reals(one%high, other%high)
+        call move_alloc(one%has_valley, kept)
+        call move_alloc(other%has_valley, one%has_valley)
+        call move_alloc(kept, other%has_valley)
+    end subroutine swap_blocks
+
+    !> Exchange two arrays, without copying.
+    pure subroutine swap_reals(one, other)
+        real(wp), allocatable, intent(inout) :: one(:), other(:)
+
+        real(wp), allocatable :: kept(:)
+
+        call move_alloc(one, kept)
+        call move_alloc(other, one)
+        call move_alloc(kept, other)
+    end subroutine swap_reals
+
+    !> The largest less the smallest of some values side by side.
+    pure real(wp) function extent(blocks, values, from, to)
+        type(gap_blocks_t), intent(in) :: blocks !! of all the values
+        real(wp), intent(in) :: values(:)        !! all
+        integer, intent(in) :: from, to          !! those asked for; at least one
+
+        real(wp) :: low, high
+        integer :: b, i, last
+
+        low = values(from)
+        high = low
+        i = from
+        do while (i <= to)
+            b = block_of(i)
+            last = min(b*block, to)
+            if (i == (b - 1)*block + 1 .and. last == min(b*block, size(values))) then
+                low = min(low, blocks%low(b))
+                high = max(high, blocks%high(b))
+            else
+                low = min(low, minval(values(i:last)))
+                high = max(high, maxval(values(i:last)))
+            end if
+            i = last + 1
+        end do
+        extent = high - low
+    end function extent
 
     !> The first node from one on that is on the other side of a level; beyond the last if none is.
     pure integer function next_across(blocks, h, from, level, is_below) result(i)

@@ -16,7 +16,7 @@ module faststrip_geometry_gap_curve
     use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
     use faststrip_geometry_gap, only: gap_t, check_gap, check_gap_points
     use faststrip_geometry_gap_blocks, only: gap_blocks_t, reserve_blocks, set_blocks, &
-                                             copy_blocks, next_across, next_valley
+                                             copy_blocks, extent, next_across, next_valley
     use faststrip_geometry_gap_pieces, only: cut_into_pieces, find_lowest
     use faststrip_numerics_torn_spline, only: torn_spline_setup, torn_spline_work_size
     implicit none
@@ -36,6 +36,7 @@ module faststrip_geometry_gap_curve
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
+        integer :: version = 0   !! of what was set: changes whenever a gap is taken over
         integer :: n = 0         !! number of points
         integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
@@ -47,10 +48,12 @@ module faststrip_geometry_gap_curve
         logical :: has_steps = .false.         !! is any interval a step?
         logical, allocatable :: is_step(:)     !! is interval i a step, which no curve goes through?
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
+        integer, allocatable :: even_to(:)     !! last point up to which A is that of point i
         real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
                                                !! positive nowhere
         logical :: inclination_is_known = .false.     !! does `inclination` count?
         real(wp), allocatable :: inclination(:)       !! of the surfaces from the tangent plane, rad
+        type(gap_blocks_t) :: inclined         !! blocks of these
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
         type(gap_blocks_t) :: blocks           !! of these ends
         real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
@@ -78,7 +81,7 @@ contains
             if (size(curve%y) >= max_points) return
             deallocate (curve%y, curve%h, curve%slope_from, curve%slope_to, curve%inv2r, &
                         curve%inclination, curve%y_node, curve%h_node, curve%bend, curve%work, &
-                        curve%is_step, curve%is_torn)
+                        curve%is_step, curve%is_torn, curve%even_to)
         end if
         allocate (curve%y(max_points), curve%h(max_points), curve%slope_from(max_points), &
                   curve%slope_to(max_points), curve%inv2r(max_points), &
@@ -87,6 +90,8 @@ contains
                   curve%bend(max_points), curve%work(torn_spline_work_size(max_points)), &
                   source=0.0_wp)
         call reserve_blocks(curve%blocks, size(curve%h_node))
+        call reserve_blocks(curve%inclined, max_points)
+        allocate (curve%even_to(max_points), source=0)
         allocate (curve%is_step(max_points), curve%is_torn(max_points), source=.false.)
     end subroutine reserve_gap_curve
 
@@ -101,8 +106,18 @@ contains
         call take_points(curve, gap%y, gap%h, gap%inv2r, status)
         if (is_error(status)) return
         curve%inclination_is_known = allocated(gap%inclination)
-        if (curve%inclination_is_known) curve%inclination(:curve%n) = gap%inclination
+        if (curve%inclination_is_known) call take_inclination(curve, gap%inclination)
     end subroutine set_gap_curve
+
+    !> Take over the inclination of the surfaces at the points.
+    subroutine take_inclination(curve, inclination)
+        type(gap_curve_t), intent(inout) :: curve
+        real(wp), intent(in) :: inclination(:) ! rad
+
+        curve%inclination_is_known = .true.
+        curve%inclination(:curve%n) = inclination
+        call set_blocks(curve%inclined, curve%inclination(:curve%n))
+    end subroutine take_inclination
 
     !> The same from plain arrays.
     subroutine set_gap_curve_points(curve, y, h, inv2r, status, inclination)
@@ -119,8 +134,7 @@ contains
         if (is_error(status)) return
         call take_points(curve, y, h, inv2r, status)
         if (is_error(status) .or. .not. present(inclination)) return
-        curve%inclination_is_known = .true.
-        curve%inclination(:curve%n) = inclination
+        call take_inclination(curve, inclination)
     end subroutine set_gap_curve_points
 
     !> The same from a curve that was set: nothing is checked or fitted again. Allocates nothing.
@@ -135,6 +149,7 @@ contains
         if (is_error(status)) return
         n = from%n
         nodes = from%n_pieces + 1
+        to%version = next_version(to)
         to%n = n
         to%n_pieces = from%n_pieces
         to%y_lowest = from%y_lowest
@@ -149,7 +164,11 @@ contains
         to%slope_to(:n) = from%slope_to(:n)
         to%is_step(:n) = from%is_step(:n)
         to%inv2r(:n) = from%inv2r(:n)
-        to%inclination(:n) = from%inclination(:n)
+        to%even_to(:n) = from%even_to(:n)
+        if (from%inclination_is_known) then
+            to%inclination(:n) = from%inclination(:n)
+            call copy_blocks(from%inclined, to%inclined, n)
+        end if
         to%has_steps = from%has_steps
         call copy_blocks(from%blocks, to%blocks, nodes)
         to%y_node(:nodes) = from%y_node(:nodes)
@@ -157,6 +176,27 @@ contains
         to%bend(:n) = from%bend(:n)
         to%is_torn(:n) = from%is_torn(:n)
     end subroutine copy_gap_curve
+
+    !> The number of the next gap that is taken over.
+    pure integer function next_version(curve)
+        type(gap_curve_t), intent(in) :: curve
+
+        next_version = 1
+        if (curve%version < huge(1)) next_version = curve%version + 1
+    end function next_version
+
+    !> Up to which point A stays what it is at each of them.
+    pure subroutine find_even_parts(curve)
+        type(gap_curve_t), intent(inout) :: curve ! its points are set
+
+        integer :: i
+
+        curve%even_to(curve%n) = curve%n
+        do i = curve%n - 1, 1, -1
+            curve%even_to(i) = i
+            if (curve%inv2r(i + 1) == curve%inv2r(i)) curve%even_to(i) = curve%even_to(i + 1)
+        end do
+    end subroutine find_even_parts
 
     subroutine take_points(curve, y, h, inv2r, status)
         type(gap_curve_t), intent(inout) :: curve
@@ -168,6 +208,7 @@ contains
 
         n = size(y)
         curve%n = 0
+        curve%version = next_version(curve)
         call check_capacity(curve, n, status)
         if (is_error(status)) return
         curve%y(:n) = y
@@ -196,6 +237,7 @@ contains
             call mirror_gap_curve(curve)
         else
             call set_blocks(curve%blocks, curve%h_node(:curve%n_pieces + 1))
+            call find_even_parts(curve)
         end if
     end subroutine take_points
 
@@ -243,7 +285,11 @@ contains
         call reverse_negated(curve%y_node(:nodes))
         call reverse(curve%h_node(:nodes))
         call set_blocks(curve%blocks, curve%h_node(:nodes))
-        if (curve%inclination_is_known) call reverse_negated(curve%inclination(:n))
+        call find_even_parts(curve)
+        if (curve%inclination_is_known) then
+            call reverse_negated(curve%inclination(:n))
+            call set_blocks(curve%inclined, curve%inclination(:n))
+        end if
         curve%y_lowest = -curve%y_lowest
         curve%is_image = .not. curve%is_image
     end subroutine mirror_gap_curve
@@ -342,7 +388,7 @@ contains
         if (.not. curve%inclination_is_known) return
         first = interval_of(curve, y_from)
         last = interval_of(curve, y_to) + 1
-        inclination = maxval(curve%inclination(first:last)) - minval(curve%inclination(first:last))
+        inclination = extent(curve%inclined, curve%inclination(:curve%n), first, last)
     end function inclination_change
 
     !> The steps of the gap that lie between two places or reach into that range. Their height is

@@ -35,7 +35,8 @@ module faststrip_normal_strip
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
                                             set_strip_gap, mirror_old
     use faststrip_normal_types, only: normal_result_t, demand_t
-    use faststrip_geometry_gap_curve, only: mirror_gap_curve
+    use faststrip_geometry_gap_curve, only: copy_gap_curve, mirror_gap_curve
+    use faststrip_geometry_gap_exchange, only: swap_gap_curves
     implicit none
     private
 
@@ -156,11 +157,14 @@ contains
         if (workspace%old%n > 0 .and. (workspace%old_is_mirrored .neqv. mirrored)) &
             call mirror_old(workspace)
         workspace%old_is_mirrored = mirrored
-        if (mirrored) call mirror_gap_curve(workspace%curve)
+        if (mirrored) then
+            call take_image(workspace, status)
+            if (is_error(status)) return
+        end if
         call solve_by_levels(workspace, compliance, demand, options, strips, result, n_settled, &
                              all_settled, status)
         if (mirrored) then
-            call mirror_gap_curve(workspace%curve)
+            call swap_gap_curves(workspace%curve, workspace%image)
             call mirror_strips(strips)
             if (.not. is_error(status)) call mirror_ends(result)
         end if
@@ -194,6 +198,21 @@ contains
             call add_limitation(status, st_fewer_strips, &
                                 'fewer strips than asked: more did not settle')
     end subroutine solve
+
+    !> Put the image of the gap in its place, made once for all solutions of that gap.
+    subroutine take_image(workspace, status)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a gap that is a mirror image
+        type(status_t), intent(inout) :: status
+
+        if (workspace%image_of /= workspace%curve%version) then
+            workspace%image_of = 0
+            call copy_gap_curve(workspace%curve, workspace%image, status)
+            if (is_error(status)) return
+            call mirror_gap_curve(workspace%image)
+            workspace%image_of = workspace%curve%version
+        end if
+        call swap_gap_curves(workspace%curve, workspace%image)
+    end subroutine take_image
 
     !> The ends of a result under y -> -y.
     pure subroutine mirror_ends(result)

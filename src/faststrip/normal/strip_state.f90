@@ -30,6 +30,8 @@ module faststrip_normal_strip_state
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: strip_workspace_t
         type(gap_curve_t) :: curve
+        type(gap_curve_t) :: image  !! its mirror image, if the gap counts as one
+        integer :: image_of = 0     !! the curve's version that this is the image of; 0: of none
         type(newton_workspace_t) :: newton
         type(carried_t) :: carried  !! influence numbers of the last warm solution
         type(lattice_workspace_t) :: lattice
@@ -59,6 +61,8 @@ contains
             return
         end if
         call reserve_gap_curve(workspace%curve, max_points, status)
+        if (is_error(status)) return
+        call reserve_gap_curve(workspace%image, max_points, status)
         if (is_error(status)) return
         call reserve_lattice(workspace%lattice, max_strips, status)
         if (is_error(status)) return

@@ -78,7 +78,11 @@ contains
         response = 0.0_wp
         if (to - from < 2) return
         ! As a rule A does not vary.
-        if (all(value(from:to) == value(from))) return
+        if (is_inv2r) then
+            if (curve%even_to(from) >= to) return
+        else if (all(value(from:to) == value(from))) then
+            return
+        end if
         call divide_differences(curve, is_inv2r, node, coefficient(:size(node)))
         n = to - from + 1
         if (n <= most_points) then
