@@ -45,8 +45,8 @@ class Examples(ProgramTest):
         self.assertGreater(width(conformal), 7.0 * conformal["xmax_mm"])
         roller = self.example("polymer_roller")
         self.assertGreater(roller["penetration_mm"], 0.1)
-        # Symmetric; TANG's residual is 1e-7 of its tractions.
-        self.assertLess(abs(roller["Fy_N"]), 1e-9 * abs(roller["Fx_N"]))
+        # Symmetric; TANG's residual is 1e-7 of its tractions, and the friction is 0.2.
+        self.assertLess(abs(roller["Fy_N"]), 1e-9 * 0.2 * roller["N_N"])
         for name in ("freight_25t", "tram_small_wheel"):
             self.assertGreater(self.example(name)["stick_fraction"], 0.6, name)
 
