@@ -72,9 +72,11 @@ class Bench(LabTest):
             self.assertGreaterEqual(int(row["runs"]), 1)
             self.assert_spread(row, "cpu_us")
             self.assertTrue(1.0 < float(row["ns_per_value"]) < 1e4, row["ns_per_value"])
-            # A load that changes a little needs no new Jacobian.
             factorings = float(row["factorings"])
-            self.assertLess(factorings, float(row["iterations"]))
+            self.assertLessEqual(factorings, float(row["iterations"]))
+            # A load that changes a little needs no new Jacobian.
+            if row["start"] == "warm_load":
+                self.assertLess(factorings, float(row["iterations"]))
             if row["start"] == "cold":
                 self.assertGreaterEqual(factorings, 1.0)
             for name in ("entries_us", "algebra_us"):
