@@ -169,7 +169,7 @@ contains
         type(row_t), intent(inout) :: row
         logical, intent(out) :: found ! is a balance found, or nearly?
 
-        integer :: change, j, k
+        integer :: change, k
         logical :: changed
 
         do change = 1, most_changes
@@ -190,7 +190,7 @@ contains
             do k = 1, row%n
                 if (row%presses(k)) cycle
                 if (row%penetration - row%height(k) &
-                    <= sum([(influence(k, j)*row%p0(j), j=1, row%n)])) cycle
+                    <= dot_product(influence(k, :row%n), row%p0(:row%n))) cycle
                 row%presses(k) = .true.
                 changed = .true.
             end do
