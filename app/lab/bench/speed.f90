@@ -49,9 +49,9 @@ module faststrip_lab_bench_speed
     ! Tuned [us]: a contact is timed no more by a method that took so long. Origin: chosen.
     real(wp), parameter :: enough_us = 1.5e5_wp
 
-    !> What a method took on the contacts.
+    !> What a method took on the contacts. Its solver stands beside it: copies of a type that holds
+    !> one take long to compile.
     type :: timing_t
-        type(solver_t) :: solver
         real(wp), allocatable :: us(:), spent(:)
         type(status_t), allocatable :: status(:)
     end type timing_t
@@ -69,6 +69,7 @@ contains
         type(method_entry_t), allocatable :: entries(:)
         type(bench_case_t), allocatable :: cases(:)
         type(timing_t), allocatable :: timings(:)
+        type(solver_t), allocatable :: solvers(:)
         type(states_t) :: states
         real(wp), allocatable :: ns(:, :), gap_us(:)
         type(csv_writer_t) :: writer
@@ -86,9 +87,9 @@ contains
             cases(i)%mu = mu
         end do
         call read_states(quick, states)
-        allocate (timings(size(entries)))
+        allocate (timings(size(entries)), solvers(size(entries)))
         do k = 1, size(entries)
-            call make_solver(entries(k)%numerics, .false., timings(k)%solver, status)
+            call make_solver(entries(k)%numerics, .false., solvers(k), status)
             call fail_on_error(status)
             allocate (timings(k)%us(size(cases)), source=huge(1.0_wp))
             allocate (timings(k)%spent(size(cases)), source=0.0_wp)
@@ -105,7 +106,7 @@ contains
             call progress('rounds', round, rounds)
             do i = 1, size(cases)
                 do k = 1, size(entries)
-                    call time_method(entries(k)%stage, cases(i), i, timings(k))
+                    call time_method(entries(k)%stage, solvers(k), cases(i), i, timings(k))
                 end do
                 call time_gap(cases(i), gap_us(i))
                 call time_columns(cases(i), ns(:, i))
@@ -139,8 +140,9 @@ contains
     end subroutine bench_speed
 
     !> Time one contact by one method, its own stage only.
-    subroutine time_method(stage, case, i, timing)
+    subroutine time_method(stage, solver, case, i, timing)
         character(len=*), intent(in) :: stage
+        type(solver_t), intent(inout) :: solver
         type(bench_case_t), intent(in) :: case
         integer, intent(in) :: i !! its number
         type(timing_t), intent(inout) :: timing
@@ -151,20 +153,20 @@ contains
         integer :: n
 
         if (timing%spent(i) > enough_us) return
-        call solve(timing%solver, case, outcome, timing%status(i))
+        call solve(solver, case, outcome, timing%status(i))
         if (is_error(timing%status(i))) return
         ! Neither what makes the gap a curve nor what estimates errors counts.
-        timing%solver%case%estimate = .false.
+        solver%case%estimate = .false.
         outcome%normal_cpu_us = 0.0_wp
         outcome%tangential_cpu_us = 0.0_wp
         us = 0.0_wp
         do n = 1, most_repetitions
-            if (timing%solver%numerics%normal == normal_auto) then
-                call solve(timing%solver, case, outcome, status)
+            if (solver%numerics%normal == normal_auto) then
+                call solve(solver, case, outcome, status)
                 us = us + outcome%normal_cpu_us + outcome%tangential_cpu_us
             else
-                if (stage /= 'tangential') call solve_pressures(timing%solver, outcome, status)
-                if (stage /= 'normal') call solve_forces(timing%solver, outcome, status)
+                if (stage /= 'tangential') call solve_pressures(solver, outcome, status)
+                if (stage /= 'normal') call solve_forces(solver, outcome, status)
                 us = outcome%normal_cpu_us + outcome%tangential_cpu_us
             end if
             if (us > shortest_us) exit
