@@ -13,10 +13,11 @@
  * told (100) in every function, however often, and its memory is not touched. Outside of workspaces
  * the library remembers which of them are in use, and nothing else. faststrip_new and
  * faststrip_copy allocate, faststrip_free frees, nothing else does (but the like of wheelsets,
- * faststrip_check_case, which tries, the words of an error, made with a little memory of the
- * Fortran run-time library, and the forces of a patch with a neck of more than 128 strips). A call
- * needs less than 64 kB of stack. No function stops, prints, reads or writes a file, changes the
- * locale, or leaves floating-point flags, traps or rounding other than it found them.
+ * faststrip_solve_many, faststrip_check_case, which tries, the words of an error, made with a
+ * little memory of the Fortran run-time library, and the forces of a patch with a neck of more than
+ * 128 strips). A call needs less than 64 kB of stack. No function stops, prints, reads or writes a
+ * file, changes the locale, or leaves floating-point flags, traps or rounding other than it found
+ * them.
  *
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
@@ -238,6 +239,34 @@ int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, co
  * limits count only where the tolerance is 0. */
 int faststrip_solve(faststrip_workspace *workspace, const faststrip_case *contact,
                     faststrip_result *result);
+
+/* A gap of one of many contacts, as faststrip_set_gap takes it. */
+typedef struct faststrip_gap {
+    int n;                     /* points */
+    const double *y;           /* strictly increasing, mm */
+    const double *h;           /* mm */
+    const double *inv2r;       /* 1/mm */
+    const double *inclination; /* rad; null: not known */
+} faststrip_gap;
+
+/* Solve n contacts, each filled in with faststrip_default_case first, by so many threads of the
+ * system at most, each with a workspace of its own; all have ended when the call returns. Contact i
+ * is on gaps[gap_of[i]], from 0 on; where gap_of is null on gaps[i], or on the only one. results[i]
+ * and statuses[i] become what faststrip_solve would have written and returned: the same bits for
+ * any number of threads (but by a budget of time). A contact without a result costs only itself;
+ * its figures are zero. text, if not null, becomes empty, or tells of the first one without: its
+ * number and what was wrong.
+ *
+ * Methods and numbers of strips and points must not need more capacity than those of the first
+ * contact. A contact with warm_start starts from the one before, if that has a result, but the
+ * first of every chain contacts, which one thread solves one after the other; with chain 1 all
+ * start from nothing.
+ *
+ * The call allocates the workspaces, and frees them. Its status is 0, or an error (100, 110: no
+ * memory for a single workspace) with which nothing was solved and nothing written but text. */
+int faststrip_solve_many(size_t n, const faststrip_case *contacts, int n_gaps,
+                         const faststrip_gap *gaps, const int *gap_of, int chain, int threads,
+                         faststrip_result *results, int *statuses, char *text, size_t length);
 
 /* The strips of the last contact: edges and half-lengths in mm, pressure on the centre line in
  * MPa, number of the patch. capacity is the length of the arrays; *n becomes the number of strips

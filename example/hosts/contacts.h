@@ -67,7 +67,7 @@ static void make_example(uint64_t number, example *e)
 }
 
 /* A workspace that serves every example. */
-static faststrip_workspace *make_workspace(void)
+static inline faststrip_workspace *make_workspace(void)
 {
     faststrip_workspace *workspace;
     faststrip_case contact;
@@ -100,7 +100,7 @@ static uint64_t bits_of(int status, const faststrip_result *result)
     return bits;
 }
 
-static uint64_t solve_example(faststrip_workspace *workspace, uint64_t number, int *status)
+static inline uint64_t solve_example(faststrip_workspace *workspace, uint64_t number, int *status)
 {
     example e;
     faststrip_result result;

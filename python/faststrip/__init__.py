@@ -27,6 +27,7 @@ from ._contact import (
 )
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
+from ._many import ManyResult, solve_many
 from ._profile import Gap, Profile, ProgramNotFound, profile_gap
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
@@ -40,6 +41,7 @@ __all__ = [
     "Friction",
     "Gap",
     "LibraryNotFound",
+    "ManyResult",
     "Material",
     "Profile",
     "ProgramNotFound",
@@ -59,5 +61,6 @@ __all__ = [
     "kalker",
     "library_version",
     "profile_gap",
+    "solve_many",
 ]
 __version__ = "0.1.0"

@@ -245,6 +245,45 @@ FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]"
                  "coefficients[2]", *CREEPAGE_NAMES, "mu", "load")
 
 
+def new_case(normal: Any, tangential: Any, strips_per_patch: Any, points_per_strip: Any,
+             fastsim_grid: Any, estimate: Any, resolution_limit: Any, force_limit: Any) -> Case:
+    """A case with methods and how errors are estimated; the rest is as the library has it."""
+    case = Case()
+    check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
+    case.normal = number_of(NORMAL, normal, "normal")
+    case.tangential = number_of(TANGENTIAL, tangential, "tangential")
+    auto = isinstance(strips_per_patch, str) and strips_per_patch == "auto"
+    case.strips_per_patch = 0 if auto else whole("strips_per_patch", strips_per_patch, 1,
+                                                 MOST_STRIPS, ", or 'auto'")
+    case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
+    case.fastsim_nx, case.fastsim_ny = grid_of("fastsim_grid", fastsim_grid)
+    case.estimate = flag("estimate", estimate)
+    case.resolution_limit = above_zero("resolution_limit", resolution_limit)
+    case.force_limit = above_zero("force_limit", force_limit)
+    return case
+
+
+def take_material(case: Case, material: Any) -> None:
+    """Put elastic constants into a case."""
+    case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = _material_of(material)
+
+
+def want(case: Case, target: Any, tolerance: Any, budget_us: Any) -> None:
+    """Put what is wanted of auto into a case; other methods refuse it."""
+    if case.normal != NORMAL["auto"]:
+        for name, value in (("target", target), ("tolerance", tolerance),
+                            ("budget_us", budget_us)):
+            if value is not None:
+                raise refused(name, "None unless normal is 'auto'", value)
+        return
+    case.target = TARGETS["forces"] if target is None else number_of(TARGETS, target, "target")
+    case.budget_us = 0.0 if budget_us is None else from_zero("budget_us", budget_us)
+    if tolerance is not None:
+        case.tolerance = from_zero("tolerance", tolerance)
+    else:
+        case.tolerance = 0.0 if case.budget_us > 0.0 else TOLERANCE
+
+
 def _material_of(material: Any) -> List[float]:
     if not isinstance(material, Material):
         raise refused("material", "a faststrip.Material", material)
@@ -303,19 +342,9 @@ class Contact:
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
         self._friction: Any = CONSTANT  # that is in the case
-        case = self._case = Case()
-        check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
-        case.normal = number_of(NORMAL, normal, "normal")
-        case.tangential = number_of(TANGENTIAL, tangential, "tangential")
-        auto = isinstance(strips_per_patch, str) and strips_per_patch == "auto"
-        case.strips_per_patch = 0 if auto else whole("strips_per_patch", strips_per_patch, 1,
-                                                     MOST_STRIPS, ", or 'auto'")
-        case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
-        case.fastsim_nx, case.fastsim_ny = grid_of("fastsim_grid", fastsim_grid)
+        case = self._case = new_case(normal, tangential, strips_per_patch, points_per_strip,
+                                     fastsim_grid, estimate, resolution_limit, force_limit)
         case.with_elements = flag("with_elements", with_elements)
-        case.estimate = flag("estimate", estimate)
-        case.resolution_limit = above_zero("resolution_limit", resolution_limit)
-        case.force_limit = above_zero("force_limit", force_limit)
         self._reserve(whole("max_points", max_points, *GAP_POINTS))
 
     def _reserve(self, max_points: int) -> None:
@@ -445,14 +474,14 @@ class Contact:
         case.cksi, case.ceta, case.cphi = numbers(CREEPAGE_NAMES, _three_creepages(creepage))
         case.mu = number("mu", mu)
         if material is not self._material:
-            case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = _material_of(material)
+            take_material(case, material)
             self._material = material
         if friction is not self._friction:
             take_friction(case, friction)
             self._friction = friction
         case.speed, case.contact_angle = numbers(MOTION_NAMES, (speed, contact_angle))
         case.warm_start = flag("warm_start", warm_start)
-        self._want(target, tolerance, budget_us)
+        want(case, target, tolerance, budget_us)
         figures = Figures()
         status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
                             long=self._long)
@@ -461,23 +490,6 @@ class Contact:
                       *(_force_errors_of(figures) if figures.forces_are_estimated
                         else _NO_FORCE_ERRORS),
                       *(self._taken(figures) if figures.n_steps else ()))
-
-    def _want(self, target: Optional[str], tolerance: Optional[float],
-              budget_us: Optional[float]) -> None:
-        """What is wanted of auto, into the case."""
-        case = self._case
-        if case.normal != NORMAL["auto"]:
-            for name, value in (("target", target), ("tolerance", tolerance),
-                                ("budget_us", budget_us)):
-                if value is not None:
-                    raise refused(name, "None unless normal is 'auto'", value)
-            return
-        case.target = TARGETS["forces"] if target is None else number_of(TARGETS, target, "target")
-        case.budget_us = 0.0 if budget_us is None else from_zero("budget_us", budget_us)
-        if tolerance is not None:
-            case.tolerance = from_zero("tolerance", tolerance)
-        else:
-            case.tolerance = 0.0 if case.budget_us > 0.0 else TOLERANCE
 
     def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
         """What came of auto: estimated error of the target, is it met, the steps."""

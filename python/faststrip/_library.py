@@ -138,6 +138,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "copy": [handle, handle],
         "set_gap": [handle, c_int, *[c_void_p] * 4],
         "solve": [handle, POINTER(Case), POINTER(Figures)],
+        "solve_many": [c_size_t, c_void_p, c_int, *[c_void_p] * 2, c_int, c_int, *[c_void_p] * 2,
+                       c_char_p, c_size_t],
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
         "get_steps": [handle, c_int, POINTER(c_int), *[c_void_p] * 7],

@@ -12,23 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, flag, number, numbers, refused, several, whole
-from ._contact import (
-    MATERIAL_NAMES,
-    MOST_POINTS,
-    MOST_STRIPS,
-    NORMAL,
-    TANGENTIAL,
-    Material,
-    grid_of,
-    number_of,
-)
+from ._contact import MOST_STRIPS, Material, new_case, number_of, take_material
 from ._library import (
     BAD_ARGUMENT,
     FIRST_ERROR,
     TEXT,
-    Case,
     FaststripError,
-    check,
     library,
     word_of,
 )
@@ -234,23 +223,12 @@ class Wheelset:
                  force_limit: float = 0.1) -> None:
         self._handle: Optional[_Handle] = None
         self._n_contacts = 0
-        case = Case()
-        check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
-        case.normal = number_of(NORMAL, normal, "normal")
-        case.tangential = number_of(TANGENTIAL, tangential, "tangential")
-        case.strips_per_patch = whole("strips_per_patch", strips_per_patch, 1, MOST_STRIPS)
-        case.points_per_strip = whole("points_per_strip", points_per_strip, 1, MOST_POINTS)
-        case.fastsim_nx, case.fastsim_ny = grid_of("fastsim_grid", fastsim_grid)
-        case.estimate = flag("estimate", estimate)
-        case.resolution_limit = above_zero("resolution_limit", resolution_limit)
-        case.force_limit = above_zero("force_limit", force_limit)
+        case = new_case(normal, tangential, whole("strips_per_patch", strips_per_patch, 1,
+                                                  MOST_STRIPS), points_per_strip, fastsim_grid,
+                        estimate, resolution_limit, force_limit)
         case.mu = number("mu", mu)
         take_friction(case, friction)
-        if not isinstance(material, Material):
-            raise refused("material", "a faststrip.Material", material)
-        case.e_wheel, case.e_rail, case.nu_wheel, case.nu_rail = numbers(
-            MATERIAL_NAMES, (material.e_wheel, material.e_rail, material.nu_wheel,
-                             material.nu_rail))
+        take_material(case, material)
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
                                         rail_distance, cant)

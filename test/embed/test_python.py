@@ -32,8 +32,8 @@ class Package(HostTest):
         names = sorted(path.name for path in (self.folder / "site" / "faststrip").iterdir())
         self.assertEqual([name for name in names if name != "__pycache__"],
                          ["__init__.py", "_arguments.py", "_contact.py", "_geometry.py",
-                          "_interrupt.py", "_library.py", "_profile.py", "_wear.py",
-                          "_wheelset.py", "py.typed"])
+                          "_interrupt.py", "_library.py", "_many.py", "_profile.py",
+                          "_tables.py", "_wear.py", "_wheelset.py", "py.typed"])
 
     def test_the_example_of_its_help(self):
         self.python("import doctest, faststrip, sys; "

@@ -7,15 +7,12 @@ module faststrip_interop_c
                                            c_null_char, c_associated, c_f_pointer
     use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
                                      st_ok, st_bad_argument, st_workspace_too_small
-    use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
-                                        handle_gap, handle_solve, copy_handle
-    use faststrip_interop_flat, only: flat_methods, wants_elements, fill_case, &
-                                      fill_friction, read_result, &
-                                      read_force_errors, read_taken, read_steps, &
+    use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, copy_handle
+    use faststrip_interop_flat, only: flat_methods, wants_elements, read_steps, &
                                       strip_count, read_strips, read_elements
+    use faststrip_interop_c_solve, only: take_gap, solve_fields
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
                                            write_result
-    use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_geometry_gap, only: gap_t
@@ -154,25 +151,11 @@ contains
 
         type(handle_t), pointer :: handle
         type(status_t) :: status
-        real(c_double), pointer :: y_of(:), h_of(:), inv2r_of(:), inclination_of(:)
 
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        if (n < 0) then
-            call set_status(handle%status, st_bad_argument, 'the number of gap points must ' // &
-                            'not be negative, got ' // count_text(n))
-        else if (.not. (c_associated(y) .and. c_associated(h) .and. c_associated(inv2r))) then
-            call set_status(handle%status, st_bad_argument, 'the gap must have y, h and inv2r')
-        else
-            call c_f_pointer(y, y_of, [n])
-            call c_f_pointer(h, h_of, [n])
-            call c_f_pointer(inv2r, inv2r_of, [n])
-            inclination_of => null()
-            if (c_associated(inclination)) call c_f_pointer(inclination, inclination_of, [n])
-            ! A null pointer counts as an argument that is not present.
-            call handle_gap(handle, y_of, h_of, inv2r_of, inclination_of)
-        end if
+        call take_gap(handle, n, y, h, inv2r, inclination)
         code = handle%status%code
     end function faststrip_set_gap
 
@@ -195,19 +178,8 @@ contains
             call set_status(handle%status, st_bad_argument, 'the result is missing')
         code = handle%status%code
         if (is_error(handle%status)) return
-        call fill_case(fields%choices, fields%numbers, handle%case)
-        handle%case%estimate = fields%estimate /= 0
-        handle%case%resolution_limit = fields%resolution_limit
-        handle%case%force_limit = fields%force_limit
-        call fill_friction(fields%friction_kind, fields%friction, handle%case%friction, &
-                           handle%contact_angle)
-        handle%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
-                                 budget_us=fields%budget_us)
-        call handle_solve(handle, wants_elements(fields%choices))
+        call solve_fields(handle, fields, figures)
         code = handle%status%code
-        call read_result(handle, figures%figures, figures%counts, figures%errors)
-        call read_force_errors(handle, figures%forces_are_estimated, figures%force_errors)
-        call read_taken(handle, figures%taken, figures%target_error)
         call write_result(figures, fields%size, result)
     end function faststrip_solve
 

@@ -19,7 +19,7 @@ module faststrip_interop_c_structs
     private
 
     public :: c_case_t, c_result_t, releases
-    public :: write_default_case, read_case, write_result
+    public :: write_default_case, read_case, write_result, result_size
 
     !> `faststrip_case` of the header; members of one type that follow each other are one row.
     type, bind(c) :: c_case_t
@@ -113,9 +113,16 @@ contains
         type(c_ptr) :: ignored
 
         written = figures
-        written%size = releases(2, max(count(releases(1, :) <= case_size), 1))
+        written%size = result_size(case_size)
         ignored = memcpy(address, c_loc(written), written%size)
     end subroutine write_result
+
+    !> Bytes of a result, as far as the header of the case knows it.
+    pure integer(c_size_t) function result_size(case_size)
+        integer(c_size_t), intent(in) :: case_size !! bytes
+
+        result_size = releases(2, max(count(releases(1, :) <= case_size), 1))
+    end function result_size
 
     !> Is there a case, and of a size whose end is one of a member this library knows?
     subroutine check_case(address, length, status)

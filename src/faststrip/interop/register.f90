@@ -8,10 +8,11 @@
 !> lock: a place changes only when its own handle enters or leaves, and who frees a workspace while
 !> another thread uses it breaks the rule of one thread at a time.
 module faststrip_interop_register
-    use, intrinsic :: iso_c_binding, only: c_int, c_long, c_intptr_t, c_ptr, c_funptr, c_null_ptr, &
+    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_funptr, c_null_ptr, &
                                            c_loc, c_funloc, c_f_pointer, c_associated
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_workspace_too_small
+    use faststrip_interop_threads, only: mutex_t, lock_mutex, unlock_mutex
     implicit none
     private
 
@@ -47,21 +48,9 @@ module faststrip_interop_register
     integer, save :: first_free = 0 ! of those given back; 0: none
     logical, save :: fork_waits = .false.
 
-    ! C's `pthread_mutex_t`, at most 48 bytes with the C libraries of Linux, where one of zeros is
-    ! ready to be used (PTHREAD_MUTEX_INITIALIZER).
-    integer(c_long), save :: mutex(16) = 0
+    type(mutex_t), save :: mutex
 
     interface
-        integer(c_int) function pthread_mutex_lock(mutex) bind(c)
-            import :: c_int, c_long
-            integer(c_long), intent(inout) :: mutex(*)
-        end function pthread_mutex_lock
-
-        integer(c_int) function pthread_mutex_unlock(mutex) bind(c)
-            import :: c_int, c_long
-            integer(c_long), intent(inout) :: mutex(*)
-        end function pthread_mutex_unlock
-
         integer(c_int) function pthread_atfork(prepare, parent, child) bind(c)
             import :: c_int, c_funptr
             type(c_funptr), value :: prepare, parent, child
@@ -199,9 +188,7 @@ contains
     end function block_length
 
     subroutine lock()
-        integer(c_int) :: ignored
-
-        ignored = pthread_mutex_lock(mutex)
+        call lock_mutex(mutex)
         if (fork_waits) return
         ! A child of a fork must not find the mutex taken by a thread that it does not have.
         fork_waits = pthread_atfork(c_funloc(before_fork), c_funloc(after_fork), &
@@ -209,20 +196,14 @@ contains
     end subroutine lock
 
     subroutine unlock()
-        integer(c_int) :: ignored
-
-        ignored = pthread_mutex_unlock(mutex)
+        call unlock_mutex(mutex)
     end subroutine unlock
 
     subroutine before_fork() bind(c, name='')
-        integer(c_int) :: ignored
-
-        ignored = pthread_mutex_lock(mutex)
+        call lock_mutex(mutex)
     end subroutine before_fork
 
     subroutine after_fork() bind(c, name='')
-        integer(c_int) :: ignored
-
-        ignored = pthread_mutex_unlock(mutex)
+        call unlock_mutex(mutex)
     end subroutine after_fork
 end module faststrip_interop_register
