@@ -375,6 +375,18 @@ typedef struct faststrip_profile {
     int n;
 } faststrip_profile;
 
+/* The gap of a right wheel on a right rail as faststrip_profile_gap gives it, of profiles by name,
+ * too. text, if not null, says what is wrong. */
+int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *rail,
+                       const double setup[9], int capacity, int *n, double *y, double *h,
+                       double *inv2r, double *inclination, double contact[6], char *text,
+                       size_t length);
+
+/* n points, at least two, of what can be touched of a profile, at equal distances of y: y to the
+ * field side, z down, mm, of a rail turned by a cant (its tangent). */
+int faststrip_draw_profile(const faststrip_profile *profile, int is_rail, double cant, int n,
+                           double *y, double *z, char *text, size_t length);
+
 /* Position and velocity of a wheelset; all zero: in the middle, at rest. */
 typedef struct faststrip_wheelset_state {
     double y;          /* lateral displacement, mm */
@@ -499,6 +511,11 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
 /* Wear and fatigue of a contact of the last solution, contacts[i], as faststrip_get_wear. */
 int faststrip_wheelset_get_wear(faststrip_wheelset *wheelset, int i, const faststrip_wear_law *law,
                                 double yield_shear, double figures[6]);
+
+/* The gap of contacts[i] of the last solution about its place, for faststrip_set_gap: capacity is
+ * the length of the arrays; *n becomes the points of the gap, even if these are more (110). */
+int faststrip_wheelset_get_gap(faststrip_wheelset *wheelset, int i, int capacity, int *n, double *y,
+                               double *h, double *inv2r, double *inclination);
 
 /* Contact geometry functions of a wheelset over n lateral shifts to the right, mm: each wheel comes
  * down on its rail by itself, as EN 15302:2008+A1:2010 has it, or, if with_roll, the wheelset rolls

@@ -5,7 +5,7 @@ module faststrip_command_system
     private
 
     public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, remove_leftovers
-    public :: start_signals, set_progress, set_detail, set_speaker, is_printed
+    public :: start_signals, set_progress, set_detail, set_speaker, is_printed, become
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     ! Kinds of files, as `system.c` numbers them.
@@ -27,6 +27,12 @@ module faststrip_command_system
     character(len=:), allocatable :: present_work
 
     interface
+        subroutine c_become(words, n) bind(c, name='faststrip_become')
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: words(*)
+            integer(c_int), value :: n
+        end subroutine c_become
+
         function c_identify(path, numbers) bind(c, name='faststrip_identify') result(kind)
             import :: c_char, c_int, c_long_long
             character(kind=c_char), intent(in) :: path(*)
@@ -83,6 +89,23 @@ module faststrip_command_system
     end interface
 
 contains
+
+    !> Become another program. Comes back only if there is none of this name.
+    subroutine become(program)
+        character(len=*), intent(in) :: program !! sought in PATH; gets what follows the subcommand
+
+        character(len=:), allocatable :: words, word
+        integer :: i, length
+
+        words = program // c_null_char
+        do i = 2, command_argument_count()
+            call get_command_argument(i, length=length)
+            word = repeat(' ', length)
+            call get_command_argument(i, word)
+            words = words // word // c_null_char
+        end do
+        call c_become(words, int(max(1, command_argument_count()), c_int))
+    end subroutine become
 
     !> What a path leads to.
     integer function file_kind(path)

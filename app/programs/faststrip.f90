@@ -10,6 +10,7 @@ program faststrip_main
     use faststrip_command_profile, only: run_profile
     use faststrip_command_wheelset, only: run_wheelset
     use faststrip_command_conicity, only: run_conicity
+    use faststrip_command_explore, only: run_explore
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -22,6 +23,7 @@ program faststrip_main
     case ('profile'); call run_profile()
     case ('wheelset'); call run_wheelset()
     case ('conicity'); call run_conicity()
+    case ('explore'); call run_explore()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -47,6 +49,7 @@ contains
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
         call say('  conicity               contact geometry and equivalent conicity of a wheelset')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
+        call say('  explore                a page to play with, of the Python package')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

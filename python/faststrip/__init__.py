@@ -28,7 +28,7 @@ from ._contact import (
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
 from ._many import ManyResult, solve_many
-from ._profile import Gap, Profile, ProgramNotFound, profile_gap
+from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
 
@@ -56,6 +56,7 @@ __all__ = [
     "WheelsetResult",
     "conicity",
     "contact_functions",
+    "draw_profile",
     "fastsim",
     "hertz",
     "kalker",

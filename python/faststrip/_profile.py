@@ -15,14 +15,23 @@ from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple, U
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import refused
-from ._library import TOO_SMALL, FaststripError, check, library, word_of
+from ._arguments import number, numbers, refused, whole
+from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, library, word_of
 
 Array = npt.NDArray[np.float64]
 Path = Union[str, "os.PathLike[str]"]
 FILE_FORMAT = 121
-KINDS = {"wheel", "rail"}
 FIRST_CAPACITY = 4000
+MOST_POINTS = 1000000
+# Of drawn rails, which stand upright; measured ones are taken as they stand.
+STANDARD_CANT = 0.025
+
+
+class Points(ctypes.Structure):
+    """``faststrip_profile`` of the header."""
+
+    _fields_ = [("name", ctypes.c_char_p), ("y", ctypes.c_void_p), ("z", ctypes.c_void_p),
+                ("n", ctypes.c_int)]
 
 
 class ProgramNotFound(ImportError):
@@ -146,30 +155,73 @@ def _data_lines(lines: Sequence[str]) -> List[str]:
     return [line for line in lines if not line.startswith("#")]
 
 
-def profile_gap(wheel: Profile, rail: Profile, *, shift: float = 0.0, cant: float = 0.0,
-                radius: float = 460.0, back_spacing: float = 1360.0, tread_line: float = 70.0,
-                gauge: float = 1435.0, gauge_depth: float = 14.0, step: float = 0.05,
-                height: float = 0.6) -> Gap:
+def points_of(name: str, profile: Any, kind: str) -> Points:
+    """A profile as the library takes it: a name, or points that have to be kept."""
+    if isinstance(profile, str):
+        return Points(profile.encode("ascii", "replace"))
+    if not isinstance(profile, Profile) or profile.kind not in (kind, "unknown"):
+        raise refused(name, f"a Profile of a {kind} or a name", profile)
+    return Points(None, profile.y.ctypes.data, profile.z.ctypes.data, len(profile.y))
+
+
+def cant_of(rail: Union[str, Profile], cant: Optional[float]) -> float:
+    """The cant of a rail where none was told: 1:40 of a drawn one, none of a measured one."""
+    if cant is None:
+        return STANDARD_CANT if isinstance(rail, str) else 0.0
+    return number("cant", cant)
+
+
+def _raise(status: int, text: Any) -> None:
+    if status >= FIRST_ERROR:
+        raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+
+
+def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift: float = 0.0,
+                cant: Optional[float] = None, radius: float = 460.0, back_spacing: float = 1360.0,
+                tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
+                step: float = 0.05, height: float = 0.6) -> Gap:
     """The gap of a right wheel on the right rail, shifted to the right; lengths in mm.
 
-    ``cant`` is the tangent by which the rail is turned: 0 where it was measured in the track.
+    wheel and rail are a `Profile` or a name, as of a `Wheelset`. ``cant`` is the tangent by which
+    the rail is turned: unless told otherwise 0.025 (1:40) for a name, and 0 for a Profile, which is
+    taken as it was measured in the track.
     """
-    for name, profile in (("wheel", wheel), ("rail", rail)):
-        if not isinstance(profile, Profile) or profile.kind not in (name, "unknown"):
-            raise refused(name, f"a Profile of a {name}", profile)
-    setup = np.array([back_spacing, tread_line, radius, gauge, gauge_depth, cant, shift, step,
-                      height], dtype=float)
-    n, capacity = ctypes.c_int(), FIRST_CAPACITY
+    sources = points_of("wheel", wheel, "wheel"), points_of("rail", rail, "rail")
+    setup = np.array(numbers(
+        ("back_spacing", "tread_line", "radius", "gauge", "gauge_depth", "cant", "shift", "step",
+         "height"), (back_spacing, tread_line, radius, gauge, gauge_depth, cant_of(rail, cant),
+                     shift, step, height)))
+    n, capacity, text = ctypes.c_int(), FIRST_CAPACITY, ctypes.create_string_buffer(TEXT)
     contact = np.zeros(6)
     while True:
         arrays = np.zeros((4, capacity))
-        status = library.faststrip_profile_gap(
-            len(wheel.y), wheel.y.ctypes.data, wheel.z.ctypes.data, len(rail.y),
-            rail.y.ctypes.data, rail.z.ctypes.data, setup.ctypes.data, capacity, ctypes.byref(n),
-            *(row.ctypes.data for row in arrays), contact.ctypes.data)
+        status = library.faststrip_pair_gap(
+            *map(ctypes.byref, sources), setup.ctypes.data, capacity, ctypes.byref(n),
+            *(row.ctypes.data for row in arrays), contact.ctypes.data, text, TEXT)
         if status != TOO_SMALL or n.value <= capacity:
             break
         capacity = n.value
-    check(status, wheel=wheel.path, rail=rail.path, shift=shift)
+    _raise(status, text)
     return Gap(*(row[:n.value].copy() for row in arrays), *map(float, contact[:4]),
                (int(contact[4]), int(contact[5])))
+
+
+def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[float] = None,
+                 n: int = 401) -> Tuple[Array, Array]:
+    """y and z, mm, of n points of what can be touched of a profile, a `Profile` or a name, at equal
+    distances of y. kind is ``wheel`` or ``rail``; cant turns a rail, as in `profile_gap`.
+
+    >>> y, z = draw_profile("60e1", "rail", cant=0.0, n=3)
+    >>> y.round(3).tolist()
+    [-36.0, 0.0, 36.0]
+    """
+    if kind not in ("wheel", "rail"):
+        raise refused("kind", "wheel or rail", kind)
+    source = points_of("profile", profile, kind)
+    arrays = np.zeros((2, whole("n", n, 2, MOST_POINTS)))
+    text = ctypes.create_string_buffer(TEXT)
+    status = library.faststrip_draw_profile(
+        ctypes.byref(source), kind == "rail", cant_of(profile, cant), n,
+        *(row.ctypes.data for row in arrays), text, TEXT)
+    _raise(status, text)
+    return arrays[0], arrays[1]

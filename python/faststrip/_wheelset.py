@@ -5,23 +5,24 @@ from __future__ import annotations
 import _thread
 import ctypes
 import operator
-from ctypes import c_char_p, c_double, c_int, c_size_t, c_void_p
+from ctypes import c_double, c_int, c_size_t, c_void_p
 from typing import Any, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import above_zero, flag, number, numbers, refused, several, whole
+from ._arguments import above_zero, flag, number, numbers, several, whole
 from ._contact import MOST_STRIPS, Material, new_case, number_of, take_material
 from ._library import (
     BAD_ARGUMENT,
     FIRST_ERROR,
     TEXT,
+    TOO_SMALL,
     FaststripError,
     library,
     word_of,
 )
-from ._profile import Profile
+from ._profile import FIRST_CAPACITY, Points, Profile, points_of
 from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
@@ -38,12 +39,6 @@ class Setup(ctypes.Structure):
     _fields_ = [("size", c_size_t), *((name, c_double) for name in (
         "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
         "rail_distance", "cant"))]
-
-
-class Points(ctypes.Structure):
-    """``faststrip_profile`` of the header."""
-
-    _fields_ = [("name", c_char_p), ("y", c_void_p), ("z", c_void_p), ("n", c_int)]
 
 
 class State(ctypes.Structure):
@@ -154,10 +149,10 @@ def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any
         ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
          "rail_distance", "cant"),
         (radius, left, back_spacing, tread_line, gauge, gauge_depth, distance, cant)))
-    wheels = (Points * 2)(_points("wheel", wheel, "wheel"), Points() if wheel_left is None
-                          else _points("wheel_left", wheel_left, "wheel"))
-    rails = (Points * 2)(_points("rail", rail, "rail"), Points() if rail_left is None
-                         else _points("rail_left", rail_left, "rail"))
+    wheels = (Points * 2)(points_of("wheel", wheel, "wheel"), Points() if wheel_left is None
+                          else points_of("wheel_left", wheel_left, "wheel"))
+    rails = (Points * 2)(points_of("rail", rail, "rail"), Points() if rail_left is None
+                         else points_of("rail_left", rail_left, "rail"))
     return setup, wheels, rails
 
 
@@ -173,14 +168,6 @@ class WheelsetResult(NamedTuple):
     force_wheelset: Array  #: the same in the wheelset's frame
     moment: Array  #: about the wheelset's centre in the track, 2 x 3, N mm
     n_solutions: Tuple[int, ...]  #: contact problems that were solved
-
-
-def _points(name: str, profile: Any, kind: str) -> Points:
-    if isinstance(profile, str):
-        return Points(profile.encode("ascii", "replace"))
-    if not isinstance(profile, Profile) or profile.kind not in (kind, "unknown"):
-        raise refused(name, f"a Profile of a {kind} or a name", profile)
-    return Points(None, profile.y.ctypes.data, profile.z.ctypes.data, len(profile.y))
 
 
 class _Handle:
@@ -308,6 +295,25 @@ class Wheelset:
                        question.figures)
             found.append(question.answer())
         return tuple(found)
+
+    def gap(self, contact: int) -> Tuple[Array, Array, Array, Array]:
+        """The gap of a contact of the last solution about its place, for `Contact.set_gap`: y, h in
+        mm, inv2r in 1/mm, inclination in rad. contact counts from 0, those of the right wheel
+        first."""
+        n, capacity = c_int(), FIRST_CAPACITY
+        while True:
+            arrays = np.zeros((4, capacity))
+            try:
+                self._call(library.faststrip_wheelset_get_gap, whole("contact", contact, 0,
+                                                                     MOST_CONTACTS), capacity,
+                           ctypes.byref(n), *(row.ctypes.data for row in arrays))
+            except FaststripError as problem:
+                if problem.status != TOO_SMALL or n.value <= capacity:
+                    raise
+                capacity = n.value
+                continue
+            y, h, inv2r, inclination = arrays[:, :n.value].copy()
+            return y, h, inv2r, inclination
 
     def _call(self, function: Any, *arguments: Any) -> int:
         handle = self._handle

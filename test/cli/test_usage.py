@@ -1,6 +1,10 @@
 """Help, version and what the command line itself refuses."""
 
-from cli_program import LAB, ROOT, ProgramTest, gap_case, gap_text, parabola
+import pathlib
+import subprocess
+import tempfile
+
+from cli_program import LAB, PROGRAM, ROOT, ProgramTest, gap_case, gap_text, parabola
 
 SUBCOMMANDS = ("integral", "contact", "batch", "sweep", "wheelset", "conicity")
 OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
@@ -56,6 +60,25 @@ class Help(ProgramTest):
             self.assertTrue(about.startswith(f"usage: faststrip-lab {name}"))
         self.refused(2, "contact", says=["unknown subcommand: contact", "see faststrip-lab --help"])
         self.assertRegex(self.check("--version"), r"\Afaststrip-lab \S+ rev \S+\n\Z")
+
+    def test_the_page_is_a_command_of_its_own(self):
+        page = "faststrip-explore"
+        text = self.check("explore", "--help", lines=4)
+        self.assertTrue(text.startswith("usage: faststrip explore"))
+        self.assertIn("\n  explore ", self.check("--help"))
+        nowhere = {"PATH": "/nowhere"}
+        done = subprocess.run([PROGRAM, "explore", "--port", "0"], capture_output=True,
+                              encoding="utf-8", env=nowhere, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1))
+        self.assertIn("pip install 'faststrip[explore]' brings " + page, done.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder, page)
+            script.write_text('#!/bin/sh\nprintf "%s.\\n" "$@"\nexit 7\n', encoding="utf-8")
+            script.chmod(0o755)
+            done = subprocess.run([PROGRAM, "explore", "--port", "0", "a b", ""],
+                                  capture_output=True, encoding="utf-8", env={"PATH": folder},
+                                  check=False)
+        self.assertEqual((done.returncode, done.stdout), (7, "--port.\n0.\na b.\n.\n"))
 
     def test_version_is_that_of_the_manifest(self):
         manifest = (ROOT / "fpm.toml").read_text(encoding="utf-8")

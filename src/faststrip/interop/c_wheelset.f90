@@ -9,7 +9,7 @@ module faststrip_interop_c_wheelset
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_interop_c, only: put_text
+    use faststrip_interop_c, only: put_text, numbers_at
     use faststrip_interop_c_structs, only: c_case_t, read_case
     use faststrip_interop_flat, only: fill_case, fill_friction
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_setup, n_state, n_choices, &
@@ -23,7 +23,7 @@ module faststrip_interop_c_wheelset
 
     public :: faststrip_default_wheelset, faststrip_wheelset_new, faststrip_wheelset_free
     public :: faststrip_wheelset_solve, faststrip_wheelset_last_message
-    public :: c_setup_t, find_setup, read_sources
+    public :: c_setup_t, find_setup, read_sources, read_source_at
 
     !> `faststrip_wheelset_setup` of the header.
     type, bind(c) :: c_setup_t
@@ -267,21 +267,50 @@ contains
         end if
         call c_f_pointer(address, profiles, [2])
         do side = 1, 2
-            associate (profile => profiles(side))
-                if (c_associated(profile%name)) then
-                    sources(side)%name = text_at(profile%name)
-                else if (profile%n > 0 .and. c_associated(profile%y) &
-                         .and. c_associated(profile%z)) then
-                    call c_f_pointer(profile%y, sources(side)%y, [profile%n])
-                    call c_f_pointer(profile%z, sources(side)%z, [profile%n])
-                else if (side == 1 .or. profile%n /= 0) then
-                    call set_status(status, st_bad_argument, 'the ' // trim(sides(side)) // ' ' // &
-                                    body // ' profile must have a name, or y and z of its points')
-                    return
-                end if
-            end associate
+            ! A left profile of neither is as the right one.
+            if (side == 2 .and. .not. c_associated(profiles(side)%name) &
+                .and. profiles(side)%n == 0) cycle
+            call read_source(profiles(side), trim(sides(side)) // ' ' // body, sources(side), &
+                             status)
+            if (is_error(status)) return
         end do
     end subroutine read_sources
+
+    ! Where one profile comes from.
+    subroutine read_source(profile, words, source, status)
+        type(c_profile_t), intent(in) :: profile
+        character(len=*), intent(in) :: words
+        type(profile_source_t), intent(out) :: source
+        type(status_t), intent(inout) :: status
+
+        if (c_associated(profile%name)) then
+            source%name = text_at(profile%name)
+        else if (profile%n > 0 .and. c_associated(profile%y) .and. c_associated(profile%z)) then
+            source%y => numbers_at(profile%y, profile%n)
+            source%z => numbers_at(profile%z, profile%n)
+        else
+            call set_status(status, st_bad_argument, 'the ' // words // ' profile must have a ' // &
+                            'name, or y and z of its points')
+        end if
+    end subroutine read_source
+
+    !> Where one profile that a caller points to comes from.
+    subroutine read_source_at(address, body, source, status)
+        type(c_ptr), intent(in) :: address             !! of a `faststrip_profile`
+        character(len=*), intent(in) :: body           !! its word
+        type(profile_source_t), intent(out) :: source  !! name or points
+        type(status_t), intent(out) :: status          !! `st_bad_argument`
+
+        type(c_profile_t), pointer :: profile
+
+        call clear_status(status)
+        if (c_associated(address)) then
+            call c_f_pointer(address, profile)
+            call read_source(profile, body, source, status)
+        else
+            call set_status(status, st_bad_argument, 'the ' // body // ' profile is missing')
+        end if
+    end subroutine read_source_at
 
     ! The first letters of a name.
     function text_at(address) result(text)

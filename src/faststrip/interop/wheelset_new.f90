@@ -23,7 +23,7 @@ module faststrip_interop_wheelset_new
     private
 
     public :: profile_source_t, source_name_length, default_setup, new_wheelset, &
-              make_profiles
+              make_profiles, make_profile
 
     !> Characters of a profile's name.
     !> Given: capacity.
@@ -112,24 +112,40 @@ contains
         type(profile_t), intent(inout) :: profiles(2)    !! made
         type(status_t), intent(out) :: status            !! those of profiles
 
-        type(touchable_t) :: part
-        integer :: side
+        integer :: side, n_out
 
         call clear_status(status)
         do side = side_right, side_left
-            associate (source => sources(side))
-                if (associated(source%y)) then
-                    call make_curve_profile(source%y, source%z, body, cant, standard_kink_angle, &
-                                            profiles(side), part, status)
-                else if (side == side_left .and. source%name == '') then
-                    profiles(side_left) = profiles(side_right)
-                else if (body == body_wheel) then
-                    call make_wheel_profile(trim(source%name), profiles(side), status)
-                else
-                    call make_rail_profile(trim(source%name), cant, profiles(side), status)
-                end if
-            end associate
+            if (side == side_left .and. sources(side)%name == '' &
+                .and. .not. associated(sources(side)%y)) then
+                profiles(side_left) = profiles(side_right)
+            else
+                call make_profile(sources(side), body, cant, profiles(side), n_out, status)
+            end if
             if (is_error(status)) return
         end do
     end subroutine make_profiles
+
+    !> One profile of a name, or of points.
+    subroutine make_profile(source, body, cant, profile, n_out, status)
+        type(profile_source_t), intent(in) :: source !! as a right one
+        integer, intent(in) :: body                  !! `body_wheel`, `body_rail`
+        real(wp), intent(in) :: cant                 !! tangent by which it is turned; a wheel: 0
+        type(profile_t), intent(out) :: profile      !! made
+        integer, intent(out) :: n_out                !! points that cannot be touched
+        type(status_t), intent(out) :: status        !! those of profiles
+
+        type(touchable_t) :: part
+
+        n_out = 0
+        if (associated(source%y)) then
+            call make_curve_profile(source%y, source%z, body, cant, standard_kink_angle, profile, &
+                                    part, status)
+            if (.not. is_error(status)) n_out = size(source%y) - size(part%point)
+        else if (body == body_wheel) then
+            call make_wheel_profile(trim(source%name), profile, status)
+        else
+            call make_rail_profile(trim(source%name), cant, profile, status)
+        end if
+    end subroutine make_profile
 end module faststrip_interop_wheelset_new
