@@ -1,34 +1,52 @@
 #!/usr/bin/env python3
 """Build the site of faststrip into out/docs: the pages, and the Fortran interface by FORD in api/.
 
-Nothing of it is loaded from elsewhere: it reads without network. A warning is an error, and so is
-a link that leads nowhere.
+    document.py [--prefix FOLDER]
+
+Pages with pictures are run, as tools/blocks.py does, with the faststrip that is installed in
+FOLDER. Nothing of the site is loaded from elsewhere: it reads, and is searched, without network. A
+warning is an error, and so is a link that leads nowhere.
 """
 
+import argparse
+import html
+import importlib.resources
+import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
-from pages import page, to_html
+import blocks
+from pages import menu, page, pictures, plain, sections, to_html
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SITE = ROOT / "out" / "docs"
-# Pages, in the order of the navigation: what they are called there, file, page.
-PAGES = (
-    ("faststrip", "README.md", "index.html"),
-    ("Usage", "docs/usage.md", "usage.html"),
-    ("Formats", "docs/formats.md", "formats.html"),
-    ("Embedding", "docs/embedding.md", "embedding.html"),
-    ("Method", "docs/method.md", "method.html"),
-    ("Validation", "docs/validation.md", "validation.html"),
-    ("Constants", "docs/constants.md", "constants.html"),
-    ("References", "reference/README.md", "reference.html"),
-    ("Architecture", "docs/architecture.md", "architecture.html"),
-    ("Contributing", "CONTRIBUTING.md", "contributing.html"),
-    ("Changes", "CHANGELOG.md", "changelog.html"),
+# The navigation: groups of pages, what they are called there, file, page.
+GROUPS = (
+    ("Begin", (
+        ("faststrip", "README.md", "index.html"),)),
+    ("Tutorials", (
+        ("A worn wheel", "docs/tutorial_worn_wheel.md", "tutorial_worn_wheel.html"),
+        ("Through a curve", "docs/tutorial_curve.md", "tutorial_curve.html"),
+)),
+    ("Use", (
+        ("Usage", "docs/usage.md", "usage.html"),
+        ("Formats", "docs/formats.md", "formats.html"),
+        ("Embedding", "docs/embedding.md", "embedding.html"))),
+    ("Behind it", (
+        ("Method", "docs/method.md", "method.html"),
+        ("Validation", "docs/validation.md", "validation.html"),
+        ("Constants", "docs/constants.md", "constants.html"),
+        ("Architecture", "docs/architecture.md", "architecture.html"),
+        ("References", "reference/README.md", "reference.html"))),
+    ("Project", (
+        ("Contributing", "CONTRIBUTING.md", "contributing.html"),
+        ("Changes", "CHANGELOG.md", "changelog.html"))),
 )
+PAGES = tuple(page for _, pages in GROUPS for page in pages)
 API = ("Fortran interface", "api/index.html")
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # What FORD's pages load from a network: a style sheet, in whose place is docs/api.css, and scripts.
@@ -37,10 +55,14 @@ LOADED = re.compile(r'<link [^>]*href="https?://[^>]*>|<script[^>]*src="https?:/
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--prefix", type=pathlib.Path, metavar="FOLDER")
+    options = parser.parse_args()
     shutil.rmtree(SITE, ignore_errors=True)
     SITE.mkdir(parents=True)
     build_api()
-    build_pages()
+    write_search([*build_pages(options.prefix), *entities()])
     broken = sorted(broken_targets())
     if broken:
         sys.exit("\n".join(broken))
@@ -66,15 +88,25 @@ def build_api():
                                text), encoding="utf-8")
 
 
-def build_pages():
-    """The Markdown files of PAGES; what else they point to is copied into files/."""
+def build_pages(prefix):
+    """The Markdown files of PAGES; what else they point to is copied into files/. What the search
+    finds in them: names, heading, target and words."""
     known = {(ROOT / source).resolve(): target for _, source, target in PAGES}
-    navigation = [(words, target) for words, _, target in PAGES] + [API]
-    shutil.copy(ROOT / "docs" / "pages.css", SITE / "pages.css")
+    groups = [(name, [(words, target) for words, _, target in pages]) for name, pages in GROUPS]
+    groups[-1][1].append(API)
+    report = (ROOT / "plots" / "faststrip_plots" / "document.css").read_text(encoding="utf-8")
+    own = (ROOT / "docs" / "pages.css").read_text(encoding="utf-8")
+    (SITE / "pages.css").write_text(report + own, encoding="utf-8")
+    shutil.copy(ROOT / "docs" / "search.js", SITE / "search.js")
+    found = []
     for words, source, target in PAGES:
         path = ROOT / source
+        text = path.read_text(encoding="utf-8")
+        made = make_pictures(text, target.removesuffix(".html"), prefix)
 
-        def target_of(link, folder=path.parent):
+        def target_of(link, folder=path.parent, made=made):
+            if link in made:
+                return made[link]
             if ELSEWHERE.match(link) or link.startswith("#"):
                 return link
             name, hash_sign, anchor = link.partition("#")
@@ -88,9 +120,53 @@ def build_pages():
             shutil.copy(file, copy)
             return copy.relative_to(SITE).as_posix()
 
-        body = to_html(path.read_text(encoding="utf-8"), target_of)
+        body = to_html(text, target_of)
+        parts = sections(body)
+        headings = [(anchor, heading) for anchor, level, heading, _ in parts if level == 2]
         title = words if words == "faststrip" else f"{words} - faststrip"
-        (SITE / target).write_text(page(title, body, navigation), encoding="utf-8")
+        (SITE / target).write_text(page(title, body, menu(groups, target, headings)),
+                                   encoding="utf-8")
+        found += [(words, heading, f"{target}#{anchor}", text)
+                  for anchor, _, heading, text in parts]
+    return found
+
+
+def make_pictures(text, name, prefix):
+    """Run a page that has pictures; where in the site each of them lies."""
+    wanted = pictures(text)
+    if not wanted:
+        return {}
+    made = {}
+    with tempfile.TemporaryDirectory() as folder:
+        blocks.run(text, folder, prefix)
+        for file, _ in wanted:
+            copy = SITE / "files" / name / pathlib.Path(file).name
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(pathlib.Path(folder, file), copy)
+            made[file] = copy.relative_to(SITE).as_posix()
+    return made
+
+
+def entities():
+    """What the search finds in the Fortran interface: a page each of modules, types, procedures."""
+    for path in sorted((SITE / "api").rglob("*.html")):
+        kind = path.parent.name
+        if kind not in ("module", "type", "proc", "interface"):
+            continue
+        text = path.read_text(encoding="utf-8")
+        name = re.search(r"<title>\s*(\S+)", text)
+        summary = re.search(r'<meta name="description" content="([^"]*)"', text)
+        yield (API[0], html.unescape(name[1]), path.relative_to(SITE).as_posix(),
+               plain(html.unescape(summary[1])) if summary else "")
+
+
+def write_search(entries):
+    """The search's data, a script because pages opened as files may not load anything else."""
+    rows = [dict(zip(("page", "heading", "target", "words"), entry)) for entry in entries]
+    (SITE / "search_data.js").write_text(
+        f"const sections = {json.dumps(rows, ensure_ascii=False)};\n", encoding="utf-8")
+    lunr = importlib.resources.files("mkdocs") / "contrib/search/templates/search/lunr.js"
+    (SITE / "lunr.js").write_bytes(lunr.read_bytes())
 
 
 def broken_targets():

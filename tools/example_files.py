@@ -18,6 +18,8 @@ S1002_FIRST_MM = -70.0  # where the profile begins, towards the flange
 
 HOLLOW_MM, HOLLOW_WIDTH_MM, HOLLOW_PLACE_MM = 1.6, 16.0, 4.0
 
+TAPE_CIRCLE_MM = 70.0  # from the back of the flange
+
 WHEEL_ARC_MM, RAIL_ARC_MM, WHEEL_RADIUS_MM = 330.0, 300.0, 460.0
 
 CROWN_MM, ROLLER_MM, ROLLER_HALF_WIDTH_MM, EDGE_MM = 150.0, 100.0, 20.0, 5.0
@@ -75,10 +77,16 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     points, folder = read_s1002(sys.argv[1]), Path(sys.argv[2])
+    worn = list(worn_wheel(points))
     origin = "# made by tools/example_files.py: "
     columns = "y_mm,h_mm,inv2R_per_mm"
     write(folder / "worn_wheel.txt",
-          [origin + "S1002 worn hollow; y to the field side, z down, mm"], worn_wheel(points), " ")
+          [origin + "S1002 worn hollow; y to the field side, z down, mm"], worn, " ")
+    # As a MiniProf writes it: x from the back of the flange, y to its tip, rounded to 0.01 mm.
+    write(folder / "worn_wheel.whl",
+          ["ProgramName=tools/example_files.py", "Comment=S1002 worn hollow, made up",
+           "ColumnDef=X,Y", f"XYPoints={len(worn)}", ""],
+          [(round(y + TAPE_CIRCLE_MM, 2), round(z, 2)) for y, z in worn], " ")
     write(folder / "near_conformal.csv", [origin + "radii 330 and 300 mm", columns],
           near_conformal(), ",")
     write(folder / "polymer_roller.csv", [origin + "roller of 100 mm, crown 150 mm", columns],

@@ -7,7 +7,7 @@
     fortitude   Fortran files, by the rules of tools/fortitude.toml
     shellcheck  shell scripts; skipped where it is not installed (--install installs it from Debian)
     columns     at most 100 characters in a line; 120 for an assertion of .pf, which is one line;
-                tables and lines with an address are free in Markdown
+                tables, lines with an address and what programs print are free in Markdown
     blanks      no tab, no blank at the end of a line, one end of line at the end of a file
 
 Checked are the files that git knows or would take; without git all that do not lie below build/,
@@ -131,9 +131,12 @@ def columns(folder, names, _):
         # A page that a tool writes may be as wide as that likes.
         if name.endswith(".md") and lines and lines[0].startswith("<!-- Written by "):
             continue
+        printed = False
         for number, line in enumerate(lines, start=1):
-            free = name.endswith(".md") and (line.lstrip().startswith("|") or "://" in line
-                                             or "<!--" in line)
+            if name.endswith(".md") and line.startswith("```"):
+                printed = line == "```output"
+            free = name.endswith(".md") and (printed or line.lstrip().startswith("|")
+                                             or "://" in line or "<!--" in line)
             limit = ASSERTION if name.endswith(".pf") and line.lstrip().startswith("@") else most
             if len(line) > limit and not free:
                 found.append(f"{name}:{number}: {len(line)} columns, at most {limit}")

@@ -1,7 +1,9 @@
 """Markdown pages: their headings and links as GitHub sees them, and as HTML for the site.
 
 Formulas are LaTeX between dollar signs, `$x$` in a line and `$$` on lines of their own around a
-block. The site holds them as MathML, which browsers show without any script.
+block. The site holds them as MathML, which browsers show without any script. A picture is a
+comment, `<!-- picture: FILE Words. -->`: the site shows it, where commands of the page have made
+it.
 """
 
 from __future__ import annotations
@@ -11,6 +13,9 @@ import re
 from pathlib import Path
 
 FENCE = re.compile(r"^(?P<mark>```+|~~~+).*?^(?P=mark)[ \t]*$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"^<!-- picture: (?P<file>\S+)\s+(?P<words>.*?) -->[ \t]*$",
+                     re.MULTILINE | re.DOTALL)
+FILE = re.compile(r"^<!-- file: (?P<name>\S+) -->[ \t]*$", re.MULTILINE)
 COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 CODE = re.compile(r"(?P<ticks>`+)(?!`).*?(?<!`)(?P=ticks)(?!`)", re.DOTALL)
 BLOCK = re.compile(r"^\$\$[ \t]*\n(?P<formula>.*?)\n\$\$[ \t]*$", re.MULTILINE | re.DOTALL)
@@ -22,8 +27,8 @@ LINK = re.compile(r"!?\[(?:[^\]\[]|\[[^\]]*\])*\]\((?P<target>[^()\s]+)\)")
 # LaTeX that both GitHub and latex2mathml show. latex2mathml leaves others out without a word.
 COMMANDS = frozenset(
     "Delta Rightarrow alpha bar beta delta ell eta frac gamma ge int kappa lambda le left ln log"
-    " lvert mathrm mu ne nu omega operatorname overline partial pi qquad rho right rvert sigma sin"
-    " sinh cos sqrt sum tau theta varphi xi".split())
+    " lvert mathrm mu ne nu omega operatorname overline partial pi psi qquad rho right rvert sigma"
+    " sin sinh cos sqrt sum tau theta varphi xi".split())
 
 
 def prose(text):
@@ -50,6 +55,12 @@ def anchors(text):
 def links(text):
     """The targets of a page's links and pictures."""
     return [match["target"] for match in LINK.finditer(prose(text))]
+
+
+def pictures(text):
+    """The files and words of a page's pictures that its commands make."""
+    return [(match["file"], " ".join(match["words"].split()))
+            for match in PICTURE.finditer(FENCE.sub("", text))]
 
 
 def formulas(text):
@@ -91,7 +102,7 @@ def strange_formulas(text):
 
 
 def to_html(text, target_of):
-    """The body of a page; `target_of` says where a link leads in the site."""
+    """The body of a page; `target_of` says where a link leads in the site, or a picture lies."""
     import markdown  # of tools/requirements-docs.txt, which the tests do without
     from latex2mathml.converter import convert
 
@@ -109,7 +120,15 @@ def to_html(text, target_of):
     def formula(match, display):
         return keep(convert(match["formula"].strip(), display=display))
 
-    text = FENCE.sub(lambda match: "\n" + keep(match[0]) + "\n", COMMENT.sub("", text))
+    def figure(match):
+        words = html.escape(" ".join(match["words"].split()))
+        return "\n" + keep(f'<figure><img src="{target_of(match["file"])}" alt="{words}">\n'
+                           f"<figcaption>{words}</figcaption></figure>") + "\n"
+
+    text = FENCE.sub(lambda match: "\n" + keep(match[0]) + "\n", text)
+    text = FILE.sub(lambda match: keep(f'<p class="file">{match["name"]}</p>') + "\n",
+                    PICTURE.sub(figure, text))
+    text = COMMENT.sub("", text)
     text = CODE.sub(lambda match: keep(match[0]), text)
     text = BLOCK.sub(lambda match: formula(match, "block"), text)
     text = INLINE.sub(lambda match: formula(match, "inline"), text)
@@ -126,13 +145,27 @@ def to_html(text, target_of):
     body = markdown.markdown(text, extensions=["tables", "fenced_code", "sane_lists"])
     names = iter(names)
     body = re.sub(r"<h([1-6])>", lambda match: f'<h{match[1]} id="{next(names)}">', body)
+    # On a screen a wide table has a box to scroll in.
+    body = re.sub(r"<table>.*?</table>", r'<div class="table" tabindex="0">\g<0></div>', body,
+                  flags=re.DOTALL)
     return put_back(body, only_code=False)
 
 
+def sections(body):
+    """The sections of a page's body: anchor, level, heading and words, without formulas."""
+    parts = re.split(r'<h([1-6]) id="([^"]+)">(.*?)</h\1>', body, flags=re.DOTALL)
+    return [(anchor, int(level), plain(heading), plain(text))
+            for level, anchor, heading, text in zip(*(parts[k::4] for k in range(1, 5)))]
+
+
+def plain(body):
+    """The words of HTML."""
+    words = re.sub(r"<math.*?</math>|<[^>]+>", " ", body, flags=re.DOTALL)
+    return " ".join(html.unescape(words).split())
+
+
 def page(title, body, navigation):
-    """A whole HTML page; `navigation` are pairs of words and targets."""
-    entries = "\n".join(f'<a href="{target}">{html.escape(words)}</a>'
-                        for words, target in navigation)
+    """A whole HTML page; `navigation` is what `menu` makes."""
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -140,14 +173,37 @@ def page(title, body, navigation):
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{html.escape(title)}</title>
 <link rel="stylesheet" href="pages.css">
+<script src="lunr.js" defer></script>
+<script src="search_data.js" defer></script>
+<script src="search.js" defer></script>
 </head>
 <body>
-<nav>
-{entries}
+<a class="skip" href="#content">To the text</a>
+<nav aria-label="pages">
+<input type="checkbox" id="unfold" aria-label="show all pages"><label for="unfold">Pages</label>
+<search><input type="search" id="search" placeholder="Search" aria-label="search all pages"
+autocomplete="off"><ol id="found" aria-live="polite"></ol></search>
+{navigation}
 </nav>
-<main>
+<main id="content">
 {body}
 </main>
 </body>
 </html>
 """
+
+
+def menu(groups, here, headings):
+    """The navigation: groups of words and targets, beneath the page `here` its own headings."""
+    lines = ['<div class="menu">']
+    for name, entries in groups:
+        lines.append(f"<h2>{html.escape(name)}</h2>\n<ul>")
+        for words, target in entries:
+            current = ' aria-current="page"' if target == here else ""
+            lines.append(f'<li><a href="{target}"{current}>{html.escape(words)}</a>')
+            if current and headings:
+                lines += ["<ul>", *(f'<li><a href="#{anchor}">{html.escape(heading)}</a></li>'
+                                    for anchor, heading in headings), "</ul>"]
+            lines.append("</li>")
+        lines.append("</ul>")
+    return "\n".join([*lines, "</div>"])

@@ -27,7 +27,8 @@
   report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
   install --prefix FOLDER
                 build, then install program, library, modules, header, man page there
-  docs          build the pages of the Fortran interface; in out/docs/
+  docs          build the site: pages, run where they have pictures, and the Fortran interface;
+                in out/docs/
   embed         build, then time calls from Fortran, F77, C and Python; in out/embed/
   tables        build, then audit, remake, time and draw the coefficient tables; in out/tables/
   compilers     try to build with gfortran 12 and the newest gfortran and flang of Debian
@@ -581,7 +582,8 @@ def python_packages(name, what):
 
 def docs():
     python_packages("docs", "FORD")
-    do(sys.executable, "tools/document.py")
+    install_below(ROOT / "build" / "docs")
+    do(sys.executable, "tools/document.py", "--prefix", "build/docs")
     heading("done: out/docs/index.html")
 
 

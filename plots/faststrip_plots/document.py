@@ -7,6 +7,7 @@ import html
 import os
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from .tables import InputError
 
@@ -15,37 +16,8 @@ SHORT = 12  # letters: a shorter one is never broken
 NUMBER = 24  # letters: with more a number has a text behind it
 MANY = 12  # columns: more are printed small
 
-_STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; color: #1c1c1c; max-width: 68rem;
-       margin: 2rem auto; padding: 0 1.2rem; }
-h1 { font-size: 1.9rem; } h2 { margin-top: 3rem; border-bottom: 1px solid #ccc; }
-div.table { overflow-x: auto; margin: 1rem 0; }
-table { border-collapse: collapse; font-size: .86rem; }
-th, td { padding: .25rem .6rem; border-bottom: 1px solid #e2e2e2; text-align: right;
-         white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
-th { border-bottom: 2px solid #888; vertical-align: bottom; white-space: normal; }
-th.left, td.left { text-align: left; }
-td.text { white-space: normal; text-align: left; }
-td.wrap { white-space: normal; text-align: left; min-width: 13rem; }
-tr.bad td { background: #fdeaea; font-weight: bold; }
-figure { margin: 1.6rem 0; } figure img { max-width: 100%; border: 1px solid #e2e2e2; }
-figcaption { font-size: .9rem; color: #444; }
-nav a { margin-right: 1.2rem; }
-@page { size: A4; margin: 12mm; }
-@media print {
-  body { max-width: none; margin: 0; padding: 0; font-size: 10pt; }
-  h1, h2, h3 { break-after: avoid; } h2 { margin-top: 1.5rem; }
-  div.table { overflow: visible; }
-  table { width: 100%; font-size: 7.5pt; }
-  table.many { font-size: 5.5pt; }
-  th, td { padding: .1rem .25rem; }
-  td.text, td.wrap { min-width: 0; overflow-wrap: anywhere; }
-  table.many th, table.many td { white-space: normal; overflow-wrap: anywhere; }
-  tr, figure { break-inside: avoid; }
-  thead { display: table-header-group; }
-}
-"""
+# Also the style of the site: tools/document.py.
+STYLE = Path(__file__).with_name("document.css")
 
 
 @dataclass
@@ -90,7 +62,8 @@ class Document:
         parts = [
             '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<title>{html.escape(self.title)}</title><style>{_STYLE}</style></head><body>",
+            f"<title>{html.escape(self.title)}</title><style>\n{STYLE.read_text(encoding='utf-8')}"
+            "</style></head><body>",
             f"<h1>{html.escape(self.title)}</h1>",
             "<nav>" + "".join(
                 f'<a href="#{_anchor(rest[1])}">{html.escape(rest[1])}</a>'

@@ -7,7 +7,7 @@ import sys
 from cli_program import ROOT, LabTest, ProgramTest
 
 CASES = ROOT / "example" / "cases"
-MADE = ["worn_wheel.txt", "near_conformal.csv", "polymer_roller.csv"]
+MADE = ["worn_wheel.txt", "worn_wheel.whl", "near_conformal.csv", "polymer_roller.csv"]
 
 
 class Examples(ProgramTest):

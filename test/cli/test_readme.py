@@ -1,6 +1,5 @@
-"""What the README shows of the program: its first case runs, its figures are today's."""
+"""The figures that the README shows are today's; what it runs test_pages runs."""
 
-import re
 import sys
 import unittest
 
@@ -16,15 +15,6 @@ STALE = 0.1
 
 
 class Readme(ProgramTest):
-    def test_the_first_case_runs_as_it_stands(self):
-        text = (ROOT / "README.md").read_text(encoding="utf-8")
-        section = text.split("## A first case of your own")[1].split("\n## ")[0]
-        self.write("my.nml", re.search(r"```fortran\n(.*?)```", section, re.DOTALL)[1])
-        words = re.search(r"`bin/faststrip (.*?)`", section)[1].split()
-        self.assertEqual([row["status"] for row in self.good(*words)], ["ok"])
-        self.assertEqual({path.name for path in self.folder.iterdir()},
-                         {"my.nml", "strips.csv", "fields.csv"})
-
     def test_the_figures_are_those_of_today(self):
         """Errors on the paper's contacts, computed anew; ./run stored measured stores them."""
         self.good("sweep", ROOT / "example" / "s1002_uic60.nml", "-o", "sweep.csv")

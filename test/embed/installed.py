@@ -12,14 +12,20 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import blocks  # noqa: E402
+
 HOSTS = ROOT / "example" / "hosts"
 
 
 def readme_blocks():
-    """Language and text of the blocks of the README's section for hosts."""
+    """Language and text of the README's callers, and of the lines that compile and run them."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     section = text.split("## Embed it in your code")[1].split("\n## ")[0]
-    return re.findall(r"^```(\w+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
+    # Installed it is, and where is known.
+    return [(block.language, re.sub(r"(?m)^(\./run install|export) .*\n", "", block.text))
+            for block in blocks.blocks_of(section) if block.language != "output"]
 
 
 class Installation:

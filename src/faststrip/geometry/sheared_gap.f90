@@ -17,7 +17,7 @@ module faststrip_geometry_sheared_gap
 
     public :: turn_sheared_gap
 
-    !> Given: as of regions of overlap.
+    ! Given: as of regions of overlap.
     real(wp), parameter :: depth_power = 2.5_wp
     ! Tuned [1]: A s**2 over B beyond which no axes are sought. Origin: safeguard: the gap is no
     ! paraboloid.

@@ -1,0 +1,27 @@
+"""What the pages show is run and printed so: those that need the program alone."""
+
+import sys
+import unittest
+
+from cli_program import ROOT
+
+sys.path.insert(0, str(ROOT / "tools"))
+
+import blocks  # noqa: E402
+
+
+class Pages(unittest.TestCase):
+    """A test a page."""
+
+
+def test_of(path):
+    return lambda self: self.assertEqual(blocks.check(path), "")
+
+
+for page in blocks.pages():
+    if not blocks.needs_library(page.read_text(encoding="utf-8")):
+        setattr(Pages, f"test_{page.relative_to(ROOT).with_suffix('')}", test_of(page))
+
+
+if __name__ == "__main__":
+    unittest.main()
