@@ -118,8 +118,10 @@ class Usage(Project):
         self.assertEqual(result.returncode, 2)
         self.assertIn("usage: ./run", result.stderr)
         self.assertEqual(result.stdout, "")
-        self.assertFalse((self.folder / "build").exists())
-        self.assertEqual(self.run_it("").returncode, 2)
+        for word in ("", " ", "build ", "*"):
+            self.assertEqual(self.run_it(word).returncode, 2, word)
+        # Nothing was installed for it.
+        self.assertEqual([name for name in ("build", ".venv") if (self.folder / name).exists()], [])
 
     def test_the_help_lists_every_step(self):
         sys.path.insert(0, str(ROOT / "tools"))
@@ -218,7 +220,7 @@ class Room(Project):
                                       r"[^\n]*; apt-get update: E: no such list [^\n]*\n\Z")
 
 
-class Testing(Project):
+class Building(Project):
     """Needs the .venv of the checkout, as ./run test makes it."""
 
     def setUp(self):
@@ -234,6 +236,8 @@ class Testing(Project):
         self.assertEqual(result.returncode, code)
         return result
 
+
+class FromNothing(Building):
     def test_words_that_no_step_takes_are_refused(self):
         for words in (("build", "--quick"), ("test", "a", "b"), ("demo", "x"), ("fuzz", "1", "2")):
             result = self.run_it(*words)
@@ -301,14 +305,6 @@ class Testing(Project):
         objects, said = built()
         self.assertEqual((objects, said), (["programs_faststrip.f90.o"], "3\nrevision unknown\n"))
 
-    def test_lint_counts(self):
-        self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
-                                    "raise SystemExit(1)\n")
-        result = self.check(PASSING, 1, "6 passed, 2 failed")
-        self.assertIn("\n3 skipped\n", result.stdout)
-        self.write("tools/lint.py", "raise SystemExit(1)\n")
-        self.check(PASSING, 1, "2 passed, 1 failed")
-
     def test_all_stages_are_counted(self):
         disabled = PASSING.replace("@test", "@test\n@disable").replace("passes", "waits")
         result = self.check(PASSING + disabled, 0, "3 passed, 0 failed")
@@ -320,6 +316,35 @@ class Testing(Project):
         self.assertEqual(program.stdout, "lab\n")
         self.assertEqual(sorted(path.name for path in self.folder.joinpath("test").iterdir()),
                          ["build", "fpm.toml", "funit", "pf", "tools"])
+
+
+class Testing(Building):
+    """Each test goes on from a copy of a project that was built once: its objects serve on."""
+
+    built = None
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.built = pathlib.Path(temporary.name)
+
+    def setUp(self):
+        super().setUp()
+        first = not any(self.built.iterdir())
+        if first:
+            self.check(PASSING, 0, "3 passed, 0 failed")
+        shutil.copytree(*((self.folder, self.built) if first else (self.built, self.folder)),
+                        ignore=shutil.ignore_patterns(".venv"), dirs_exist_ok=True)
+
+    def test_lint_counts(self):
+        self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
+                                    "raise SystemExit(1)\n")
+        result = self.check(PASSING, 1, "6 passed, 2 failed")
+        self.assertIn("\n3 skipped\n", result.stdout)
+        self.write("tools/lint.py", "raise SystemExit(1)\n")
+        self.check(PASSING, 1, "2 passed, 1 failed")
 
     def test_a_failing_test_fails_the_run(self):
         self.check(PASSING + FAILING, 1, "3 passed, 1 failed")
