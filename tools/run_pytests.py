@@ -7,20 +7,25 @@ With --jobs files are run N at a time, each in a process of its own, but those o
 --whole, which share what they install, in one. The last line is
 `all modules together: N passed, N failed[, N skipped]`; exit 1 if any failed or none ran. With
 --filter only tests run whose `folder/module::class.test` contains TEXT. With --times each file's
-line ends with the processor seconds of its tests and of what they ran.
+line ends with the processor seconds of its tests and of what they ran. All files share a folder for
+runs that several tests look at (test/shared_runs.py); it is gone afterwards.
 """
 
 import argparse
 import concurrent.futures
 import importlib.util
+import os
 import pathlib
 import re
 import resource
 import subprocess
 import sys
+import tempfile
 import unittest
 
 TOGETHER = "all modules together:"
+# Names the folder of shared runs to test/shared_runs.py.
+SHARED_RUNS = "FASTSTRIP_SHARED_RUNS"
 
 
 class Counts(unittest.TestResult):
@@ -146,6 +151,14 @@ def main():
     parser.add_argument("--times", action="store_true")
     parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="FOLDER")
     options = parser.parse_args()
+    if SHARED_RUNS in os.environ:
+        return run_files(options)
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ[SHARED_RUNS] = folder
+        return run_files(options)
+
+
+def run_files(options):
     files = [(folder, path) for folder in options.folders
              for path in ([folder] if folder.is_file() else sorted(folder.glob("test_*.py")))]
     if options.jobs == 1:

@@ -4,6 +4,7 @@ import csv
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -14,6 +15,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "bin" / "faststrip"
 LAB = ROOT / "bin" / "faststrip-lab"
 GAPS = ROOT / "reference" / "contact" / "gaps"
+sys.path.insert(0, str(ROOT / "test"))
+
+from shared_runs import files_below, shared_run, write_files  # noqa: E402
 
 BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 RESULT_COLUMNS = (
@@ -109,9 +113,20 @@ class ProgramTest(unittest.TestCase):
         done.stderr = without_progress(done.stderr)
         return done
 
-    def good(self, *words):
+    def share_program(self, *words):
+        """As `run_program`; tests that run the same on the same files share one run.
+
+        For dear runs whose output is looked at, not for tests of how the program runs.
+        """
+        self.assertNotIn(str(self.folder), " ".join(str(word) for word in words))
+        done = shared_run([self.program, *words], files_below(self.folder), PATIENCE)
+        write_files(self.folder, done.made)
+        done.stderr = without_progress(done.stderr)
+        return done
+
+    def good(self, *words, share=False):
         """Run what has to succeed without a word on stderr; the rows on stdout."""
-        done = self.run_program(*words)
+        done = self.share_program(*words) if share else self.run_program(*words)
         self.assertEqual((done.returncode, done.stderr), (0, ""), words)
         return rows_of(done.stdout)
 

@@ -12,6 +12,13 @@ LAWS = METHODS[7:]
 
 
 class Bench(LabTest):
+    def forces(self):
+        """The rows of one run for all tests."""
+        done = self.share_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
+                                  str(SCENES), "-o", "out.csv")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return self.read("out.csv")
+
     def test_tangential(self):
         lines = (CONTACTS / "s1002_uic60_B.csv").read_text(encoding="utf-8").splitlines()
         rows = [line for line in lines if not line.startswith("#")]
@@ -39,10 +46,7 @@ class Bench(LabTest):
                 self.assertEqual(float(row["ratio"]), 1.0)
 
     def test_forces(self):
-        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
-                                str(SCENES), "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        rows = self.read("out.csv")
+        rows = self.forces()
         errors = {}
         for row in rows:
             for group in {row["group"], "all"}:
@@ -78,11 +82,8 @@ class Bench(LabTest):
                                 0.6 * statistics.fmean(sums[quantity]), (name, group, method))
 
     def test_the_fit_takes_half_of_the_errors_of_contacts_never_fitted(self):
-        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
-                                str(SCENES), "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         mean = {}
-        for row in self.read("out.csv"):
+        for row in self.forces():
             if row["method"] in ("faststrip", "faststrip-plain"):
                 for quantity in ("Fx_err", "Fy_err", "Mz_err"):
                     mean.setdefault((row["set"], quantity, row["method"]), []).append(
@@ -108,10 +109,8 @@ class Bench(LabTest):
 
     def test_the_peers_are_beaten(self):
         # CONTACT's own fast methods on the same gaps, mean and largest of all three.
-        done = self.run_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
-                                str(SCENES), "-o", "out.csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        own = {name: [abs(float(row[f"{name}_err"])) for row in self.read("out.csv")
+        rows = self.forces()
+        own = {name: [abs(float(row[f"{name}_err"])) for row in rows
                       if (row["set"], row["method"]) == ("s1002_uic60_B", "faststrip")]
                for name in ("Fx", "Fy", "Mz")}
         peers = {}

@@ -276,8 +276,8 @@ class ReferenceProfiles(ProgramTest):
                             0.038 if case == "E7" else 0.010, case)
 
     def test_finer_shifts_stay_within_the_limits(self):
-        for case in ("E1", "E4", "E7"):
-            self.assertEqual(self.outside(self.deviations(case, "--y-step", "0.05")), [], case)
+        # E7 is the one nearest to its limits.
+        self.assertEqual(self.outside(self.deviations("E7", "--y-step", "0.05")), [])
 
     def test_e3_jumps_within_micrometres_of_two_rows_of_the_table(self):
         """Delta r jumps by 2.3 mm at 2.496 and by 5.8 mm at 6.699 mm, in Annex E behind its rows

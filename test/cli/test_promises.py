@@ -17,7 +17,7 @@ SOME = "stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fa
 
 class Promises(LabTest):
     def truth(self, *words):
-        done = self.run_program("truth", "--across", 16, *words)
+        done = self.share_program("truth", "--across", 16, *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.left_out = [line.split(" is left out")[0].split(": ")[1]
                          for line in done.stderr.splitlines()]

@@ -1,10 +1,12 @@
 """What tools/run_pytests.py counts and returns."""
 
+import os
 import pathlib
 import re
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from harness import ROOT, run
 
@@ -58,6 +60,19 @@ import subprocess
 import sys
 subprocess.run([sys.executable, "-c",
                 "import time\\nwhile time.process_time() < 0.3: pass"], check=True)
+"""
+# Says where runs are shared, and leaves something there.
+SHARING = """\
+import os
+import pathlib
+import unittest
+
+
+class Sharing(unittest.TestCase):
+    def test_a_place(self):
+        place = pathlib.Path(os.environ["FASTSTRIP_SHARED_RUNS"])
+        print(f"shared in {place}, {len(list(place.iterdir()))} before")
+        (place / __name__).touch()
 """
 
 
@@ -121,6 +136,18 @@ class Runs(unittest.TestCase):
                           for name in ("busy", "good"))
             self.assertGreaterEqual(busy, 0.3)
             self.assertLess(good, busy)
+
+    def test_a_folder_for_shared_runs_is_there_for_all_and_goes(self):
+        files = {"a/test_first.py": SHARING, "a/test_second.py": SHARING}
+        for jobs in ("1", "2"):
+            with mock.patch.dict(os.environ):
+                os.environ.pop("FASTSTRIP_SHARED_RUNS", None)
+                said = self.check(files, 0, "2 passed, 0 failed", "--jobs", jobs)
+            places, before = zip(*re.findall(r"(?m)^shared in (.*), (\d) before$", said))
+            self.assertEqual((len(places), len(set(places))), (2, 1))
+            self.assertFalse(pathlib.Path(places[0]).exists())
+            if jobs == "1":
+                self.assertEqual(before, ("0", "1"))
 
     def test_a_file_that_ends_its_process_fails(self):
         files = {"a/test_end.py": "import os\nos._exit(3)\n", "a/test_good.py": GOOD}
