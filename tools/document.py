@@ -31,10 +31,12 @@ GROUPS = (
     ("Tutorials", (
         ("A worn wheel", "docs/tutorial_worn_wheel.md", "tutorial_worn_wheel.html"),
         ("Through a curve", "docs/tutorial_curve.md", "tutorial_curve.html"),
-)),
+        ("Conicity", "docs/tutorial_conicity.md", "tutorial_conicity.html"),
+        ("A table for an old code", "docs/tutorial_table.md", "tutorial_table.html"))),
     ("Use", (
         ("Usage", "docs/usage.md", "usage.html"),
         ("Formats", "docs/formats.md", "formats.html"),
+        ("Limitations and errors", "docs/errors.md", "errors.html"),
         ("Embedding", "docs/embedding.md", "embedding.html"))),
     ("Behind it", (
         ("Method", "docs/method.md", "method.html"),

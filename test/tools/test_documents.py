@@ -135,6 +135,26 @@ class OfTheProject(unittest.TestCase):
         section = text.split("## Limitations and errors")[1].split("\n## ")[0]
         self.assertEqual([word for word in words if f"`{word}`" not in section], [])
 
+    def test_every_status_word_has_its_entry_and_an_example(self):
+        """What the examples print test_pages compares; of a limitation it has the word."""
+        (status,) = (ROOT / "src").rglob("status.f90")
+        text = status.read_text(encoding="utf-8")
+        codes = {word: int(code) for word, code in
+                 re.findall(r"integer, parameter :: st_(\w+) = (\d+)", text)}
+        codes.pop("ok")
+        self.assertGreater(len(codes), 25)
+        page = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
+        entries = dict(re.findall(r"(?ms)^### (\w+)\n(.*?)(?=^##|\Z)", page))
+        self.assertEqual(set(entries), set(codes))
+        for word, entry in entries.items():
+            with self.subTest(word):
+                self.assertIn(f"| {codes[word]} | [`{word}`](#{word}) |", page)
+                self.assertIn("**What to do.**", entry)
+                (printed,) = re.findall(r"(?ms)^```output\n(.*?)^```", entry)
+                self.assertTrue(printed)
+                if codes[word] < 100:
+                    self.assertRegex(printed, rf"(?m)^status +{word}$")
+
     def test_every_result_column_is_explained(self):
         (source,) = (ROOT / "app").rglob("result_csv.f90")
         block = re.search(r"result_columns\(\d+\) = \[(.*?)\]", source.read_text(encoding="utf-8"),
