@@ -27,6 +27,8 @@
   report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
   install --prefix FOLDER
                 build, then install program, library, modules, header, man page there
+  package       make the Python package for pip, with the library in it, and its source
+                distribution; in out/package/
   docs          build the site: pages, run where they have pictures, and the Fortran interface;
                 in out/docs/
   embed         build, then time calls from Fortran, F77, C and Python; in out/embed/
@@ -380,6 +382,8 @@ def release_build(_):
 def python_tests(text):
     folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
                if os.path.isdir(name)]
+    if "test/embed" in folders:
+        python_packages("test", "what the tests of the Python package need")
     # Two at a time at least: most of them wait for one program.
     jobs = max(2, len(os.sched_getaffinity(0)))
     return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", str(jobs),
@@ -567,7 +571,7 @@ def install(*words):
     prefix = os.path.join(START, words[1])
     install_below(prefix)
     heading(f"installed below {prefix}")
-    print("Python: pip install ./python")
+    print("Python: pip install ./python, which takes this library")
 
 
 def python_packages(name, what):
@@ -585,6 +589,12 @@ def docs():
     install_below(ROOT / "build" / "docs")
     do(sys.executable, "tools/document.py", "--prefix", "build/docs")
     heading("done: out/docs/index.html")
+
+
+def package():
+    python_packages("test", "what builds the Python package")
+    do(sys.executable, "tools/package.py", "--folder", folder("package"))
+    heading("done: pip install out/package/*.whl")
 
 
 def embed():
@@ -628,7 +638,7 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, extremes,
-    forces, scenes, stored, report, install, docs, embed, tables, compilers, clean)}
+    forces, scenes, stored, report, install, package, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
          "hostile": None, "stored": None, "report": None, "speed": None}

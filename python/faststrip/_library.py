@@ -104,6 +104,10 @@ def _candidates() -> Iterator[str]:
     if "FASTSTRIP_PREFIX" in os.environ:
         yield str(pathlib.Path(os.environ["FASTSTRIP_PREFIX"]) / "lib" / FILE)
         return
+    own = pathlib.Path(__file__).parent / FILE
+    if own.exists():  # a wheel
+        yield str(own)
+        return
     folders = [_pkg_config_folder(), str(pathlib.Path(sys.prefix) / "lib")]
     yield from (str(pathlib.Path(folder) / FILE) for folder in folders if folder)
     yield FILE

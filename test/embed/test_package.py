@@ -1,0 +1,290 @@
+"""The Python package as pip gets it: built from its source distribution, with the library in it,
+installed where there is no compiler."""
+
+import email
+import importlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tarfile
+import tempfile
+import tomllib
+import unittest
+import zipfile
+
+from installed import ROOT
+
+MOST_BYTES = 5 * 1024**2
+FIRST_CONTACT = """
+import sys, numpy as np, faststrip
+y = 0.1 * np.arange(-150, 151)
+contact = faststrip.Contact()
+contact.set_gap(y, 0.002 * y**2, 1.0 / 920.0)
+result = contact.solve(load=1e5, creepage=(1e-3, 0.0, 0.0))
+print(result.status, f"{result.penetration:.16E} {result.fx:.16E}")
+many = faststrip.solve_many((y, 0.002 * y**2, 1.0 / 920.0), load=[1e5], creepage=(1e-3, 0.0, 0.0))
+print(many.fx[0] == result.fx)
+print(len(faststrip.Wheelset().solve(axle_load=1e5).contacts))
+print(faststrip.__version__, faststrip.library_version())
+with open("/proc/self/maps") as maps:
+    print(*sorted({line.split()[-1] for line in maps if ".so" in line}), sep="\\n")
+"""
+MODULES = """
+import sys
+before = set(sys.modules)
+import numpy
+numpy_alone = set(sys.modules)
+import faststrip
+print(*sorted(set(sys.modules) - numpy_alone))
+"""
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+        cls.command(sys.executable, ROOT / "tools" / "package.py", "--fast", "--folder", cls.folder)
+        cls.wheel, = cls.folder.glob("*.whl")
+        cls.source, = cls.folder.glob("*.tar.gz")
+        with open(ROOT / "fpm.toml", "rb") as file:
+            cls.version = tomllib.load(file)["version"]
+        # An empty environment, but for numpy.
+        cls.command(sys.executable, "-m", "venv", "--without-pip", cls.folder / "empty")
+        cls.python = cls.folder / "empty" / "bin" / "python"
+        site, = (cls.folder / "empty").glob("lib/python3*/site-packages")
+        cls.command(sys.executable, "-m", "pip", "--python", cls.python, "install", "--no-deps",
+                    "--no-index", cls.wheel)
+        numpy = pathlib.Path(importlib.import_module("numpy").__file__).parent
+        for name in ("numpy", "numpy.libs"):
+            if (numpy.parent / name).exists():
+                (site / name).symlink_to(numpy.parent / name)
+        cls.site = site
+
+    @classmethod
+    def command(cls, *words, **environment):
+        done = subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+                              cwd=cls.folder, timeout=6000, check=False,
+                              env={**os.environ, **environment})
+        if done.returncode != 0:
+            raise AssertionError(f"{words}: {done.returncode}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def without_compiler(self, text):
+        """What Python says where PATH has nothing and nothing names another library."""
+        nothing = self.folder / "nothing"
+        nothing.mkdir(exist_ok=True)
+        return subprocess.run([self.python, "-c", text], cwd=nothing, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, encoding="utf-8", check=False,
+                              env={"PATH": str(nothing), "HOME": str(nothing),
+                                   "OPENBLAS_NUM_THREADS": "1"})
+
+    def test_a_first_contact_where_there_is_no_compiler(self):
+        done = self.without_compiler(FIRST_CONTACT)
+        self.assertEqual(done.stderr, "")
+        figures, same, contacts, versions, *loaded = done.stdout.splitlines()
+        status, penetration, force = figures.split()
+        self.assertEqual((status, same, contacts), ("0", "True", "2"))
+        self.assertAlmostEqual(float(penetration), 0.10799, delta=1e-4)
+        self.assertAlmostEqual(float(force), -12.23e3, delta=200.0)
+        self.assertEqual(versions, f"{self.version} {self.version}")
+        # The library of the package, with the run-time library that came with it.
+        mine = [path for path in loaded if "faststrip" in path and "numpy" not in path]
+        self.assertTrue(any(path.endswith("faststrip/libfaststrip.so.0") for path in mine), mine)
+        self.assertTrue(any("faststrip.libs/libgfortran" in path for path in mine), mine)
+
+    def test_the_library_needs_no_lapack(self):
+        text = self.command("readelf", "-dW", self.site / "faststrip" / "libfaststrip.so.0")
+        needed = re.findall(r"NEEDED.*\[([^]]+)\]", text)
+        self.assertNotRegex(" ".join(needed), "(?i)lapack|blas")
+        self.assertTrue(any(name.startswith("libgfortran") for name in needed), needed)
+
+    def test_what_is_in_it(self):
+        self.assertRegex(self.wheel.name,
+                         rf"^faststrip-{re.escape(self.version)}-py3-none-manylinux_2_\d+_\w+\.whl$")
+        self.assertLess(self.wheel.stat().st_size, MOST_BYTES)
+        with zipfile.ZipFile(self.wheel) as archive:
+            names = archive.namelist()
+            about = f"faststrip-{self.version}.dist-info/"
+            metadata = email.message_from_bytes(archive.read(f"{about}METADATA"))
+        self.assertEqual((metadata["Name"], metadata["Version"]), ("faststrip", self.version))
+        extras = {"plot", "pandas", "xarray", "explore", "all"}
+        self.assertEqual(set(metadata.get_all("Provides-Extra")), extras)
+        wanted = {path.relative_to(ROOT / "python").as_posix()
+                  for path in (ROOT / "python" / "faststrip").rglob("*")
+                  if path.is_file() and "__pycache__" not in path.parts}
+        found = {name for name in names if name.startswith("faststrip/")
+                 and not name.endswith("/")}
+        self.assertEqual(found - wanted, {"faststrip/libfaststrip.so.0"})
+        self.assertEqual(wanted - found, set())
+        for name in ("LICENSE", "LICENSES_bundled.txt"):
+            self.assertTrue(any(each.startswith(about) and each.endswith(name) for each in names))
+
+    def test_the_source_distribution_has_what_builds_it_and_no_more(self):
+        with tarfile.open(self.source) as archive:
+            names = {"/".join(name.split("/")[1:]) for name in archive.getnames()}
+        for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE", "pyproject.toml",
+                     "src/lapack_small/lapack.f90", "python/faststrip/__init__.py",
+                     "src/faststrip/faststrip.f90", "tools/cmake/public_names.cmake"):
+            self.assertIn(name, names)
+        folders = {name.split("/")[0] for name in names if "/" in name}
+        self.assertEqual(folders, {"include", "python", "src", "tools"})
+        self.assertEqual({name.split("/")[1] for name in names if name.startswith("src/")},
+                         {"faststrip", "lapack_small"})
+
+    def test_only_what_is_needed_is_imported(self):
+        modules = self.command(self.python, "-c", MODULES).split()
+        for name in ("pandas", "xarray", "matplotlib", "dask", "bokeh", "importlib.metadata"):
+            self.assertNotIn(name, modules)
+        # No compiler and no pkg-config is asked where the library is.
+        done = self.without_compiler("import faststrip, sys; print('ok')")
+        self.assertEqual(done.stdout, "ok\n")
+
+    def test_what_is_missing_is_told(self):
+        text = ("import faststrip, numpy\n"
+                "y = numpy.linspace(-15, 15, 101)\n"
+                "many = faststrip.solve_many((y, 2e-3 * y**2, 1e-3), load=[1e5])\n"
+                "many.to_{0}()")
+        for name in ("pandas", "xarray"):
+            done = self.without_compiler(text.format(name))
+            self.assertEqual(done.stderr.splitlines()[-1], f"ImportError: to_{name} needs "
+                             f"{name}: pip install 'faststrip[{name}]'")
+
+    def test_the_environment_names_another_library(self):
+        done = subprocess.run([self.python, "-c", "import faststrip"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, encoding="utf-8", check=False,
+                              env={"FASTSTRIP_LIBRARY": "/nowhere/libfaststrip.so"})
+        self.assertIn("LibraryNotFound: no libfaststrip", done.stderr)
+        self.assertIn("/nowhere/libfaststrip.so", done.stderr)
+
+
+COMPARE = """\
+! Random systems by the package's own routines and by LAPACK.
+program compare
+    use faststrip_base_kinds, only: wp
+    use faststrip_numerics_lapack, only: own_dgtsv => dgtsv, own_dpbtrf => dpbtrf, &
+                                         own_dpbtrs => dpbtrs
+    implicit none
+
+    integer, parameter :: counts(7) = [1, 2, 3, 7, 40, 300, 5000]
+    external :: dgtsv, dpbtrf, dpbtrs
+    integer :: i, seed
+
+    do i = 1, size(counts)
+        do seed = 1, 20
+            call tridiagonal(counts(i), 1 + mod(seed, 3))
+            call band(counts(i), mod(seed, 5), 1 + mod(seed, 4))
+        end do
+    end do
+    call singular()
+
+contains
+
+    subroutine tridiagonal(n, nrhs)
+        integer, intent(in) :: n, nrhs
+        real(wp), dimension(max(n - 1, 1)) :: dl, du, dl2, du2
+        real(wp) :: d(n), d2(n), b(n + 3, nrhs), b2(n + 3, nrhs)
+        integer :: info, info2
+        call random_number(dl)
+        call random_number(du)
+        call random_number(d)
+        call random_number(b)
+        dl = dl - 0.5_wp
+        dl2 = dl
+        du2 = du
+        d2 = d
+        b2 = b
+        call own_dgtsv(n, nrhs, dl, d, du, b, n + 3, info)
+        call dgtsv(n, nrhs, dl2, d2, du2, b2, n + 3, info2)
+        call tell('dgtsv', maxval(abs(b(:n, :) - b2(:n, :)))/maxval(abs(b2(:n, :))), info - info2)
+        ! What is beyond the system stays.
+        call tell('beyond', maxval(abs(b(n + 1:, :) - b2(n + 1:, :))), 0)
+    end subroutine tridiagonal
+
+    subroutine band(n, kd, nrhs)
+        integer, intent(in) :: n, kd, nrhs
+        real(wp) :: ab(kd + 2, n), ab2(kd + 2, n), b(n + 1, nrhs), b2(n + 1, nrhs)
+        integer :: info, info2, j
+        call random_number(ab)
+        call random_number(b)
+        ab(kd + 1, :) = ab(kd + 1, :) + 2.0_wp*kd
+        ab2 = ab
+        b2 = b
+        call own_dpbtrf('U', n, kd, ab, kd + 2, info)
+        call dpbtrf('U', n, kd, ab2, kd + 2, info2)
+        do j = 1, n
+            associate (first => kd + 1 - min(kd, j - 1))
+                call tell('dpbtrf', maxval(abs(ab(first:kd + 1, j) - ab2(first:kd + 1, j))) &
+                          /maxval(abs(ab2(first:kd + 1, j))), info - info2)
+            end associate
+        end do
+        call own_dpbtrs('U', n, kd, nrhs, ab, kd + 2, b, n + 1, info)
+        call dpbtrs('U', n, kd, nrhs, ab2, kd + 2, b2, n + 1, info2)
+        call tell('dpbtrs', maxval(abs(b(:n, :) - b2(:n, :)))/maxval(abs(b2(:n, :))), info - info2)
+    end subroutine band
+
+    subroutine singular()
+        real(wp) :: dl(2), d(3), du(2), b(3), ab(2, 3)
+        integer :: info
+        dl = [1.0_wp, 0.0_wp]
+        d = [1.0_wp, 1.0_wp, 0.0_wp]
+        du = [1.0_wp, 0.0_wp]
+        b = 1.0_wp
+        call own_dgtsv(3, 1, dl, d, du, b, 3, info)
+        write (*, '(a, i0)') 'info ', info
+        dl = 0.0_wp
+        d = [1.0_wp, 1.0_wp, 0.0_wp]
+        du = 0.0_wp
+        call own_dgtsv(3, 1, dl, d, du, b, 3, info)
+        write (*, '(a, i0)') 'info ', info
+        ab(1, :) = 2.0_wp
+        ab(2, :) = 1.0_wp
+        call own_dpbtrf('U', 3, 1, ab, 2, info)
+        write (*, '(a, i0)') 'info ', info
+        call own_dpbtrf('L', 3, 1, ab, 2, info)
+        write (*, '(a, i0)') 'info ', info
+    end subroutine singular
+
+    subroutine tell(name, error, info)
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: error
+        integer, intent(in) :: info
+        write (*, '(a, 1x, es12.4, 1x, i0)') name, error, info
+    end subroutine tell
+end program compare
+"""
+
+
+class OwnRoutines(unittest.TestCase):
+    """src/lapack_small against LAPACK."""
+
+    def test_they_agree_with_lapack(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "compare.f90").write_text(COMPARE, encoding="utf-8")
+            done = subprocess.run(
+                ["sh", "-euc", f"gfortran -O2 -std=f2018 '{ROOT}/src/faststrip/base/kinds.f90' "
+                 f"'{ROOT}/src/lapack_small/lapack.f90' compare.f90 -o compare "
+                 "$(pkg-config --libs openblas) && ./compare"],
+                cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+                check=False, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        worst, infos = {}, []
+        for line in done.stdout.splitlines():
+            name, *numbers = line.split()
+            if name == "info":
+                infos.append(int(numbers[0]))
+                continue
+            self.assertEqual(int(numbers[1]), 0, line)
+            worst[name] = max(worst.get(name, 0.0), float(numbers[0]))
+        self.assertEqual(set(worst), {"dgtsv", "beyond", "dpbtrf", "dpbtrs"})
+        for name, error in worst.items():
+            self.assertLessEqual(error, 0.0 if name == "beyond" else 1e-15, (name, worst))
+        self.assertEqual(infos, [2, 3, 2, -1])
+
+
+if __name__ == "__main__":
+    unittest.main()
