@@ -104,8 +104,9 @@ class Package(unittest.TestCase):
         self.assertTrue(any(name.startswith("libgfortran") for name in needed), needed)
 
     def test_what_is_in_it(self):
+        version = re.escape(self.version)
         self.assertRegex(self.wheel.name,
-                         rf"^faststrip-{re.escape(self.version)}-py3-none-manylinux_2_\d+_\w+\.whl$")
+                         rf"^faststrip-{version}-py3-none-manylinux_2_\d+_\w+\.whl$")
         self.assertLess(self.wheel.stat().st_size, MOST_BYTES)
         with zipfile.ZipFile(self.wheel) as archive:
             names = archive.namelist()
@@ -127,8 +128,8 @@ class Package(unittest.TestCase):
     def test_the_source_distribution_has_what_builds_it_and_no_more(self):
         with tarfile.open(self.source) as archive:
             names = {"/".join(name.split("/")[1:]) for name in archive.getnames()}
-        for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE", "pyproject.toml",
-                     "src/lapack_small/lapack.f90", "python/faststrip/__init__.py",
+        for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE",
+                     "pyproject.toml", "src/lapack_small/lapack.f90", "python/faststrip/__init__.py",
                      "src/faststrip/faststrip.f90", "tools/cmake/public_names.cmake"):
             self.assertIn(name, names)
         folders = {name.split("/")[0] for name in names if "/" in name}
