@@ -3,7 +3,7 @@
 !> FASTSTRIP_OWN_LAPACK is on, as of the Python wheel.
 !>
 !> The same eliminations in the same order as LAPACK's, but in plain loops, which do for systems of
-!> few diagonals. Arguments are checked by the callers; a triangle that is not the upper one is told.
+!> few diagonals. Arguments are checked by the callers; a triangle but the upper one is told.
 module faststrip_numerics_lapack
     use faststrip_base_kinds, only: wp
     implicit none

@@ -129,8 +129,9 @@ class Package(unittest.TestCase):
         with tarfile.open(self.source) as archive:
             names = {"/".join(name.split("/")[1:]) for name in archive.getnames()}
         for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE",
-                     "pyproject.toml", "src/lapack_small/lapack.f90", "python/faststrip/__init__.py",
-                     "src/faststrip/faststrip.f90", "tools/cmake/public_names.cmake"):
+                     "pyproject.toml", "python/faststrip/__init__.py",
+                     "src/faststrip/faststrip.f90", "src/lapack_small/lapack.f90",
+                     "tools/cmake/public_names.cmake"):
             self.assertIn(name, names)
         folders = {name.split("/")[0] for name in names if "/" in name}
         self.assertEqual(folders, {"include", "python", "src", "tools"})
