@@ -27,16 +27,20 @@ SITE = ROOT / "out" / "docs"
 # The navigation: groups of pages, what they are called there, file, page.
 GROUPS = (
     ("Begin", (
-        ("faststrip", "README.md", "index.html"),)),
+        ("faststrip", "README.md", "index.html"),
+        ("Start here", "docs/start.md", "start.html"))),
     ("Tutorials", (
         ("A worn wheel", "docs/tutorial_worn_wheel.md", "tutorial_worn_wheel.html"),
         ("Through a curve", "docs/tutorial_curve.md", "tutorial_curve.html"),
         ("Conicity", "docs/tutorial_conicity.md", "tutorial_conicity.html"),
-        ("A table for an old code", "docs/tutorial_table.md", "tutorial_table.html"))),
+        ("A table for an old code", "docs/tutorial_table.md", "tutorial_table.html"),
+        ("Into Fortran 77", "docs/tutorial_fortran77.md", "tutorial_fortran77.html"),
+        ("How accurate is it", "docs/tutorial_accuracy.md", "tutorial_accuracy.html"))),
     ("Use", (
         ("Usage", "docs/usage.md", "usage.html"),
         ("Formats", "docs/formats.md", "formats.html"),
         ("Limitations and errors", "docs/errors.md", "errors.html"),
+        ("From FASTSIM or CONTACT", "docs/migration.md", "migration.html"),
         ("Embedding", "docs/embedding.md", "embedding.html"))),
     ("Behind it", (
         ("Method", "docs/method.md", "method.html"),

@@ -7,7 +7,7 @@
     fortitude   Fortran files, by the rules of tools/fortitude.toml
     shellcheck  shell scripts; skipped where it is not installed (--install installs it from Debian)
     columns     at most 100 characters in a line; 120 for an assertion of .pf, which is one line;
-                tables, lines with an address and what programs print are free in Markdown
+                tables, CSV, lines with an address and what programs print are free in Markdown
     blanks      no tab, no blank at the end of a line, one end of line at the end of a file
 
 Checked are the files that git knows or would take; without git all that do not lie below build/,
@@ -134,7 +134,7 @@ def columns(folder, names, _):
         printed = False
         for number, line in enumerate(lines, start=1):
             if name.endswith(".md") and line.startswith("```"):
-                printed = line == "```output"
+                printed = line in ("```output", "```csv")
             free = name.endswith(".md") and (printed or line.lstrip().startswith("|")
                                              or "://" in line or "<!--" in line)
             limit = ASSERTION if name.endswith(".pf") and line.lstrip().startswith("@") else most

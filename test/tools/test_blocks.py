@@ -27,7 +27,7 @@ class OfTheProject(unittest.TestCase):
                  for block in blocks.blocks_of(path.read_text(encoding="utf-8"))
                  if block.language in ("sh", "python")]
         run = [block for block in found if block.runs()]
-        self.assertGreater(len(run), 20)
+        self.assertGreater(len(run), 70)
         self.assertLess(len(found) - len(run), 0.25 * len(found))
 
 
