@@ -61,6 +61,7 @@ module faststrip_command_revision
     implicit none
     private
 
+    character(len=*), parameter, public :: version = '{version}'
     character(len=*), parameter, public :: revision = 'mutant'
 end module faststrip_command_revision
 """
@@ -295,7 +296,9 @@ class Base:
     def build(self):
         """Compile what has changed, or uses a module that has."""
         if (self.folder / REVISION).parent.exists():
-            (self.folder / REVISION).write_text(REVISION_TEXT, encoding="utf-8")
+            manifest = tomllib.loads((self.folder / "fpm.toml").read_text(encoding="utf-8"))
+            (self.folder / REVISION).write_text(REVISION_TEXT.format(version=manifest["version"]),
+                                                encoding="utf-8")
         generated = self.folder / RUNNER
         generated.parent.mkdir(parents=True, exist_ok=True)
         call([self.python, "tools/pf2f90.py", "--target", generated.parent], self.folder)

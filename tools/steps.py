@@ -29,6 +29,9 @@
                 build, then install program, library, modules, header, man page there
   package       make the Python package for pip, with the library in it, and its source
                 distribution; in out/package/
+  release [--check]
+                check versions, documents and stored results, then make the Python package, its
+                source distribution and the sources with the site; in out/release/
   docs          build the site: pages, run where they have pictures, and the Fortran interface;
                 in out/docs/
   embed         build, then time calls from Fortran, F77, C and Python; in out/embed/
@@ -51,6 +54,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LOGS = pathlib.Path("build/logs")
@@ -234,16 +238,20 @@ def git(*words):
 
 
 def write_revision():
-    """The module that tells the programs what they were built from; untouched if it is right."""
+    """The module that tells the programs what they are and what they were built from; untouched if
+    it is right."""
+    with open("fpm.toml", "rb") as file:
+        version = tomllib.load(file)["version"]
     revision = (os.path.exists(".git") and git("rev-parse", "--short", "HEAD")) or "unknown"
     if revision != "unknown" and git("status", "--porcelain"):
         revision += "-dirty"
     text = f"""\
-!> Written by ./run: which revision the program was built from.
+!> Written by ./run: which version the program is, by fpm.toml, and of which revision.
 module faststrip_command_revision
     implicit none
     private
 
+    character(len=*), parameter, public :: version = '{version}'
     character(len=*), parameter, public :: revision = '{revision}'
 end module faststrip_command_revision
 """
@@ -597,6 +605,17 @@ def package():
     heading("done: pip install out/package/*.whl")
 
 
+def release(*words):
+    if words not in ((), ("--check",)):
+        raise Trouble(f"release takes nothing or --check, not {' '.join(words)}", code=2)
+    do(sys.executable, "tools/release.py", "--check")
+    if not words:
+        docs()
+        package()
+        do(sys.executable, "tools/release.py")
+        heading("done: out/release/")
+
+
 def embed():
     out = folder("embed")
     install_below(ROOT / "build" / "embed")
@@ -638,10 +657,11 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, extremes,
-    forces, scenes, stored, report, install, package, docs, embed, tables, compilers, clean)}
+    forces, scenes, stored, report, install, package, release, docs, embed, tables, compilers,
+    clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None, "speed": None}
+         "hostile": None, "stored": None, "report": None, "speed": None, "release": None}
 
 
 def main(command="", *words):

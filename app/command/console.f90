@@ -8,7 +8,7 @@ module faststrip_command_console
     use faststrip_files_csv, only: csv_writer_t, put_comment
     use faststrip_base_text, only: integer_text, lower_case
     use faststrip_command_machine, only: compiler_name, compiler_flags
-    use faststrip_command_revision, only: revision
+    use faststrip_command_revision, only: revision, version
     use faststrip_command_system, only: set_progress, set_speaker, is_printed
     implicit none
     private
@@ -20,8 +20,6 @@ module faststrip_command_console
     integer, parameter :: exit_bad_input = 1
     integer, parameter :: exit_usage = 2
     integer, parameter :: exit_no_convergence = 3
-
-    character(len=*), parameter :: version = '0.1.0'
 
     ! Which of the two programs speaks.
     character(len=16) :: speaker = 'faststrip'
