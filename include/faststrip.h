@@ -545,6 +545,37 @@ int faststrip_conicity(int n, const double *y, const double *delta_r, int m,
 int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *text,
                                     size_t length);
 
+/* A table of creep forces on Hertz ellipses, made by `faststrip lookup make`. It is not changed by
+ * looking up: all threads may share one. */
+typedef struct faststrip_lookup faststrip_lookup;
+
+enum faststrip_lookup_order { FASTSTRIP_LINEAR = 1, FASTSTRIP_CUBIC = 3 };
+
+/* Open a table from the bytes of its file, which are copied and may go. What is damaged, cut or of
+ * another version is told (121), in words too if text is not null. This allocates,
+ * faststrip_lookup_free frees; a null table is left alone. */
+int faststrip_lookup_open(const void *bytes, size_t length, faststrip_lookup **lookup, char *text,
+                          size_t text_length);
+int faststrip_lookup_free(faststrip_lookup **lookup);
+
+/* 23 numbers about a table: Poisson's ratio; the 99th percentile of the errors that it was made
+ * for; fresh contacts that it was judged by; least and most a/b; mean of the errors of Fx, Fy (over
+ * mu N) and Mz (over mu N c) by linear interpolation, their 99th percentiles, the worst; the same
+ * nine by cubic interpolation. */
+int faststrip_lookup_about(const faststrip_lookup *lookup, double numbers[23]);
+
+/* Look forces up, for Coulomb friction and like materials. states has eight numbers of each of n
+ * states: semi-axes a (along the rolling direction) and b, mm, load, N, mu, shear modulus, MPa,
+ * cksi, ceta, cphi (rad/mm). forces becomes fx, fy, N, mz, N mm, of each, about the middle of the
+ * ellipse. jacobians, if not null, becomes 24 numbers of each: number 3 j + i is the derivative of
+ * force i by number j of the state, from 0. Creepages may be of any size: the table ends where all
+ * slides. a/b must be within the table (109). states' status goes to codes, if not null; one that
+ * fails has zeros (a number that is not finite 101, a load not above 0 105, others not above 0
+ * 100), the others go on, and the call has the status of the first. Nothing is allocated. */
+int faststrip_lookup_forces(const faststrip_lookup *lookup, enum faststrip_lookup_order order,
+                            int n, const double *states, double *forces, double *jacobians,
+                            int *codes);
+
 #ifdef __cplusplus
 }
 #endif

@@ -36,6 +36,7 @@ module faststrip_command_options
         type(option_t), allocatable :: options(:)       !! what it knows
         type(argument_t), allocatable :: arguments(:)   !! what it was given besides
         logical :: reads = .true.                       !! are these files to read?
+        integer :: n_words = 1                          !! words of the name on the command line
     end type command_t
 
 contains
@@ -65,7 +66,7 @@ contains
         call usage_error('unknown subcommand: ' // command_argument(1), '')
     end subroutine refuse_subcommand
 
-    !> Read the command line from its second word on. Prints the help and ends the program if
+    !> Read the command line from behind the name on. Prints the help and ends the program if
     !> asked for it; ends it with a usage error for an unknown option, a missing value, a wrong
     !> number of arguments, or an output that is an input or another output.
     subroutine parse_command(command, n_arguments, n_optional)
@@ -79,7 +80,7 @@ contains
 
         allocate (command%arguments(0))
         only_arguments = .false.
-        i = 2
+        i = 1 + command%n_words
         do while (i <= command_argument_count())
             word = command_argument(i)
             i = i + 1

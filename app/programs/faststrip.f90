@@ -11,6 +11,7 @@ program faststrip_main
     use faststrip_command_wheelset, only: run_wheelset
     use faststrip_command_conicity, only: run_conicity
     use faststrip_command_explore, only: run_explore
+    use faststrip_command_lookup, only: run_lookup
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -24,6 +25,7 @@ program faststrip_main
     case ('wheelset'); call run_wheelset()
     case ('conicity'); call run_conicity()
     case ('explore'); call run_explore()
+    case ('lookup'); call run_lookup()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -48,6 +50,7 @@ contains
         call say('  wheelset CASE.nml      contacts of a wheelset on a track, one row a contact')
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
         call say('  conicity               contact geometry and equivalent conicity of a wheelset')
+        call say('  lookup ACTION          tables of creep forces: made, judged, looked up')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  explore                a page to play with, of the Python package')
         call say('')

@@ -27,6 +27,7 @@ from ._contact import (
 )
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
+from ._lookup import LookedUp, Lookup
 from ._many import ManyResult, solve_many
 from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
 from ._wear import Friction, StripWear, Wear, WearLaw
@@ -41,6 +42,8 @@ __all__ = [
     "Friction",
     "Gap",
     "LibraryNotFound",
+    "LookedUp",
+    "Lookup",
     "ManyResult",
     "Material",
     "Profile",

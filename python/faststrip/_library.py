@@ -163,6 +163,10 @@ def _declare(library: ctypes.CDLL) -> None:
         "wheelset_get_wear": [handle, c_int, c_void_p, number, POINTER(number)],
         "contact_functions": [*[c_void_p] * 3, c_int, c_int, *[c_void_p] * 3, c_char_p, c_size_t],
         "conicity": [c_int, *[c_void_p] * 2, c_int, *[c_void_p] * 4, c_char_p, c_size_t],
+        "lookup_open": [c_char_p, c_size_t, POINTER(handle), c_char_p, c_size_t],
+        "lookup_free": [POINTER(handle)],
+        "lookup_about": [handle, POINTER(number)],
+        "lookup_forces": [handle, c_int, c_int, *[c_void_p] * 4],
         "wheelset_last_message": [handle, c_char_p, c_size_t],
     }
     for name, types in arguments.items():

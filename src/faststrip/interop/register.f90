@@ -17,11 +17,11 @@ module faststrip_interop_register
     private
 
     public :: enter_register, leave_register, look_up_register
-    public :: kind_contact, kind_wheelset
+    public :: kind_contact, kind_wheelset, kind_lookup
 
     !> What a handle can stand for: one of a kind is none of another.
     !> Given: numbers of kinds.
-    integer, parameter :: kind_contact = 1, kind_wheelset = 2
+    integer, parameter :: kind_contact = 1, kind_wheelset = 2, kind_lookup = 3
 
     ! Bits of a handle for the place; the rest, but the sign, counts how often it was given out.
     integer, parameter :: place_bits = 20

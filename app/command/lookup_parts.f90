@@ -1,0 +1,116 @@
+!> Work on a lookup table that may end at any moment: after each a/b all that was solved is in a
+!> file, from which it is gone on with, and files of several processes are joined.
+!>
+!> Such a file is a table whose other values are NaN: no host takes it for one.
+module faststrip_command_lookup_parts
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
+    use, intrinsic :: iso_fortran_env, only: int8, int64, real32
+    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_bad_argument
+    use faststrip_command_console, only: progress
+    use faststrip_command_lookup_direct, only: direct_t
+    use faststrip_command_lookup_fill, only: fill_shape, nodes_in
+    use faststrip_files_bytes, only: read_bytes, write_bytes
+    use faststrip_lookup_bytes, only: open_lookup, pack_lookup
+    use faststrip_lookup_faces, only: n_forces
+    use faststrip_lookup_table, only: lookup_t
+    implicit none
+    private
+
+    public :: forget_values, solve_part, take_values, is_solved, work_name
+
+contains
+
+    !> The file of work that goes on.
+    pure function work_name(path) result(name)
+        character(len=*), intent(in) :: path !! of the table
+        character(len=:), allocatable :: name
+
+        name = path // '.unfinished'
+    end function work_name
+
+    !> A table of which nothing is solved.
+    subroutine forget_values(lookup)
+        type(lookup_t), intent(inout) :: lookup !! begun
+
+        lookup%values = ieee_value(1.0_real32, ieee_quiet_nan)
+    end subroutine forget_values
+
+    !> Is an a/b solved?
+    pure logical function is_solved(lookup, i_shape)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: i_shape !! which a/b
+
+        integer(int64) :: n
+
+        n = n_forces*(nodes_in(lookup)/lookup%shape%n)
+        is_solved = .not. any(ieee_is_nan(lookup%values((i_shape - 1)*n + 1:i_shape*n)))
+    end function is_solved
+
+    !> Solve what is missing of a part: every so manyth a/b.
+    subroutine solve_part(workers, part, parts, path, lookup, status)
+        type(direct_t), intent(inout) :: workers(:) !! one for each thread
+        integer, intent(in) :: part, parts          !! which one of how many
+        character(len=*), intent(in) :: path        !! file of the work; empty: none is kept
+        type(lookup_t), intent(inout) :: lookup     !! begun
+        type(status_t), intent(out) :: status       !! of the method; of the file
+
+        integer(int8), allocatable :: bytes(:)
+        integer :: i
+
+        call clear_status(status)
+        do i = part, lookup%shape%n, parts
+            call progress('a/b', i - 1, lookup%shape%n)
+            if (is_solved(lookup, i)) cycle
+            call fill_shape(workers, i, lookup, status)
+            if (.not. is_error(status) .and. len(path) > 0) then
+                call pack_lookup(lookup, bytes)
+                call write_bytes(path, bytes, status)
+            end if
+            if (is_error(status)) return
+        end do
+    end subroutine solve_part
+
+    !> Take what a file has solved of the same table.
+    subroutine take_values(path, lookup, status)
+        character(len=*), intent(in) :: path    !! of a part, or of unfinished work
+        type(lookup_t), intent(inout) :: lookup !! begun
+        type(status_t), intent(out) :: status
+            !! of the file; `st_bad_argument`: of another table, method or revision
+
+        type(lookup_t) :: other
+        integer(int8), allocatable :: bytes(:)
+        integer(int64) :: first, last
+        integer :: i
+
+        call read_bytes(path, bytes, status)
+        if (is_error(status)) return
+        call open_lookup(bytes, other, status, may_lack=.true.)
+        if (is_error(status)) then
+            status%message = trim(status%message) // ' (' // path // ')'
+            return
+        end if
+        if (.not. are_alike(lookup, other)) then
+            call set_status(status, st_bad_argument, 'a part must be of the same nodes, ' // &
+                            'method and revision, got ' // path)
+            return
+        end if
+        do i = 1, lookup%shape%n
+            if (.not. is_solved(other, i)) cycle
+            last = i*(size(lookup%values, kind=int64)/lookup%shape%n)
+            first = last - size(lookup%values, kind=int64)/lookup%shape%n + 1
+            lookup%values(first:last) = other%values(first:last)
+        end do
+    end subroutine take_values
+
+    !> Are two tables of the same nodes, solved in the same way?
+    pure logical function are_alike(one, other)
+        type(lookup_t), intent(in) :: one, other
+
+        are_alike = one%q%n == other%q%n .and. one%ratio%n == other%ratio%n .and. &
+                    one%shape%n == other%shape%n
+        if (.not. are_alike) return
+        are_alike = all(one%q%x == other%q%x) .and. all(one%ratio%x == other%ratio%x) .and. &
+                    all(one%shape%x == other%shape%x) .and. all(one%scale == other%scale) .and. &
+                    one%text == other%text
+    end function are_alike
+end module faststrip_command_lookup_parts

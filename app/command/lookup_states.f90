@@ -1,0 +1,103 @@
+!> States of Hertz contacts for lookup tables: those of nodes, and fresh ones that tables are judged
+!> by.
+module faststrip_command_lookup_states
+    use faststrip_base_kinds, only: wp, pi, log_10
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_command_lookup_direct, only: direct_t, solve_direct
+    use faststrip_lookup_faces, only: creepages_at, n_forces
+    use faststrip_lookup_hertz, only: n_lookup_state
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    implicit none
+    private
+
+    public :: shape_scale, phi_at, fresh_state, fresh_coordinates
+
+    !> Coordinates of a point that make a fresh state.
+    !> Given: what it draws.
+    integer, parameter :: fresh_coordinates = 8
+
+    ! Creepage of a node at which nothing slides, and all does: forces there are the limits to less
+    ! than the numbers of a table tell.
+    ! Tuned [1]. Origin: chosen.
+    real(wp), parameter :: least_creepage = 1.0e-5_wp, most_creepage = 1.0e4_wp
+    ! A contact to solve for a node. None of it matters.
+    ! Given: units of a table.
+    real(wp), parameter :: node_size = 6.0_wp, node_load = 1.0e5_wp, node_mu = 0.3_wp, &
+                           node_shear = 82000.0_wp
+
+contains
+
+    !> What creepages of a table are scaled by: Kalker's C11 and C22, and for spin C22 times the
+    !> mean distance of the ellipse's ends from its middle over c. So spin counts as much as the
+    !> lateral creepage where its pole enters the patch, which is where forces turn; the linear
+    !> theory's C23 would have this happen at a ratio of 0.05 for a/b = 0.1.
+    function shape_scale(log_ratio, nu, status) result(scale)
+        real(wp), intent(in) :: log_ratio     !! ln(a/b)
+        real(wp), intent(in) :: nu            !! Poisson's ratio
+        type(status_t), intent(out) :: status !! of `kalker_coefficients`
+        real(wp) :: scale(3)
+
+        type(kalker_coefficients_t) :: c
+
+        call kalker_coefficients(exp(log_ratio), nu, c, status)
+        scale = [c%c11, c%c22, c%c22*cosh(0.5_wp*log_ratio)]
+    end function shape_scale
+
+    !> Phi of a place, solved directly.
+    subroutine phi_at(direct, log_ratio, scale, face, q, s, t, phi, status)
+        type(direct_t), intent(inout) :: direct
+        real(wp), intent(in) :: log_ratio   !! ln(a/b)
+        real(wp), intent(in) :: scale(3)    !! of the creepages there
+        integer, intent(in) :: face         !! see `faststrip_lookup_faces`
+        real(wp), intent(in) :: q, s, t     !! the same
+        real(wp), intent(out) :: phi(n_forces)
+        type(status_t), intent(out) :: status !! of the method
+
+        real(wp) :: x(3), part, forces(n_forces), linear
+        real(wp) :: state(n_lookup_state)
+
+        part = max(q, least_creepage)
+        x = creepages_at(face, part, s, t, most_creepage)
+        state(1) = node_size*exp(0.5_wp*log_ratio)
+        state(2) = node_size*exp(-0.5_wp*log_ratio)
+        state(3:5) = [node_load, node_mu, node_shear]
+        linear = node_shear*node_size**2/(node_mu*node_load)
+        state(6:8) = x/(scale*linear*[1.0_wp, 1.0_wp, node_size])
+        call solve_direct(direct, state, forces, status)
+        if (is_error(status)) return
+        phi = forces/(node_mu*node_load*[1.0_wp, 1.0_wp, node_size])/part
+    end subroutine phi_at
+
+    !> A fresh contact: a/b, size, load, friction evenly in their logarithms, size of the normalised
+    !> creepages from 0.01 to 100, of any direction; two of five lack one of them, one of five two.
+    function fresh_state(point, first, last, nu, status) result(state)
+        real(wp), intent(in) :: point(fresh_coordinates) !! from 0 to 1
+        real(wp), intent(in) :: first, last   !! least and largest ln(a/b)
+        real(wp), intent(in) :: nu            !! Poisson's ratio
+        type(status_t), intent(out) :: status !! of `shape_scale`
+        real(wp) :: state(n_lookup_state)
+
+        real(wp) :: log_ratio, height, angle, x(3), c
+
+        log_ratio = first + point(1)*(last - first)
+        height = 2.0_wp*point(3) - 1.0_wp
+        angle = 2.0_wp*pi*point(4)
+        x = [height, sqrt(1.0_wp - height**2)*cos(angle), sqrt(1.0_wp - height**2)*sin(angle)]
+        select case (int(15.0_wp*point(5)))
+        case (0, 1, 2); x(3) = 0.0_wp
+        case (3, 4, 5); x(1) = 0.0_wp
+        case (6); x(2:3) = 0.0_wp
+        case (7); x([1, 3]) = 0.0_wp
+        case (8); x(1:2) = 0.0_wp
+        end select
+        x = x*exp(log_10*(4.0_wp*point(2) - 2.0_wp))
+        c = exp(log_10*1.5_wp*point(6))
+        state(1) = c*exp(0.5_wp*log_ratio)
+        state(2) = c*exp(-0.5_wp*log_ratio)
+        state(3) = exp(log_10*(3.0_wp + 3.0_wp*point(7)))
+        state(4) = 0.05_wp + 0.65_wp*point(8)
+        state(5) = 82000.0_wp ! Given: steel, MPa
+        state(6:8) = x*state(4)*state(3) &
+                     /(state(5)*c**2*shape_scale(log_ratio, nu, status)*[1.0_wp, 1.0_wp, c])
+    end function fresh_state
+end module faststrip_command_lookup_states

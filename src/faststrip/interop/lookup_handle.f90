@@ -1,0 +1,112 @@
+!> Lookup tables behind the handles of the C and F77 faces.
+module faststrip_interop_lookup_handle
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_loc, c_f_pointer
+    use, intrinsic :: iso_fortran_env, only: int8
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_workspace_too_small, st_ok
+    use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
+                                          kind_lookup
+    use faststrip_lookup_bytes, only: open_lookup
+    use faststrip_lookup_hertz, only: look_up_hertz
+    use faststrip_lookup_table, only: lookup_t
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    implicit none
+    private
+
+    public :: new_lookup, free_lookup, find_lookup, look_up_states, describe_lookup, n_about
+
+    !> Numbers about a table.
+    !> Given: by the faces.
+    integer, parameter :: n_about = 23
+
+contains
+
+    !> Open a table and make a handle for it.
+    subroutine new_lookup(bytes, number, status)
+        integer(int8), intent(in), contiguous :: bytes(:) !! of a file
+        integer(c_intptr_t), intent(out) :: number        !! of the handle; 0 when there is an error
+        type(status_t), intent(out) :: status             !! of `open_lookup`, `enter_register`
+
+        type(lookup_t), pointer :: lookup
+        type(environment_t) :: environment
+        integer :: failure
+
+        number = 0
+        allocate (lookup, stat=failure)
+        if (failure /= 0) then
+            call set_status(status, st_workspace_too_small, 'not enough memory for a lookup table')
+            return
+        end if
+        call hold_environment(environment)
+        call open_lookup(bytes, lookup, status)
+        call restore_environment(environment)
+        if (.not. is_error(status)) call enter_register(c_loc(lookup), kind_lookup, number, status)
+        if (is_error(status)) deallocate (lookup)
+    end subroutine new_lookup
+
+    !> Free a table; nothing happens to what is none.
+    subroutine free_lookup(number, status)
+        integer(c_intptr_t), intent(in) :: number !! as the caller passed it
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no table, or freed
+
+        type(lookup_t), pointer :: lookup
+        type(c_ptr) :: address
+
+        call leave_register(number, kind_lookup, address, status)
+        if (is_error(status)) return
+        call c_f_pointer(address, lookup)
+        deallocate (lookup)
+    end subroutine free_lookup
+
+    !> The table of a number.
+    subroutine find_lookup(number, lookup, status)
+        integer(c_intptr_t), intent(in) :: number       !! as the caller passed it
+        type(lookup_t), pointer, intent(out) :: lookup  !! null if it is none
+        type(status_t), intent(out) :: status           !! `st_bad_argument`: no table, or freed
+
+        type(c_ptr) :: address
+
+        lookup => null()
+        call look_up_register(number, kind_lookup, address, status)
+        if (.not. is_error(status)) call c_f_pointer(address, lookup)
+    end subroutine find_lookup
+
+    !> Forces of many states; the status of the first that fails.
+    subroutine look_up_states(lookup, order, states, forces, status, jacobians, codes)
+        type(lookup_t), intent(in) :: lookup                 !! opened
+        integer(c_int), intent(in) :: order                  !! 1 or 3
+        real(c_double), intent(in) :: states(:, :)           !! numbers, states
+        real(c_double), intent(inout) :: forces(:, :)        !! forces, states
+        type(status_t), intent(out) :: status                !! of `look_up_hertz`
+        real(c_double), intent(inout), optional :: jacobians(:, :, :) !! forces, numbers, states
+        integer(c_int), intent(inout), optional :: codes(:)  !! status of each state
+
+        type(environment_t) :: environment
+        type(status_t) :: found
+        integer :: i
+
+        call clear_status(status)
+        call hold_environment(environment)
+        do i = 1, size(states, 2)
+            if (present(jacobians)) then
+                call look_up_hertz(lookup, order, states(:, i), forces(:, i), found, &
+                                   jacobians(:, :, i))
+            else
+                call look_up_hertz(lookup, order, states(:, i), forces(:, i), found)
+            end if
+            if (present(codes)) codes(i) = found%code
+            if (found%code /= st_ok .and. status%code == st_ok) status = found
+        end do
+        call restore_environment(environment)
+    end subroutine look_up_states
+
+    !> Numbers about a table, as the header has them.
+    pure function describe_lookup(lookup) result(numbers)
+        type(lookup_t), intent(in) :: lookup !! opened
+        real(c_double) :: numbers(n_about)
+
+        numbers = [lookup%nu, lookup%promised, real(lookup%tested, c_double), &
+                   exp(lookup%shape%x(1)), exp(lookup%shape%x(lookup%shape%n)), &
+                   reshape(lookup%errors, [size(lookup%errors)])]
+    end function describe_lookup
+end module faststrip_interop_lookup_handle

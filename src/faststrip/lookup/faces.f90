@@ -1,0 +1,237 @@
+!> Creep forces over three normalised creepages, as lookup tables hold them.
+!>
+!> The creepages x1 (longitudinal), x2 (lateral), x3 (spin) are scaled so that each alone would give
+!> mu N by the linear theory at 1. For Coulomb friction and like materials forces keep to two
+!> mirrors, x1 to -x1 with Fx to -Fx, and (x2, x3) to (-x2, -x3) with (Fy, Mz) to (-Fy, -Mz): tables
+!> hold x1, x3 >= 0. All of them fit on six faces, of which creepage is the largest and which sign
+!> x2 has: with r the largest and s and t the other two over it,
+!>
+!>     q = r/(1 + r),  f = q Phi(q, s, t),
+!>
+!> q from 0, nothing slides, to 1, all slides, whatever the creepages. Phi, which is tabled, is the
+!> linear theory's force at q = 0 and that of full sliding at q = 1; where forces are linear in the
+!> creepages it is linear in s and t. f is (Fx, Fy, Mz/c) over mu N, c a length of the patch.
+module faststrip_lookup_faces
+    use, intrinsic :: iso_fortran_env, only: real32, int64
+    use faststrip_base_kinds, only: wp
+    use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, linear_stencil, cubic_stencil
+    implicit none
+    private
+
+    public :: faces_cell_t, find_faces_cell, add_faces, finish_faces, creepages_at
+    public :: n_faces, n_forces, lookup_linear, lookup_cubic, force_signs
+
+    !> Faces of a table, and forces at each node.
+    !> Given: three creepages, one of them of either sign; Fx, Fy, Mz.
+    integer, parameter :: n_faces = 6, n_forces = 3
+
+    !> Orders of interpolation.
+    !> Given: the degrees.
+    integer, parameter :: lookup_linear = 1, lookup_cubic = 3
+
+    ! The two creepages that are not the largest.
+    integer, parameter :: others(2, 3) = reshape([2, 3, 1, 3, 1, 2], [2, 3])
+
+    !> Where creepages lie on the faces, and the weights of the nodes about them.
+    type :: faces_cell_t
+        integer :: face = 1               !! 1 to `n_faces`
+        integer :: largest = 1            !! which creepage
+        integer :: width = 2              !! of the stencils, nodes
+        real(wp) :: q = 0.0_wp            !! r/(1 + r)
+        real(wp) :: s = 0.0_wp, t = 0.0_wp !! the others over the largest
+        real(wp) :: sign_of(3) = 1.0_wp   !! of the creepages, that of x2 after the mirror
+        type(stencil_t) :: in_q, in_s, in_t
+    end type faces_cell_t
+
+contains
+
+    !> Where creepages lie. No number may be infinite.
+    pure subroutine find_faces_cell(q_axis, ratio_axis, order, x, cell)
+        type(lookup_axis_t), intent(in) :: q_axis     !! from 0 to 1
+        type(lookup_axis_t), intent(in) :: ratio_axis !! from 0 to 1
+        integer, intent(in) :: order                  !! `lookup_linear` or `lookup_cubic`
+        real(wp), intent(in) :: x(3)                  !! normalised creepages
+        type(faces_cell_t), intent(inout) :: cell     !! found
+
+        real(wp) :: size_of(3), r, per_r
+
+        cell%sign_of(1) = sign(1.0_wp, x(1))
+        cell%sign_of(3) = sign(1.0_wp, x(3))
+        cell%sign_of(2) = sign(1.0_wp, x(2)*cell%sign_of(3))
+        size_of = abs(x)
+        cell%largest = 1
+        if (size_of(2) > size_of(1)) cell%largest = 2
+        if (size_of(3) > size_of(cell%largest)) cell%largest = 3
+        cell%face = 2*cell%largest - 1
+        if (cell%sign_of(2) < 0.0_wp) cell%face = cell%face + 1
+        r = size_of(cell%largest)
+        cell%q = r/(1.0_wp + r)
+        cell%s = 0.0_wp
+        cell%t = 0.0_wp
+        if (r > 0.0_wp) then
+            per_r = 1.0_wp/r
+            ! At most 1, also where rounding would have more.
+            cell%s = min(size_of(others(1, cell%largest))*per_r, 1.0_wp)
+            cell%t = min(size_of(others(2, cell%largest))*per_r, 1.0_wp)
+        end if
+        if (order == lookup_linear) then
+            cell%width = 2
+            call linear_stencil(q_axis, cell%q, cell%in_q)
+            call linear_stencil(ratio_axis, cell%s, cell%in_s)
+            call linear_stencil(ratio_axis, cell%t, cell%in_t)
+        else
+            cell%width = 4
+            call cubic_stencil(q_axis, cell%q, cell%in_q)
+            call cubic_stencil(ratio_axis, cell%s, cell%in_s)
+            call cubic_stencil(ratio_axis, cell%t, cell%in_t)
+        end if
+    end subroutine find_faces_cell
+
+    !> Add Phi and its derivatives by q, s, t, times a weight; and times another one Phi alone.
+    pure subroutine add_faces(values, faces, n_q, n_ratio, cell, weight, slope_weight, phi, slope)
+        real(real32), intent(in), contiguous :: values(:) !! all values of a table
+        integer, intent(in) :: faces          !! number of the set of faces, from 1
+        integer, intent(in) :: n_q, n_ratio   !! nodes of the axes
+        type(faces_cell_t), intent(in) :: cell !! of `find_faces_cell`
+        real(wp), intent(in) :: weight        !! of Phi and its derivatives
+        real(wp), intent(in) :: slope_weight  !! of what goes to `slope`
+        real(wp), intent(inout) :: phi(3, 4)  !! Phi; its derivatives by q, s, t
+        real(wp), intent(inout) :: slope(3)   !! derivative by a coordinate of the set of faces
+
+        real(wp) :: v(3, 4)
+        integer(int64) :: first, row, sheet
+
+        row = n_forces*int(n_q, int64)
+        sheet = n_ratio*row
+        first = ((faces - 1_int64)*n_faces + cell%face - 1)*n_ratio*sheet &
+                + (cell%in_t%first - 1)*sheet + (cell%in_s%first - 1)*row &
+                + n_forces*(cell%in_q%first - 1)
+        if (cell%width == 2) then
+            call sum_linear(values(first + 1:), row, sheet, cell, v)
+        else
+            call sum_cubic(values(first + 1:), row, sheet, cell, v)
+        end if
+        phi = phi + weight*v
+        slope = slope + slope_weight*v(:, 1)
+    end subroutine add_faces
+
+    !> Phi and its derivatives from the eight nodes of a cell.
+    pure subroutine sum_linear(values, row, sheet, cell, v)
+        real(real32), intent(in) :: values(*)      ! from the cell's first node on
+        integer(int64), intent(in) :: row, sheet   ! numbers from one row, or sheet, to the next
+        type(faces_cell_t), intent(in) :: cell
+        real(wp), intent(out) :: v(3, 4)
+
+        real(wp) :: a, b, c, d, by_q(4), one, two
+        integer :: i
+
+        do i = 1, n_forces
+            a = values(i)
+            b = values(row + i)
+            c = values(sheet + i)
+            d = values(sheet + row + i)
+            by_q = [values(i + n_forces) - a, values(row + i + n_forces) - b, &
+                    values(sheet + i + n_forces) - c, values(sheet + row + i + n_forces) - d]
+            a = a + cell%in_q%w(2)*by_q(1)
+            b = b + cell%in_q%w(2)*by_q(2)
+            c = c + cell%in_q%w(2)*by_q(3)
+            d = d + cell%in_q%w(2)*by_q(4)
+            one = a + cell%in_s%w(2)*(b - a)
+            two = c + cell%in_s%w(2)*(d - c)
+            v(i, 1) = one + cell%in_t%w(2)*(two - one)
+            v(i, 4) = cell%in_t%dw(2)*(two - one)
+            v(i, 3) = cell%in_s%dw(2)*(b - a + cell%in_t%w(2)*(d - c - (b - a)))
+            one = by_q(1) + cell%in_s%w(2)*(by_q(2) - by_q(1))
+            two = by_q(3) + cell%in_s%w(2)*(by_q(4) - by_q(3))
+            v(i, 2) = cell%in_q%dw(2)*(one + cell%in_t%w(2)*(two - one))
+        end do
+    end subroutine sum_linear
+
+    !> The same from 64 nodes.
+    pure subroutine sum_cubic(values, row, sheet, cell, v)
+        real(real32), intent(in) :: values(*)      ! from the first node on
+        integer(int64), intent(in) :: row, sheet   ! numbers from one row, or sheet, to the next
+        type(faces_cell_t), intent(in) :: cell
+        real(wp), intent(out) :: v(3, 4)
+
+        real(wp) :: line(3), line_q(3), plane(3), plane_q(3), plane_s(3)
+        integer(int64) :: at
+        integer :: j, k, i
+
+        v = 0.0_wp
+        do k = 1, 4
+            plane = 0.0_wp
+            plane_q = 0.0_wp
+            plane_s = 0.0_wp
+            do j = 1, 4
+                at = (k - 1)*sheet + (j - 1)*row
+                line = 0.0_wp
+                line_q = 0.0_wp
+                do i = 1, 4
+                    line = line + cell%in_q%w(i)*values(at + 1:at + 3)
+                    line_q = line_q + cell%in_q%dw(i)*values(at + 1:at + 3)
+                    at = at + n_forces
+                end do
+                plane = plane + cell%in_s%w(j)*line
+                plane_q = plane_q + cell%in_s%w(j)*line_q
+                plane_s = plane_s + cell%in_s%dw(j)*line
+            end do
+            v(:, 1) = v(:, 1) + cell%in_t%w(k)*plane
+            v(:, 2) = v(:, 2) + cell%in_t%w(k)*plane_q
+            v(:, 3) = v(:, 3) + cell%in_t%w(k)*plane_s
+            v(:, 4) = v(:, 4) + cell%in_t%dw(k)*plane
+        end do
+    end subroutine sum_cubic
+
+    !> Forces over mu N and their derivatives by the creepages from Phi and its derivatives.
+    pure subroutine finish_faces(cell, phi, f, by_creepage)
+        type(faces_cell_t), intent(in) :: cell
+        real(wp), intent(in) :: phi(3, 4)            !! of `add_faces`
+        real(wp), intent(out) :: f(3)                !! Fx, Fy, Mz/c over mu N
+        real(wp), intent(out) :: by_creepage(3, 3)   !! derivative of the first by the second
+
+        real(wp) :: rest, signs(3)
+        integer :: one, two
+
+        rest = 1.0_wp - cell%q
+        one = others(1, cell%largest)
+        two = others(2, cell%largest)
+        signs = force_signs(cell)
+        f = cell%q*phi(:, 1)*signs
+        ! dq/dr = (1 - q)^2 and q/r = 1 - q: nothing is divided by r, which may be zero.
+        by_creepage(:, one) = rest*phi(:, 3)
+        by_creepage(:, two) = rest*phi(:, 4)
+        by_creepage(:, cell%largest) = rest*(rest*(phi(:, 1) + cell%q*phi(:, 2)) &
+                                             - cell%s*phi(:, 3) - cell%t*phi(:, 4))
+        by_creepage(:, 1) = by_creepage(:, 1)*signs*cell%sign_of(1)
+        by_creepage(:, 2) = by_creepage(:, 2)*signs*cell%sign_of(2)*cell%sign_of(3)
+        by_creepage(:, 3) = by_creepage(:, 3)*signs*cell%sign_of(3)
+    end subroutine finish_faces
+
+    !> What the mirrors do to Fx, Fy and Mz.
+    pure function force_signs(cell) result(signs)
+        type(faces_cell_t), intent(in) :: cell
+        real(wp) :: signs(3)
+
+        signs = [cell%sign_of(1), cell%sign_of(3), cell%sign_of(3)]
+    end function force_signs
+
+    !> The creepages of a place on a face; where all slides, of such a size.
+    pure function creepages_at(face, q, s, t, most) result(x)
+        integer, intent(in) :: face       !! 1 to `n_faces`
+        real(wp), intent(in) :: q, s, t   !! 0 to 1
+        real(wp), intent(in) :: most      !! the largest r
+        real(wp) :: x(3)                  !! normalised creepages
+
+        real(wp) :: r
+        integer :: largest
+
+        largest = (face + 1)/2
+        r = most
+        if (q < most*(1.0_wp - q)) r = q/(1.0_wp - q)
+        x(largest) = r
+        x(others(1, largest)) = s*r
+        x(others(2, largest)) = t*r
+        if (modulo(face, 2) == 0) x(2) = -x(2)
+    end function creepages_at
+end module faststrip_lookup_faces
