@@ -12,8 +12,10 @@
         this.field("words");
         // Names of the code are found whole and by their parts.
         const parts = (text) => text + " " + text.replace(/[_\-/.()`]+/g, " ");
+        // What is explained goes before what is only named alike.
         sections.forEach((entry, id) => this.add({
-            id, heading: parts(entry.heading), page: entry.page, words: parts(entry.words) }));
+            id, heading: parts(entry.heading), page: entry.page, words: parts(entry.words)
+        }, { boost: entry.target.startsWith("api/") ? 0.3 : 1 }));
     });
 
     const find = (text) => {

@@ -161,9 +161,9 @@ def entities():
             continue
         text = path.read_text(encoding="utf-8")
         name = re.search(r"<title>\s*(\S+)", text)
-        summary = re.search(r'<meta name="description" content="([^"]*)"', text)
+        summary = re.search(r'id="text".*?<p>(.*?)</p>', text, re.DOTALL)
         yield (API[0], html.unescape(name[1]), path.relative_to(SITE).as_posix(),
-               plain(html.unescape(summary[1])) if summary else "")
+               plain(summary[1]) if summary else "")
 
 
 def write_search(entries):
