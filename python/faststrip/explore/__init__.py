@@ -1,0 +1,5 @@
+"""A page to play with: one wheel on one rail, solved while its sliders move.
+
+``faststrip-explore`` or ``python -m faststrip.explore`` serves it on this machine only. It needs
+Bokeh: ``pip install faststrip[explore]``.
+"""

@@ -1,0 +1,144 @@
+"""What is on the page: one right wheel on one right rail, as numbers with units."""
+
+from __future__ import annotations
+
+import dataclasses
+import pathlib
+import tempfile
+from typing import NamedTuple, Optional, Tuple, Union
+
+from .._library import FaststripError
+from .._profile import Profile, cant_of
+
+RADIUS = 460.0
+WHEELS = "s1002", "cone20", "cone40"
+RAILS = "uic60", "60e1", "54e1"
+ENDINGS = ".prw .prr .whl .ban .mpt .whe .rai .wheel .csv .txt .dat"
+
+
+class CaseError(Exception):
+    """What is wrong with what was given, in one line."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Shape:
+    """A profile: a name that the library knows, or a file."""
+
+    label: str
+    profile: Union[str, Profile]
+    content: bytes = b""
+
+    @property
+    def is_file(self) -> bool:
+        return isinstance(self.profile, Profile)
+
+
+STANDARD = {"wheel": {name: Shape(name, name) for name in WHEELS},
+            "rail": {name: Shape(name, name) for name in RAILS}}
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """One contact; lengths in mm, N, rad."""
+
+    wheel: Shape = STANDARD["wheel"]["s1002"]
+    rail: Shape = STANDARD["rail"]["uic60"]
+    shift: float = 0.0
+    yaw: float = 0.0
+    load: float = 1.0e5
+    cksi: float = 1.0e-3
+    ceta: float = 5.0e-4
+    cphi: float = 5.0e-5
+    mu: float = 0.3
+    is_vertical: bool = True
+    """is the load the vertical one, and not the normal force?"""
+    given_cant: Optional[float] = None
+    """the tangent by which the rail is turned; None: as it is usual"""
+
+    @property
+    def cant(self) -> float:
+        return cant_of(self.rail.profile, self.given_cant)
+
+    @property
+    def creepage(self) -> Tuple[float, float, float]:
+        return self.cksi, self.ceta, self.cphi
+
+
+class Control(NamedTuple):
+    """A slider: the number of a case that it moves, and its own unit."""
+
+    name: str
+    title: str
+    unit: str
+    scale: float
+    """what one unit is in the case"""
+    low: float
+    high: float
+    step: float
+
+
+CONTROLS = (
+    Control("shift", "lateral displacement y", "mm", 1.0, -10.0, 10.0, 0.1),
+    Control("yaw", "yaw angle", "mrad", 1e-3, -20.0, 20.0, 0.5),
+    Control("load", "wheel load Q", "kN", 1e3, 1.0, 250.0, 1.0),
+    Control("cksi", "longitudinal creepage cksi", "%", 1e-2, -2.0, 2.0, 0.01),
+    Control("ceta", "lateral creepage ceta", "%", 1e-2, -2.0, 2.0, 0.01),
+    Control("cphi", "spin cphi", "rad/m", 1e-3, -1.0, 1.0, 0.005),
+    Control("mu", "coefficient of friction", "-", 1.0, 0.01, 0.8, 0.01),
+)
+CONTROL = {control.name: control for control in CONTROLS}
+DIGITS = 12
+
+
+def to_case(control: Control, value: float) -> float:
+    """A slider's value in the unit of a case, without the noise of the step's last digits."""
+    return float(f"{value * control.scale:.{DIGITS}g}")
+
+
+def to_slider(control: Control, value: float) -> float:
+    """A case's number in the unit of the slider."""
+    return float(f"{value / control.scale:.{DIGITS}g}")
+
+
+def checked(case: Case) -> Case:
+    """A case whose numbers the sliders can show; else CaseError."""
+    for control in CONTROLS:
+        value = to_slider(control, getattr(case, control.name))
+        if not control.low <= value <= control.high:
+            unit = "" if control.unit == "-" else f" {control.unit}"
+            raise CaseError(f"{control.title} must be from {control.low:g} to {control.high:g}"
+                            f"{unit} on the page, got {value:g}")
+    return case
+
+
+def read_shape(kind: str, name: str, content: bytes) -> Shape:
+    """A profile from the content of a file, through the program's readers."""
+    label = pathlib.PurePath(name.replace("\\", "/")).name
+    if not label or label in (".", ".."):
+        raise CaseError(f"the file must have a name, got {name!r}")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, label)
+        try:
+            path.write_bytes(content)
+        except (OSError, ValueError) as problem:
+            raise CaseError(f"cannot keep a file of this name: {label!r} ({problem})") from None
+        try:
+            profile = Profile.read(path, kind=kind)
+        except FaststripError as problem:
+            raise CaseError(problem.message.replace(f"{folder}/", "")) from None
+        except ImportError as problem:
+            raise CaseError(str(problem)) from None
+    return Shape(label, dataclasses.replace(profile, path=label), content)
+
+
+def find_shape(kind: str, name: str) -> Shape:
+    """A profile by name, or from a file of this machine."""
+    if name in STANDARD[kind]:
+        return STANDARD[kind][name]
+    try:
+        content = pathlib.Path(name).read_bytes()
+    except OSError as problem:
+        names = ", ".join(STANDARD[kind])
+        raise CaseError(f"the {kind} must be {names} or a file, got {name} "
+                        f"({problem.strerror})") from None
+    return read_shape(kind, name, content)

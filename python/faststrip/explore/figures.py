@@ -1,0 +1,421 @@
+"""The pictures of the page. Each has its sources of data and is drawn anew only when what it shows
+has changed."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+from bokeh.models import (
+    ColorBar,
+    ColumnDataSource,
+    CustomJSTickFormatter,
+    FixedTicker,
+    HoverTool,
+    Label,
+    Legend,
+    LinearColorMapper,
+    Range1d,
+    Span,
+)
+from bokeh.palettes import viridis
+from bokeh.plotting import figure
+
+from . import fields
+from .case import CONTROL
+from .look import AXIS, BODY, FONT, GREY, GRID, HERTZ, LOOKS, NORM, PALE, SLIP, SMALL, STRIPS
+from .solving import Curve, Outcome
+from .wire import Out
+
+WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
+BORDERS = {"min_border_left": 52, "min_border_right": 8, "min_border_top": 4,
+           "min_border_bottom": 6}
+LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 30.0, 50.0)
+PRESSURES = (200.0, 500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 10000.0, 20000.0)
+ARROW = 0.08  # of the picture's width: the longest arrow
+LATERAL = "y to the field side, mm"
+ROLLING = "x ahead, mm"
+TIMES = (("gap", "gap of the profiles", GREY), ("strips", STRIPS.label, STRIPS.colour),
+         ("hertz", HERTZ.label, HERTZ.colour), ("curve", "two creep curves", GREY),
+         ("pictures", "pictures", GREY), ("norm", NORM.label, NORM.colour))
+SHORTEST, LONGEST = 0.01, 3.0e4  # ms, of the time bar
+
+
+def first_above(values: Sequence[float], value: float) -> float:
+    """The first of rising numbers that is not below a value; else the value."""
+    return next((one for one in values if one >= value), value)
+
+
+class Picture:
+    """A figure with its sources; ``key`` is what it was last drawn of."""
+
+    def __init__(self, out: Out, title: str, x_label: str, y_label: str, *,
+                 width: int = WIDTH, height: int = HEIGHT, **options: Any) -> None:
+        self.x_range = options.pop("x_range", None) or Range1d(-10.0, 10.0)
+        self.y_range = options.pop("y_range", None) or Range1d(-7.0, 7.0)
+        self.figure = figure(
+            title=title, x_axis_label=x_label, y_axis_label=y_label, frame_width=width,
+            frame_height=height, x_range=self.x_range, y_range=self.y_range,
+            output_backend=out.backend, toolbar_location=None, tools="", **{**BORDERS, **options})
+        self._style()
+        self.name = options.get("name", type(self).__name__.lower())
+        self.out = out
+        # What changes from case to case: a title would be laid out anew each time.
+        self.note = Label(x=4, y=height - 14, x_units="screen", y_units="screen", text="",
+                          text_font_size=SMALL, text_color="black", background_fill_color="white",
+                          background_fill_alpha=0.7)
+        self.figure.add_layout(self.note)
+        self.sources: Dict[str, ColumnDataSource] = {}
+        self.key: Any = None
+
+    def _style(self) -> None:
+        plot = self.figure
+        plot.title.text_font_size = FONT
+        plot.title.text_color = "black"
+        plot.grid.grid_line_color = GRID
+        plot.outline_line_color = None
+        plot.axis.axis_label_text_font_size = SMALL
+        plot.axis.axis_label_text_font_style = "normal"
+        plot.axis.axis_label_standoff = 3
+        plot.axis.major_label_text_font_size = SMALL
+        plot.axis.axis_line_color = plot.axis.major_tick_line_color = AXIS
+        plot.axis.minor_tick_line_color = None
+        plot.axis.axis_label_text_color = plot.axis.major_label_text_color = "black"
+
+    def source(self, name: str, columns: str) -> ColumnDataSource:
+        """A source with empty columns."""
+        self.sources[name] = ColumnDataSource({column: [] for column in columns.split()},
+                                              name=f"{self.name}_{name}")
+        return self.sources[name]
+
+    def put(self, name: str, data: Optional[Dict[str, Any]]) -> None:
+        """New data of a source; none empties it."""
+        source = self.sources[name]
+        self.out.put(source, {column: [] for column in source.data} if data is None else data)
+
+    def tell(self, text: str) -> None:
+        """The line in the picture."""
+        self.out.set(self.note, text=text)
+
+    def set_range(self, side: Range1d, start: float, end: float) -> None:
+        """Move a range."""
+        self.out.set(side, start=start, end=end)
+
+    def hover(self, renderer: Any, rows: List[Tuple[str, str]]) -> None:
+        self.figure.add_tools(HoverTool(renderers=[renderer], tooltips=rows))
+
+
+class Profiles(Picture):
+    """Both profiles where they touch."""
+
+    REACH = 44.0  # mm to both sides
+
+    def __init__(self, out: Out) -> None:
+        reach = self.REACH
+        height = 2.0 * reach * HEIGHT / WIDTH
+        super().__init__(out, "Profiles", LATERAL, "z down, mm",
+                         x_range=Range1d(-reach, reach),
+                         y_range=Range1d(0.55 * height, -0.45 * height))
+        for name, colour in (("rail", BODY), ("wheel", PALE)):
+            self.figure.varea("y", "z", "far", source=self.source(name, "y z far"),
+                              fill_color=colour)
+            self.figure.line("y", "z", source=self.sources[name], line_color=AXIS, line_width=1.6)
+        self.figure.line("y", "z", source=self.source("bearing", "y z"), line_color="black",
+                         line_width=5.0)
+        self.figure.scatter("y", "z", source=self.source("places", "y z"), size=9,
+                            marker="inverted_triangle", fill_color="black", line_color="white")
+        for text, y, z in (("wheel", 32.0, -0.3 * height), ("rail", -3.0, 0.48 * height)):
+            self.figure.add_layout(Label(x=y, y=z, text=text, text_font_size=SMALL,
+                                         text_color=AXIS))
+
+    def show(self, outcome: Outcome) -> None:
+        geometry = outcome.geometry
+        if geometry is None or outcome.profiles[0] is None:
+            for name in self.sources:
+                self.put(name, None)
+            self.tell("")
+            return
+        (y_wheel, z_wheel), (y_rail, z_rail) = outcome.profiles
+        place = geometry.place
+        at = float(np.interp(place.y_rail, y_rail, z_rail))
+        y_wheel = y_wheel + place.y_rail - place.y_wheel
+        z_wheel = z_wheel + at - float(np.interp(place.y_rail, y_wheel, z_wheel))
+        self.put("wheel", {"y": y_wheel, "z": z_wheel, "far": np.full(len(y_wheel), -100.0)})
+        self.put("rail", {"y": y_rail, "z": z_rail, "far": np.full(len(y_rail), 100.0)})
+        places = np.array([one.y_rail for one in geometry.places])
+        self.put("places", {"y": places, "z": np.interp(places, y_rail, z_rail) - 2.2})
+        strips = outcome.answers["strips"].strips
+        y, z = [], []
+        if strips is not None:
+            for patch in np.unique(strips.patch):
+                of = strips.patch == patch
+                ends = np.array([strips.y_left[of].min(), strips.y_right[of].max()])
+                across = np.linspace(*(place.y_rail + ends * math.cos(place.angle)), 9)
+                y += [*across, math.nan]
+                z += [*np.interp(across, y_rail, z_rail), math.nan]
+        self.put("bearing", {"y": y, "z": z})
+        more = f", {len(places)} contacts" if len(places) > 1 else ""
+        self.tell(f"contact angle {math.degrees(place.angle):.2f}°, rolling radius "
+                  f"{geometry.radius:.2f} mm{more}")
+
+
+class Patch(Picture):
+    """The strips with their pressure, the Hertz ellipse, NORM's patch."""
+
+    def __init__(self, out: Out) -> None:
+        super().__init__(out, "Contact patch: strips and their pressure", LATERAL, ROLLING)
+        self.high = 1000.0
+        self.mapper = LinearColorMapper(palette=viridis(64)[::-1], low=0.0, high=1000.0)
+        self.ticks = FixedTicker(ticks=[0.0, 500.0, 1000.0])
+        drawn = self.figure.quad(
+            left="left", right="right", bottom="bottom", top="top",
+            source=self.source("strips", "left right bottom top p0 y"),
+            fill_color={"field": "p0", "transform": self.mapper}, line_color="white",
+            line_width=0.6)
+        self.figure.add_layout(ColorBar(
+            color_mapper=self.mapper, orientation="horizontal", width=86, height=6, padding=2,
+            location=(WIDTH - 112, HEIGHT - 34), title="MPa", title_text_font_size="10px",
+            title_text_font_style="normal", title_standoff=1, label_standoff=2,
+            major_label_text_font_size="10px", major_tick_line_color=None,
+            ticker=self.ticks, background_fill_alpha=0.0))
+        self.hover(drawn, [("y", "@y{0.00} mm"), ("half-length", "@top{0.00} mm"),
+                           ("pressure", "@p0{0} MPa")])
+        self.figure.line("y", "x", source=self.source("ellipse", "y x"), line_color=HERTZ.colour,
+                         line_dash=HERTZ.dash, line_width=HERTZ.width)
+        self.figure.scatter("y", "x", source=self.source("norm", "y x"), marker="circle", size=4,
+                            fill_color="white", line_color=NORM.colour, line_width=1.4)
+
+    def show(self, outcome: Outcome) -> None:
+        strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")
+        there = strips is not None and strips.strips is not None
+        self.put("strips", fields.bars(strips.strips) if there else None)
+        known = hertz is not None and hertz.result is not None
+        self.put("ellipse", fields.ellipse(hertz.result)[0] if known else None)
+        rows = outcome.rows
+        self.put("norm", None if rows is None else {
+            "y": np.concatenate([rows.y, rows.y]),
+            "x": np.concatenate([rows.x_first, rows.x_last])})
+        high = first_above(PRESSURES, strips.result.pmax) if there else 1000.0
+        if self.high != high:
+            self.high = high
+            self.out.set(self.mapper, high=high)
+            self.out.set(self.ticks, ticks=[0.0, 0.5 * high, high])
+        middle, half = window(outcome)
+        self.set_range(self.x_range, middle - half, middle + half)
+        self.set_range(self.y_range, -half * HEIGHT / WIDTH, half * HEIGHT / WIDTH)
+
+
+def window(outcome: Outcome) -> Tuple[float, float]:
+    """The middle of what pictures of the patch show and half its width, mm; in steps, so that they
+    do not tremble."""
+    results = [outcome.answers[name].result for name in ("strips", "hertz")
+               if name in outcome.answers and outcome.answers[name].result is not None]
+    if not results:
+        return 0.0, LENGTHS[6]
+    low, high = min(one.y_min for one in results), max(one.y_max for one in results)
+    middle = float(round(0.5 * (low + high)))
+    reach = max(high - middle, middle - low,
+                WIDTH / HEIGHT * max(one.x_max for one in results))
+    return middle, first_above(LENGTHS, 1.08 * reach)
+
+
+class Pressure(Picture):
+    """Pressure across the patch, at x = 0."""
+
+    def __init__(self, out: Out, x_range: Range1d) -> None:
+        super().__init__(out, "Pressure at x = 0", LATERAL, "pressure, MPa",
+                         x_range=x_range, y_range=Range1d(0.0, 1000.0))
+        strips = self.figure.line("y", "p", source=self.source("strips", "y p"),
+                                  line_color=STRIPS.colour, line_width=STRIPS.width)
+        self.hover(strips, [("y", "@y{0.00} mm"), ("pressure", "@p{0} MPa")])
+        self.figure.line("y", "p", source=self.source("hertz", "y p"), line_color=HERTZ.colour,
+                         line_dash=HERTZ.dash, line_width=HERTZ.width)
+        self.figure.scatter("y", "p", source=self.source("norm", "y p"), marker="circle", size=4,
+                            fill_color="white", line_color=NORM.colour, line_width=1.4)
+
+    def show(self, outcome: Outcome) -> None:
+        strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")
+        highest = 0.0
+        there = strips is not None and strips.result is not None
+        self.put("strips", fields.pressure_line(strips.strips) if there else None)
+        known = hertz is not None and hertz.result is not None
+        self.put("hertz", fields.ellipse(hertz.result)[1] if known else None)
+        rows = outcome.rows
+        self.put("norm", None if rows is None else {"y": rows.y, "p": rows.pressure})
+        for answer in outcome.answers.values():
+            if answer.result is not None:
+                highest = max(highest, answer.result.pmax)
+        if highest > 0.0:
+            self.set_range(self.y_range, 0.0, first_above(PRESSURES, 1.05 * highest))
+
+
+class Tractions(Picture):
+    """Tractions of one method as arrows, with adhesion, slip and the border between."""
+
+    def __init__(self, out: Out, method: str, x_range: Range1d, y_range: Range1d) -> None:
+        self.method = method
+        look = LOOKS[method]
+        super().__init__(out, f"Tractions on the rail, {look.label}", LATERAL, ROLLING,
+                         name=f"tractions_{method}",
+                         x_range=x_range, y_range=y_range)
+        self.figure.quad(left="left", right="right", bottom="bottom", top="top",
+                         source=self.source("runs", "left right bottom top state"),
+                         fill_color={"field": "state", "transform": LinearColorMapper(
+                             palette=[PALE, SLIP], low=1.0, high=2.0)},
+                         line_color="#b9c6d6", line_width=0.5)
+        arrows = self.source("arrows", "x0 x1 y0 y1 angle")
+        self.figure.segment("x0", "y0", "x1", "y1", source=arrows, line_color=look.colour,
+                            line_width=1.1)
+        self.figure.scatter("x1", "y1", angle="angle", source=arrows, marker="triangle", size=4,
+                            fill_color=look.colour, line_color=look.colour)
+        self.figure.segment("x0", "y0", "x1", "y1", source=self.source("border", "x0 x1 y0 y1"),
+                            line_color="black", line_width=2.4)
+
+    def show(self, outcome: Outcome) -> None:
+        answer = outcome.answers.get(self.method)
+        if answer is None or answer.elements is None:
+            for name in self.sources:
+                self.put(name, None)
+            self.tell("no result")
+            return
+        runs = fields.runs(answer.elements)
+        self.put("border", fields.borders(runs))
+        self.put("runs", runs)
+        longest = outcome.case.mu * answer.result.pmax
+        length = ARROW * 2.0 * window(outcome)[1]
+        self.put("arrows", fields.arrows(answer.elements, longest, length))
+        most = float(np.hypot(answer.elements.px, answer.elements.py).max())
+        # The share of adhesion of FASTSTRIP is corrected, its elements are not.
+        state = "adhesion in the march" if self.method == "strips" else "adhesion"
+        self.tell(f"up to {most:.0f} MPa; shaded: {state}, white: slip")
+
+
+class Creep(Picture):
+    """The force over one creepage, and where the case is on it."""
+
+    def __init__(self, out: Out) -> None:
+        super().__init__(out, "Creep curve", "", "",
+                         x_range=Range1d(-1.0, 1.0),
+                         y_range=Range1d(-1.1, 1.1))
+        items = []
+        for name in ("strips", "hertz"):
+            look = LOOKS[name]
+            line = self.figure.line(
+                "creepage", "force", source=self.source(name, "creepage force"),
+                line_color=look.colour, line_dash=look.dash, line_width=look.width)
+            items.append((look.label, [line]))
+        dots = self.figure.scatter([0.0], [math.nan], marker="circle", size=5, fill_color="white",
+                                   line_color=NORM.colour, line_width=1.4)
+        self.figure.add_layout(Legend(
+            items=[*items, (NORM.label, [dots])], location="top_right", label_text_font_size="10px",
+            padding=2, spacing=0, margin=2, glyph_height=14, label_height=14, border_line_color=None,
+            background_fill_alpha=0.6))
+        self.here = Span(location=0.0, dimension="height", line_color=GREY, line_dash="dotted")
+        self.figure.add_layout(self.here)
+        self.figure.scatter("creepage", "force", marker="marker", size=9, fill_color="colour",
+                            line_color="white",
+                            source=self.source("now", "creepage force marker colour"))
+
+    def show(self, outcome: Outcome) -> None:
+        control = CONTROL[outcome.axis]
+        force = "Fx" if outcome.axis == "cksi" else "Fy"
+        plot = self.figure
+        self.out.set(plot.xaxis[0], axis_label=f"{control.title}, {control.unit}")
+        self.out.set(plot.yaxis[0], axis_label=f"{force} on the rail over mu N")
+        value = getattr(outcome.case, outcome.axis) / control.scale
+        self.out.set(self.here, location=value)
+        if outcome.curve is None:
+            for name in self.sources:
+                self.put(name, None)
+            return
+        half = outcome.curve.creepage[-1] / control.scale
+        self.set_range(self.x_range, -half, half)
+        self._points(outcome, value)
+        if self.key is outcome.curve:
+            return
+        self.key = outcome.curve
+        for name, forces in forces_of(outcome.curve, force).items():
+            self.put(name, {"creepage": outcome.curve.creepage / control.scale, "force": forces})
+
+    def _points(self, outcome: Outcome, value: float) -> None:
+        rows = {"creepage": [], "force": [], "marker": [], "colour": []}
+        for name, marker in (("hertz", "square"), ("strips", "circle"), ("norm", "diamond")):
+            answer = outcome.answers.get(name)
+            if answer is None or answer.result is None:
+                continue
+            force = answer.result.fx if outcome.axis == "cksi" else answer.result.fy
+            rows["creepage"].append(value)
+            rows["force"].append(force / (outcome.case.mu * answer.result.load))
+            rows["marker"].append(marker)
+            rows["colour"].append(LOOKS[name].colour)
+        self.put("now", rows)
+
+
+def forces_of(curve: Curve, force: str) -> Dict[str, Any]:
+    return curve.fx if force == "Fx" else curve.fy
+
+
+class Times(Picture):
+    """What each method cost."""
+
+    def __init__(self, out: Out) -> None:
+        rows = [label for _, label, _ in TIMES][::-1]
+        super().__init__(out, "What it cost on this machine", "time, ms", "", width=230,
+                         height=104, x_range=Range1d(SHORTEST, LONGEST), y_range=rows,
+                         x_axis_type="log", min_border_left=126)
+        source = self.source("times", "row left right colour text")
+        self.figure.hbar(y="row", left="left", right="right", height=0.7, fill_color="colour",
+                         line_color=None, source=source)
+        self.figure.text("right", "row", text="text", source=source, x_offset=4,
+                         text_baseline="middle", text_font_size=SMALL)
+        self.figure.ygrid.grid_line_color = None
+        self.figure.xaxis[0].ticker.desired_num_ticks = 4
+        self.figure.xaxis[0].formatter = CustomJSTickFormatter(
+            code="return tick >= 1000 ? (tick/1000) + ' s' : tick + ''")
+
+    def show(self, times: Dict[str, float]) -> None:
+        rows = [(label, colour, 1e3 * times[name]) for name, label, colour in TIMES
+                if name in times]
+        self.put("times", {
+            "row": [label for label, _, _ in rows], "colour": [colour for _, colour, _ in rows],
+            "left": [SHORTEST] * len(rows), "right": [max(ms, SHORTEST) for _, _, ms in rows],
+            "text": [time_text(ms) for _, _, ms in rows]})
+
+
+def time_text(ms: float) -> str:
+    """A time with two digits."""
+    if ms >= 1000.0:
+        return f"{ms / 1000.0:.3g} s"
+    return f"{ms:.2g} ms" if ms < 100.0 else f"{ms:.0f} ms"
+
+
+class Pictures:
+    """All pictures of a page."""
+
+    def __init__(self, out: Out) -> None:
+        self.profiles = Profiles(out)
+        self.patch = Patch(out)
+        shared = self.patch.x_range, self.patch.y_range
+        self.pressure = Pressure(out, shared[0])
+        self.tractions = {name: Tractions(out, name, *shared) for name in ("strips", "hertz")}
+        self.creep = Creep(out)
+        self.times = Times(out)
+
+    def rows(self) -> List[List[Any]]:
+        """The figures as they stand beside and below each other."""
+        return [[self.profiles.figure, self.patch.figure, self.pressure.figure],
+                [self.tractions["strips"].figure, self.tractions["hertz"].figure,
+                 self.creep.figure]]
+
+    def show(self, outcome: Outcome) -> None:
+        """Draw anew what shows something else than before."""
+        normal = outcome.where, outcome.rows is not None
+        for picture, key in ((self.profiles, outcome.where), (self.patch, normal),
+                             (self.pressure, normal),
+                             (self.tractions["strips"], outcome.motion),
+                             (self.tractions["hertz"], outcome.motion)):
+            if picture.key != key:
+                picture.show(outcome)
+                picture.key = key
+        self.creep.show(outcome)

@@ -1,0 +1,108 @@
+"""The command ``faststrip-explore``: serves the page on 127.0.0.1, and nowhere else."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import errno
+import logging
+import signal
+import sys
+from typing import Any, List, Optional
+
+from .._library import FaststripError
+
+PORT = 5173
+HOST = "127.0.0.1"
+MOST_PORTS = 65535
+MOST_BYTES = 20 * 1024 * 1024  # of a message: an uploaded file
+MISSING = ("faststrip-explore: Bokeh is missing: pip install 'faststrip[explore]' (or bokeh)")
+
+
+def parser() -> argparse.ArgumentParser:
+    """What the command takes."""
+    made = argparse.ArgumentParser(
+        prog="faststrip-explore",
+        description="Serve a page to play with: one wheel on one rail, solved while its sliders "
+                    "move. It is served on 127.0.0.1 only and loads nothing from the network. "
+                    "Ctrl-C ends it.",
+        epilog="Units mm, N, rad. Forces act on the rail. More: docs/usage.md.")
+    made.add_argument("--wheel", metavar="PROFILE", help="s1002 (default), cone20, cone40 or a "
+                      "file of any format that 'faststrip profile' reads")
+    made.add_argument("--rail", metavar="PROFILE", help="uic60 (default), 60e1, 54e1 or a file")
+    made.add_argument("--case", metavar="CASE.nml", help="begin with this case file: profiles, "
+                      "shift, vertical or normal load, creepages, friction")
+    made.add_argument("--port", type=int, default=PORT, metavar="N",
+                      help=f"port of the page (default {PORT}; 0: any that is free)")
+    made.add_argument("--no-browser", action="store_true", help="open no browser")
+    return made
+
+
+def main(words: Optional[List[str]] = None) -> int:
+    """Serve the page until Ctrl-C; the exit code."""
+    options = parser().parse_args(words)
+    try:
+        from . import casefile, page
+        from .case import Case, CaseError, checked, find_shape
+    except ModuleNotFoundError as problem:
+        if (problem.name or "").partition(".")[0] not in ("bokeh", "tornado"):
+            raise
+        print(MISSING, file=sys.stderr)
+        return 1
+    try:
+        case = casefile.read_case(options.case) if options.case else Case()
+        for kind in ("wheel", "rail"):
+            name = getattr(options, kind)
+            if name is not None:
+                case = dataclasses.replace(case, **{kind: find_shape(kind, name)})
+        checked(case)
+    except (CaseError, FaststripError) as problem:
+        print(f"faststrip-explore: {problem}", file=sys.stderr)
+        return 1
+    return serve(lambda document: page.Page(document, case), options.port,
+                 not options.no_browser)
+
+
+def serve(fill: Any, port: int, with_browser: bool) -> int:
+    """Serve documents that are filled in for each tab."""
+    from bokeh.application import Application
+    from bokeh.application.handlers.function import FunctionHandler
+    from bokeh.server.server import Server
+
+    from .template import TEMPLATE
+
+    logging.getLogger("bokeh").setLevel(logging.ERROR)
+    logging.getLogger("tornado.access").setLevel(logging.CRITICAL)
+
+    def prepare(document: Any) -> None:
+        document.template = TEMPLATE
+        fill(document)
+
+    if not 0 <= port <= MOST_PORTS:
+        print(f"faststrip-explore: {HOST}:{port}: the port must be from 0 to {MOST_PORTS}",
+              file=sys.stderr)
+        return 1
+    try:
+        server = Server(
+            {"/": Application(FunctionHandler(prepare))}, address=HOST, port=port,
+            websocket_max_message_size=MOST_BYTES, check_unused_sessions_milliseconds=2000,
+            unused_session_lifetime_milliseconds=5000)
+    except OSError as problem:
+        why = ("the port is in use; another with --port N" if problem.errno == errno.EADDRINUSE
+               else problem.strerror)
+        print(f"faststrip-explore: {HOST}:{port}: {why}", file=sys.stderr)
+        return 1
+    address = f"http://{HOST}:{server.port}/"
+    print(f"faststrip explore: {address} (Ctrl-C ends it)", flush=True)
+    server.start()
+    if with_browser:
+        server.io_loop.add_callback(server.show, "/")
+
+    def end(number: int, frame: Any) -> None:
+        server.io_loop.add_callback_from_signal(server.io_loop.stop)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    server.io_loop.start()
+    server.stop()
+    return 0

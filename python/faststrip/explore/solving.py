@@ -1,0 +1,221 @@
+"""From a case to the figures of all methods; what has not changed is not solved again."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .._contact import Contact, Elements, Result, Strips
+from .._library import FaststripError
+from .._profile import draw_profile, profile_gap
+from .._wheelset import Wheelset
+from .case import RADIUS, Case
+
+Array = npt.NDArray[np.float64]
+# Points of a creep curve, and of a drawn profile.
+CURVE_POINTS = 31
+PROFILE_POINTS = 501
+ROLLING_SPEED = 2.0e4  # mm/s; only ratios of speeds count
+AXES = {"cksi": 0, "ceta": 1, "cphi": 2}
+# Half the width of a creep curve: the first that holds the creepage.
+WIDTHS = {"cksi": (0.005, 0.01, 0.02), "ceta": (0.005, 0.01, 0.02), "cphi": (0.0004, 0.001)}
+
+
+class Place(NamedTuple):
+    """Where the wheel bears on the rail."""
+
+    y_rail: float
+    y_wheel: float
+    angle: float
+    load: float
+
+
+class Geometry(NamedTuple):
+    """The gap of the contact that is solved, and where the others are."""
+
+    gap: Tuple[Array, Array, Array, Array]
+    load: float  #: normal force, N
+    place: Place
+    places: Tuple[Place, ...]
+    radius: float  #: rolling radius, mm
+
+
+class Answer(NamedTuple):
+    """What one method made of the contact."""
+
+    result: Optional[Result]
+    strips: Optional[Strips]
+    elements: Optional[Elements]
+    error: str = ""
+
+
+class Curve(NamedTuple):
+    """Forces over one creepage, over mu N."""
+
+    creepage: Array
+    fx: Dict[str, Array]
+    fy: Dict[str, Array]
+
+
+@dataclasses.dataclass
+class Outcome:
+    """Everything that the page shows of a case."""
+
+    case: Case
+    geometry: Optional[Geometry] = None
+    error: str = ""
+    answers: Dict[str, Answer] = dataclasses.field(default_factory=dict)
+    curve: Optional[Curve] = None
+    axis: str = "cksi"
+    where: Any = None  #: what gap and pressures are of
+    motion: Any = None  #: what forces are of
+    profiles: Tuple[Any, Any] = (None, None)
+    rows: Optional[Any] = None  #: of elements, of NORM + TANG
+    times: Dict[str, float] = dataclasses.field(default_factory=dict)
+
+
+METHODS = {"strips": ("strip", "faststrip"), "hertz": ("hertz", "fastsim")}
+
+
+class Solver:
+    """Contacts and wheelsets that are kept from one change to the next; of one thread."""
+
+    def __init__(self) -> None:
+        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
+                          for name, (normal, tangential) in METHODS.items()}
+        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
+                        for name, (normal, tangential) in METHODS.items()}
+        self._kept: Dict[str, Tuple[Any, Any]] = {}
+        self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
+        self.times: Dict[str, float] = {}
+
+    def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
+        """What was made of the same key, or is made now, and timed."""
+        known = self._kept.get(name)
+        if known is not None and known[0] == key:
+            return known[1]
+        start = time.thread_time()
+        made = make()
+        self.times[name] = time.thread_time() - start
+        self._kept[name] = key, made
+        return made
+
+    def solve(self, case: Case, axis: str = "cksi") -> Outcome:
+        """Everything of a case; errors of a method are told in its place."""
+        outcome = Outcome(case, axis=axis)
+        pair = case.wheel, case.rail
+        outcome.profiles = self._once("profiles", (*pair, case.cant), lambda: (
+            draw_profile(case.wheel.profile, "wheel", n=PROFILE_POINTS),
+            draw_profile(case.rail.profile, "rail", cant=case.cant, n=PROFILE_POINTS)))
+        outcome.where = where = (*pair, case.cant, case.is_vertical, case.shift, case.yaw,
+                                 case.load)
+        outcome.motion = motion = (*where, *case.creepage, case.mu)
+        geometry = self._once("gap", where if case.yaw else where[:-1],
+                              lambda: self._find_geometry(case))
+        if isinstance(geometry, str):
+            outcome.error = geometry
+        else:
+            if not case.yaw:
+                geometry = loaded(geometry, case)
+            outcome.geometry = geometry
+            for name in METHODS:
+                outcome.answers[name] = self._once(
+                    name, motion, lambda name=name: self._answer(name, geometry, case))
+            half = half_width(axis, getattr(case, axis))
+            others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
+            outcome.curve = self._once("curve", (*where, case.mu, axis, half, others),
+                                       lambda: self._find_curve(geometry, case, axis, half))
+        outcome.times = dict(self.times)
+        return outcome
+
+    def _find_geometry(self, case: Case) -> Any:
+        """The gap, or what is wrong in one line."""
+        if case.yaw and not case.is_vertical:
+            return "a yawed wheel must have a vertical load, got a normal one in the case file"
+        try:
+            return self._yawed(case) if case.yaw else straight(case)
+        except FaststripError as problem:
+            return str(problem)
+
+    def _yawed(self, case: Case) -> Geometry:
+        """Of the contact of a yawed wheel that carries most; its gap is the wheelset's."""
+        wheelset = self._wheelset_of(case)
+        found = wheelset.solve(y=case.shift, yaw=case.yaw, roll=0.0, load=case.load,
+                               wheels="right")
+        places = tuple(Place(c.rail[0], c.wheel[1], c.contact_angle, c.load)
+                       for c in found.contacts)
+        most = max(range(len(places)), key=lambda i: places[i].load)
+        contact = found.contacts[most]
+        return Geometry(wheelset.gap(most), contact.load, places[most], places, contact.radius)
+
+    def _wheelset_of(self, case: Case) -> Wheelset:
+        key = case.wheel, case.rail, case.cant
+        if self._wheelset[0] != key or self._wheelset[1] is None:
+            self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, cant=case.cant,
+                                           radius=RADIUS, tangential="none", estimate=False)
+        return self._wheelset[1]  # type: ignore[return-value]
+
+    def _answer(self, name: str, geometry: Geometry, case: Case) -> Answer:
+        contact = self._contacts[name]
+        try:
+            contact.set_gap(*geometry.gap)
+            result = contact.solve(load=geometry.load, creepage=case.creepage, mu=case.mu)
+            return Answer(result, contact.strips(), contact.elements())
+        except FaststripError as problem:
+            return Answer(None, None, None, str(problem))
+
+    def _find_curve(self, geometry: Geometry, case: Case, axis: str, half: float) -> Curve:
+        # Closer to each other where the force rises.
+        part = np.linspace(-1.0, 1.0, CURVE_POINTS)
+        values = half * np.sign(part) * np.abs(part) ** 1.5
+        fx, fy = {}, {}
+        bound = case.mu * geometry.load
+        for name, contact in self._curves.items():
+            rows: List[Tuple[float, float]] = []
+            try:
+                contact.set_gap(*geometry.gap)
+                for value in values.tolist():
+                    creepage = list(case.creepage)
+                    creepage[AXES[axis]] = value
+                    result = contact.solve(load=geometry.load, creepage=tuple(creepage),
+                                           mu=case.mu, warm_start=bool(rows))
+                    rows.append((result.fx / bound, result.fy / bound))
+            except FaststripError:
+                rows = [(math.nan, math.nan)] * len(values)
+            fx[name], fy[name] = np.array(rows).T
+        return Curve(values, fx, fy)
+
+    def free_rolling(self, case: Case) -> Tuple[float, float, float]:
+        """The creepages of a wheelset that rolls freely where the case has it."""
+        wheelset = self._wheelset_of(case)
+        found = wheelset.solve(y=case.shift, yaw=case.yaw, roll=0.0, load=case.load,
+                               wheels="right", speed=ROLLING_SPEED,
+                               pitch_rate=-ROLLING_SPEED / RADIUS)
+        contact = max(found.contacts, key=lambda contact: contact.load)
+        return contact.cksi, contact.ceta, contact.cphi
+
+
+def straight(case: Case) -> Geometry:
+    """Of a wheel without yaw: the gap about the rigid contact, as the program has it; no load."""
+    gap = profile_gap(case.wheel.profile, case.rail.profile, shift=case.shift, cant=case.cant,
+                      radius=RADIUS)
+    place = Place(gap.y_rail, gap.y_wheel, gap.angle, 0.0)
+    return Geometry((gap.y, gap.h, gap.inv2r, gap.inclination), 0.0, place, (place,), gap.radius)
+
+
+def loaded(geometry: Geometry, case: Case) -> Geometry:
+    """The same with the normal force of the case."""
+    load = case.load / math.cos(geometry.place.angle) if case.is_vertical else case.load
+    place = geometry.place._replace(load=load)
+    return geometry._replace(load=load, place=place, places=(place,))
+
+
+def half_width(axis: str, value: float) -> float:
+    """Half the width of a creep curve that holds a creepage."""
+    widths = WIDTHS[axis]
+    return next((width for width in widths if abs(value) <= 0.8 * width), 1.25 * widths[-1])
