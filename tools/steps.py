@@ -387,7 +387,29 @@ def release_build(_):
     return 0, ""
 
 
+def page_packages(text):
+    """What the test of the page needs beside the others; without it that is skipped."""
+    test = pathlib.Path("test/embed/test_explore.py")
+    if not test.exists() or text and test.stem.removeprefix("test_") not in text:
+        return
+    import debian  # which nothing else here needs
+
+    try:
+        python_packages("explore", "Bokeh and selenium")
+    except Trouble as trouble:
+        print(f"the page is not tested: {trouble}", flush=True)
+        return
+    for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):
+        if not shutil.which(program):
+            heading(f"installing {package}")
+            why = debian.install(package)
+            if why:
+                print(f"the page is not tested in a browser: {why}", flush=True)
+                return
+
+
 def python_tests(text):
+    page_packages(text)
     folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
                if os.path.isdir(name)]
     if "test/embed" in folders:

@@ -308,9 +308,9 @@ class Creep(Picture):
         dots = self.figure.scatter([0.0], [math.nan], marker="circle", size=5, fill_color="white",
                                    line_color=NORM.colour, line_width=1.4)
         self.figure.add_layout(Legend(
-            items=[*items, (NORM.label, [dots])], location="top_right", label_text_font_size="10px",
-            padding=2, spacing=0, margin=2, glyph_height=14, label_height=14, border_line_color=None,
-            background_fill_alpha=0.6))
+            items=[*items, (NORM.label, [dots])], location="top_right", padding=2, spacing=0,
+            margin=2, label_text_font_size="10px", glyph_height=14, label_height=14,
+            border_line_color=None, background_fill_alpha=0.6))
         self.here = Span(location=0.0, dimension="height", line_color=GREY, line_dash="dotted")
         self.figure.add_layout(self.here)
         self.figure.scatter("creepage", "force", marker="marker", size=9, fill_color="colour",

@@ -131,7 +131,8 @@ class Page:
             self.selects[kind].on_change("value", self.changed)
             self.files[kind] = FileInput(
                 name=f"{kind}_file", width=HALF, margin=(2, 4, 2, 4),
-                stylesheets=[FILE_STYLE], accept=ENDINGS.replace(" ", ","), title=f"or drop a {kind} file")
+                stylesheets=[FILE_STYLE], accept=ENDINGS.replace(" ", ","),
+                title=f"or drop a {kind} file")
             self.files[kind].on_change("value", lambda attr, old, new, kind=kind:
                                        self.document.add_next_tick_callback(
                                            lambda: self.take_file(kind)))

@@ -14,8 +14,8 @@ from typing import Any, Dict, List, Protocol
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Div, Model
 
-# First what Bokeh does needlessly at each painting, half of its time: it writes the same style sheets
-# again, and asks the page for the colour of every line, of which this page sets none by style sheet.
+# First what Bokeh does needlessly at each painting, for half of its time: it writes the same style
+# sheets again, and asks for colours that a style sheet may set, which those of this page do not.
 # `text`: models and their properties; sources and their columns, places in `numbers` or lists;
 # elements of pages and what stands in them.
 HAND_ON = """
