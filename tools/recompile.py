@@ -9,10 +9,14 @@ compilation, and the module files that this wrote are still there. A comment or 
 procedure leaves the module file as it is, so that the users of the module are kept; another
 interface does not. What the object was made from stands beside it in OBJECT.seen.
 
+FASTSTRIP_TWIN names a folder in which fpm has built other packages, maybe of the same sources: an
+object that was made of the same there is copied with its module files.
+
 Always compiled are sources that include files, submodules, and what is no .f90. Calls that compile
 nothing go to gfortran as they are.
 """
 
+import glob
 import hashlib
 import os
 import re
@@ -38,22 +42,20 @@ def main(compiler, *words):
         remove(note)
         os.execv(compiler, [compiler, *words])
     about = os.stat(compiler)
-    # fpm spells a path now this way, now that.
-    spelled = [os.path.normpath(word) if word == source else word for word in words]
     what = hashlib.sha256(repr((os.path.realpath(compiler), about.st_size, about.st_mtime_ns,
-                                os.getcwd(), spelled)).encode())
+                                os.path.realpath(source), other_words(words))).encode())
     what.update(text)
     what.update(record(used, folders))
-    if os.path.exists(target) and read(note) == b"%b\n%b" % (
-            what.hexdigest().encode(), record(made, folders[:1])):
+    what = what.hexdigest().encode()
+    if os.path.exists(target) and read(note) == b"%b\n%b" % (what, record(made, folders[:1])):
         return 0
     remove(note)
+    if copy_twin(what, os.path.basename(source), made, target, folders[0]):
+        return 0
     process = os.posix_spawn(compiler, [compiler, *words], os.environ)
     code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
     if code == 0:
-        with open(f"{note}.new", "wb") as stream:
-            stream.write(b"%b\n%b" % (what.hexdigest().encode(), record(made, folders[:1])))
-        os.replace(f"{note}.new", note)
+        write(note, b"%b\n%b" % (what, record(made, folders[:1])))
     return 128 - code if code < 0 else code
 
 
@@ -83,6 +85,45 @@ def parse(words):
     return source[0], target, [written, *others]
 
 
+def other_words(words):
+    """The words that name no place: fpm spells places now this way, now that."""
+    others, before = [], ""
+    for word in words:
+        if before not in ("-o", "-J", "-I") and not word.startswith(("-J", "-I")) \
+                and not word.endswith(".f90") and word != "-o":
+            others.append(word)
+        before = word
+    return others
+
+
+def copy_twin(what, source, made, target, folder):
+    """Take an object that was made of the same, its module files and its note; is there one?"""
+    twins = os.environ.get("FASTSTRIP_TWIN")
+    if not twins:
+        return False
+    # fpm names objects of other packages by their way there, with dots ahead, and puts module files
+    # one folder above.
+    for note in glob.glob(os.path.join(glob.escape(twins), "*", "*", f"*{source}.o.seen"),
+                          include_hidden=True):
+        place = os.path.dirname(os.path.dirname(note))
+        told, found = read(note), read(note.removesuffix(".seen"))
+        if found is None or told != b"%b\n%b" % (what, record(made, [place])):
+            continue
+        for name in made:
+            write(os.path.join(folder, name.decode() + ".mod"),
+                  read(os.path.join(place, name.decode() + ".mod")))
+        write(target, found)
+        write(f"{target}.seen", told)
+        return True
+    return False
+
+
+def write(path, text):
+    with open(f"{path}.new", "wb") as stream:
+        stream.write(text)
+    os.replace(f"{path}.new", path)
+
+
 def names(pattern, text):
     return {name.lower() for name in pattern.findall(text)}
 
@@ -102,12 +143,12 @@ def remove(path):
 
 def record(modules, folders):
     """Lines that tell the module files of these names; a compiler's own modules have none."""
-    lines = []
+    lines = {}
     for name in sorted(modules):
         for folder in folders:
             text = read(os.path.join(folder, name.decode() + ".mod"))
             if text is not None:
-                lines.append(f"{folder} {name.decode()} {hashlib.sha256(text).hexdigest()}\n")
+                lines[f"{name.decode()} {hashlib.sha256(text).hexdigest()}\n"] = True
     return "".join(lines).encode()
 
 

@@ -275,9 +275,10 @@ def compiler():
     return {**os.environ, "PATH": f"{COMPILER.resolve()}{os.pathsep}{os.environ['PATH']}"}
 
 
-def fpm(name, package, command, flags, *words, trouble):
-    """Let fpm build. After a build that was not finished it takes what it had not yet come to for
-    finished too: it is made to forget."""
+def fpm(name, package, command, flags, *words, trouble, twin=""):
+    """Let fpm build; what the package `twin` has already compiled the same is taken from there.
+    After a build that was not finished fpm takes what it had not yet come to for finished too: it
+    is made to forget."""
     place = pathlib.Path(package, "build")
     place.mkdir(exist_ok=True)
     unfinished = place / "unfinished"
@@ -289,7 +290,8 @@ def fpm(name, package, command, flags, *words, trouble):
                 path.unlink()
         unfinished.touch()
         quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags,
-                       *words], trouble, compiler())
+                       *words], trouble,
+                compiler() | ({"FASTSTRIP_TWIN": str(ROOT / twin / "build")} if twin else {}))
         unfinished.unlink()
 
 
@@ -589,7 +591,7 @@ def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
     fpm("stage", ".", "install", RELEASE_FLAGS, "--c-flag", "-fPIC", "--prefix", "build/stage",
-        trouble="fpm install failed")
+        trouble="fpm install failed", twin="app")
     if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
                        "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
         raise Trouble("the installation failed")

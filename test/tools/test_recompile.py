@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from harness import ROOT
 
@@ -68,9 +69,9 @@ class Recompile(unittest.TestCase):
         for name, text in SOURCES.items():
             self.folder.joinpath(name).write_text(text, encoding="utf-8")
 
-    def compiler(self, *words):
+    def compiler(self, *words, gfortran=None):
         return subprocess.run([sys.executable, "-IS", ROOT / "tools" / "recompile.py",
-                               shutil.which("gfortran"), *words], cwd=self.folder,
+                               gfortran or shutil.which("gfortran"), *words], cwd=self.folder,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=600, check=False)
 
@@ -144,6 +145,48 @@ class Recompile(unittest.TestCase):
         self.assertEqual(self.build("-O2")[0], ["base"])
         self.folder.joinpath("made", "deep.o").unlink()
         self.assertEqual(self.build("-O2")[0], ["deep"])
+
+    def test_what_another_package_has_compiled_the_same_is_copied(self):
+        """In folders as fpm has them: module files above objects."""
+        calls = self.folder / "calls"
+        counting = self.folder / "counting"
+        counting.write_text(f"#!/bin/sh\necho \"$2\" >>{calls}\n"
+                            f"exec {shutil.which('gfortran')} \"$@\"\n", encoding="utf-8")
+        counting.chmod(0o755)
+
+        def package(name, *flags):
+            """Compile all in a package; the sources that were compiled."""
+            (self.folder / name / "build/x/objects").mkdir(parents=True, exist_ok=True)
+            calls.write_text("", encoding="utf-8")
+            for source in ORDER:
+                done = self.compiler("-c", f"{name}/../{source}.f90", *FLAGS, *flags, "-J",
+                                     f"{name}/build/x", f"-I{name}/build/x", "-o",
+                                     f"{name}/build/x/objects/.._{source}.f90.o",
+                                     gfortran=counting)
+                self.assertEqual((done.returncode, done.stdout), (0, ""))
+            return [pathlib.Path(path).stem for path in calls.read_text("utf-8").splitlines()]
+
+        def program(name):
+            objects = (f"{name}/build/x/objects/.._{source}.f90.o" for source in ORDER)
+            done = self.compiler(*objects, "-o", "main")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            return subprocess.run([self.folder / "main"], stdout=subprocess.PIPE, text=True,
+                                  check=True).stdout
+
+        self.assertEqual(package("first"), [*ORDER])
+        self.assertEqual(package("second"), [*ORDER])
+        with mock.patch.dict(os.environ, FASTSTRIP_TWIN=str(self.folder / "first/build")):
+            self.assertEqual(package("third"), [])
+            self.assertEqual(program("third"), "30 6\n")
+            self.assertEqual(package("fourth", "-O2"), [*ORDER])
+            # Neither of another source, nor where a module file is lost.
+            (self.folder / "first/build/x/deep.mod").unlink()
+            self.change("upper", "base_value(base_number)", "base_value(base_number) + 1")
+            self.assertEqual(package("fifth"), ["upper", "deep"])
+            self.assertEqual(program("fifth"), "31 6\n")
+        # What was copied is kept like what was compiled.
+        self.change("upper", "base_value(base_number) + 1", "base_value(base_number)")
+        self.assertEqual(package("third"), [])
 
     def test_an_error_is_told_each_time(self):
         self.build()

@@ -252,6 +252,13 @@ class FromNothing(Building):
     def test_the_core_is_staged_and_the_prefix_seen_from_the_caller(self):
         place = self.folder / "else where"
         place.mkdir()
+        self.write("app/programs/faststrip.f90", MAIN.replace(
+            "    implicit none", "    use faststrip_base_kinds, only: wp\n    implicit none"
+            "\n    if (wp < 0) stop"))
+        self.assertEqual(self.run_it("build").returncode, 0)
+        # What the programs' build has compiled is not compiled again.
+        made, = (self.folder / "app" / "build").rglob("*_kinds.f90.o")
+        made.write_bytes(made.read_bytes() + b"marked")
         for prefix, seen in (("be low", place / "be low"), (self.folder / "p", self.folder / "p")):
             result = subprocess.run([self.folder / "run", "install", "--prefix", prefix],
                                     cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -260,6 +267,8 @@ class FromNothing(Building):
             self.assertIn(f"--stage build/stage --program bin/faststrip --prefix {seen}\nTrue\n",
                           result.stdout)
             self.assertIn(f"== installed below {seen}\n", result.stdout)
+            copied, = (self.folder / "build").rglob("*_kinds.f90.o")
+            self.assertEqual(copied.read_bytes(), made.read_bytes())
 
     def test_a_build_that_fails_says_so(self):
         self.write("app/programs/faststrip.f90", MAIN.replace("print", "prnt"))
