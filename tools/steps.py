@@ -18,6 +18,9 @@
   speed [--quick] [-o FILE]
                 build, then time everything beside FASTSIM and CONTACT, with the tail; table and
                 picture in out/ (--quick: half a minute)
+  lookup [--quick]
+                build, install below build/, then make a table of creep forces and say what it
+                is worth: errors, size, time, look-ups a second; in out/lookup/
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
                 precision and in all rounding modes; in out/extremes/
   forces        build, then judge, time and draw the tangential methods; in out/forces/
@@ -587,6 +590,14 @@ def speed(*words):
     do(sys.executable, "tools/speed.py", *words)
 
 
+def lookup(*words):
+    if not {"-h", "--help"} & set(words):
+        install_below(ROOT / "build" / "embed")
+    do(sys.executable, "tools/lookup.py", "--installed", "build/embed", *words)
+    if not {"-h", "--help"} & set(words):
+        do(sys.executable, "plots/lookup.py")
+
+
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
@@ -680,12 +691,13 @@ FORCE_DATA = (("", 1, 14400), ("mixed", 2, 10000), ("ellipse", 3, 14000), ("zone
 FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 31), (31, 15),
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, extremes,
-    forces, scenes, stored, report, install, package, release, docs, embed, tables, compilers,
-    clean)}
+    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, lookup,
+    extremes, forces, scenes, stored, report, install, package, release, docs, embed, tables,
+    compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None, "speed": None, "release": None}
+         "hostile": None, "stored": None, "report": None, "speed": None, "lookup": None,
+         "release": None}
 
 
 def main(command="", *words):

@@ -1,13 +1,15 @@
 """A lookup table gives the same forces in every face; what is none is refused."""
 
+import csv
 import math
 import struct
 import subprocess
+import sys
 import threading
 
 import numpy as np
 
-from installed import HOSTS, HostTest
+from installed import HOSTS, ROOT, HostTest
 
 
 def number(bits):
@@ -86,6 +88,21 @@ class Faces(HostTest):
         told = dict(line.split() for line in self.shell("./by_c table.fslt time").splitlines())
         self.assertEqual(set(told), {"linear", "cubic", "linear_one_by_one"})
         self.assertTrue(all(float(value) > 0.0 for value in told.values()))
+
+    def test_the_tool_says_what_a_table_is_worth(self):
+        words = f"--quick --folder '{self.folder}/worth' --installed '{self.installed.prefix}'"
+        self.shell(f"'{sys.executable}' '{ROOT}/tools/lookup.py' {words} 2>/dev/null")
+        with open(self.folder / "worth" / "figures.csv", encoding="utf-8") as file:
+            found = {row["what"]: float(row["value"]) for row in csv.DictReader(file)}
+        self.assertGreater(found["size"], 0.05)
+        for force in ("Fx", "Fy", "Mz"):
+            # In percent: what was promised, with some room for other contacts.
+            self.assertLess(found[f"linear {force} percentile_99"], 3.6)
+            self.assertLess(found[f"beside CONTACT {force} mean"], 0.8)
+            self.assertGreater(found[f"beside CONTACT {force} worst"], 0.0)
+        for name in ("Fortran linear", "Fortran cubic", "C linear", "C cubic", "Python linear",
+                     "Python cubic"):
+            self.assertGreater(found[f"{name}, with derivatives"], 0.0)
 
     def test_what_is_none_is_refused(self):
         content = (self.folder / "table.fslt").read_bytes()

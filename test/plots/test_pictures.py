@@ -67,7 +67,15 @@ TRACTION = "# faststrip 0.1.0 rev abc\n# compiler\ncase,series,cksi,N_N,mu,Fx_N\
                                              for cksi in (1e-5, 1e-3, 1e-2)))
 FILES |= {f"out/traction_{name}.csv": TRACTION for name in ("faststrip", "fastsim", "tang")}
 FILES |= {"reference/contact/traction_curve.csv": TRACTION}
+LOOKED_UP = ("# faststrip 0.1.0 rev abc\n# compiler\na_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,"
+             "cphi_rad_per_mm,Fx_N,Fy_N,Mz_Nmm,Fx_linear_N,Fy_linear_N,Mz_linear_Nmm,Fx_cubic_N,"
+             "Fy_cubic_N,Mz_cubic_Nmm\n") + "".join(
+    f"{a},5,8e4,0.3,82000,{1e-4 * k},0,0"
+    + "".join(f",{-2.4e4 * k / 30 * off},{1e3 * off},{1e4 * off}" for off in (1, 1 + k / 1e3, 1))
+    + "\n" for a in (2.5, 5, 10) for k in range(-30, 31))
+FILES |= {"out/lookup/lines.csv": LOOKED_UP, "out/lookup/contacts.csv": LOOKED_UP}
 PICTURES = {
+    "lookup": ("out/lookup/lookup.png",),
     "traction_curve": ("out/traction_curve.png",),
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
@@ -78,6 +86,7 @@ PICTURES = {
     "wear": ("out/wear.png",),
 }
 COLUMNS = {
+    "lookup": ("out/lookup/contacts.csv", "Fy_cubic_N"),
     "traction_curve": ("out/traction_faststrip.csv", "Fx_N"),
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
