@@ -15,7 +15,7 @@ STATE = ("a_mm", "b_mm", "N_N", "mu", "cksi", "cphi_rad_per_mm")
 DIRECT = ("Fx_N", "Fy_N", "Mz_Nmm")
 LINEAR = ("Fx_linear_N", "Fy_linear_N", "Mz_linear_Nmm")
 CUBIC = ("Fx_cubic_N", "Fy_cubic_N", "Mz_cubic_Nmm")
-NAMES = ("$F_x/\\mu N$", "$F_y/\\mu N$", "$M_z/\\mu N c$")
+NAMES = ("$F_x/(\\mu\\cdot N)$", "$F_y/(\\mu\\cdot N)$", "$M_z/(\\mu\\cdot N c)$")
 LOOKS = tuple(style.METHOD[key] for key in (("strip", "faststrip"), ("hertz", "fastsim"),
                                             ("norm", "tang")))
 
