@@ -183,7 +183,7 @@ class Behind(ExploreTest):
             self.assertEqual(sorted(border), ["x0", "x1", "y0", "y1"])
             # Adhesion ahead, slip behind: one border in a row that has both.
             self.assertGreater(len(border["x0"]), 8)
-            arrows = fields.arrows(answer.elements, 300.0, 1.5)
+            arrows = fields.arrows(answer.elements, 300.0, 22.0, (0.1, 0.1))
             self.assertLess(len(arrows["x0"]), 450)
             middle = int(np.argmax(np.hypot(arrows["x1"] - arrows["x0"],
                                             arrows["y1"] - arrows["y0"])))
@@ -192,7 +192,7 @@ class Behind(ExploreTest):
             self.assertLess(arrows["x1"][middle], arrows["x0"][middle])
         empty = self.faststrip.Elements(*[np.empty(0)] * 9)
         self.assertEqual(len(fields.runs(empty)["left"]), 0)
-        self.assertEqual(len(fields.arrows(empty, 1.0, 1.0)["x0"]), 0)
+        self.assertEqual(len(fields.arrows(empty, 1.0, 1.0, (1.0, 1.0))["x0"]), 0)
 
 
 @unittest.skipIf(NO_PAGE, NO_PAGE)

@@ -54,23 +54,24 @@ def borders(rectangles: Columns) -> Columns:
     return {"x0": left[:-1][meet], "x1": right[:-1][meet], "y0": at, "y1": at}
 
 
-def arrows(elements: Elements, longest: float, length: float) -> Columns:
-    """Tractions as arrows: a traction of ``longest`` (MPa) has this length (mm). Shafts ``x0``,
-    ``x1`` in y and ``y0``, ``y1`` in x; ``angle`` of the head, rad."""
+def arrows(elements: Elements, longest: float, length: float,
+           pixel: Tuple[float, float]) -> Columns:
+    """Tractions as arrows: a traction of ``longest`` (MPa) is ``length`` pixels long, a pixel being
+    so wide and high (mm). Shafts ``x0``, ``x1`` in y and ``y0``, ``y1`` in x; ``angle`` of the
+    head, rad."""
     names = "x0", "x1", "y0", "y1", "angle"
     if len(elements.x) == 0 or not longest > 0.0:
         return {name: EMPTY for name in names}
-    keep = _thinned(elements, 0.6 * length)
+    keep = _thinned(elements, 0.6 * length * pixel[0], 0.6 * length * pixel[1])
     x, y, px, py = (getattr(elements, name)[keep] for name in ("x", "y", "px", "py"))
-    scale = length / longest
     there = np.hypot(px, py) > 0.02 * longest
     x, y, px, py = (values[there] for values in (x, y, px, py))
-    half = 0.5 * scale
-    return {"x0": y - half * py, "x1": y + half * py, "y0": x - half * px, "y1": x + half * px,
+    wide, high = (0.5 * length / longest * side for side in pixel)
+    return {"x0": y - wide * py, "x1": y + wide * py, "y0": x - high * px, "y1": x + high * px,
             "angle": np.arctan2(px, py) - 0.5 * math.pi}
 
 
-def _thinned(elements: Elements, apart: float) -> npt.NDArray[np.bool_]:
+def _thinned(elements: Elements, across: float, along: float) -> npt.NDArray[np.bool_]:
     """Of many rows and columns some, about so far from each other."""
     order = np.lexsort((elements.x, elements.y))
     x, y, area = (getattr(elements, name)[order] for name in ("x", "y", "area"))
@@ -78,8 +79,8 @@ def _thinned(elements: Elements, apart: float) -> npt.NDArray[np.bool_]:
     row = np.cumsum(starts) - 1
     column = np.arange(len(y)) - np.flatnonzero(starts)[row]
     dx = _spacing(x, y, area)
-    rows = max(1, round(apart / float(np.median((area / dx)[starts]))))
-    columns = np.maximum(1, np.round(apart / dx).astype(int))
+    rows = max(1, round(across / float(np.median((area / dx)[starts]))))
+    columns = np.maximum(1, np.round(along / dx).astype(int))
     keep = np.zeros(len(y), dtype=bool)
     keep[order] = (row % rows == rows // 2) & (column % columns == columns // 2)
     return keep

@@ -4,7 +4,7 @@ has changed."""
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from bokeh.models import (
@@ -31,9 +31,12 @@ from .wire import Out
 WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
 BORDERS = {"min_border_left": 52, "min_border_right": 8, "min_border_top": 4,
            "min_border_bottom": 6}
-LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 30.0, 50.0)
+# Around a patch, to its sides, and above, where words stand; part of the width below which it is
+# narrow, and how much of the width is left to it then.
+BESIDE, ABOVE, NARROW, STRETCHED = 1.08, 1.3, 0.3, 2.0
+LENGTHS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 30.0, 50.0)
 PRESSURES = (200.0, 500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 10000.0, 20000.0)
-ARROW = 0.08  # of the picture's width: the longest arrow
+ARROW = 22.0  # pixels: the longest arrow
 LATERAL = "y to the field side, mm"
 ROLLING = "x ahead, mm"
 TIMES = (("gap", "gap of the profiles", GREY), ("strips", STRIPS.label, STRIPS.colour),
@@ -201,23 +204,39 @@ class Patch(Picture):
             self.high = high
             self.out.set(self.mapper, high=high)
             self.out.set(self.ticks, ticks=[0.0, 0.5 * high, high])
-        middle, half = window(outcome)
-        self.set_range(self.x_range, middle - half, middle + half)
-        self.set_range(self.y_range, -half * HEIGHT / WIDTH, half * HEIGHT / WIDTH)
+        shown = window(outcome)
+        self.set_range(self.x_range, shown.middle - shown.half_y, shown.middle + shown.half_y)
+        self.set_range(self.y_range, -shown.half_x, shown.half_x)
+        self.tell("y is stretched" if shown.is_stretched else "")
 
 
-def window(outcome: Outcome) -> Tuple[float, float]:
-    """The middle of what pictures of the patch show and half its width, mm; in steps, so that they
-    do not tremble."""
+class Window(NamedTuple):
+    """What pictures of the patch show: their middle, and half of what they show of y and x, mm."""
+
+    middle: float
+    half_y: float
+    half_x: float
+
+    @property
+    def is_stretched(self) -> bool:
+        return self.half_y * HEIGHT < 0.99 * self.half_x * WIDTH
+
+
+def window(outcome: Outcome) -> Window:
+    """In steps, so that pictures do not tremble; with one scale along both sides, but for patches
+    that are so narrow that nothing could be seen of them."""
     results = [outcome.answers[name].result for name in ("strips", "hertz")
                if name in outcome.answers and outcome.answers[name].result is not None]
     if not results:
-        return 0.0, LENGTHS[6]
+        return Window(0.0, LENGTHS[-1], LENGTHS[-1] * HEIGHT / WIDTH)
     low, high = min(one.y_min for one in results), max(one.y_max for one in results)
     middle = float(round(0.5 * (low + high)))
-    reach = max(high - middle, middle - low,
-                WIDTH / HEIGHT * max(one.x_max for one in results))
-    return middle, first_above(LENGTHS, 1.08 * reach)
+    across = BESIDE * max(high - middle, middle - low)
+    along = ABOVE * max(one.x_max for one in results)
+    half = first_above(LENGTHS, max(across, along * WIDTH / HEIGHT))
+    if across < NARROW * half:
+        return Window(middle, first_above(LENGTHS, STRETCHED * across), half * HEIGHT / WIDTH)
+    return Window(middle, half, half * HEIGHT / WIDTH)
 
 
 class Pressure(Picture):
@@ -283,12 +302,13 @@ class Tractions(Picture):
         self.put("border", fields.borders(runs))
         self.put("runs", runs)
         longest = outcome.case.mu * answer.result.pmax
-        length = ARROW * 2.0 * window(outcome)[1]
-        self.put("arrows", fields.arrows(answer.elements, longest, length))
+        shown = window(outcome)
+        pixel = 2.0 * shown.half_y / WIDTH, 2.0 * shown.half_x / HEIGHT
+        self.put("arrows", fields.arrows(answer.elements, longest, ARROW, pixel))
         most = float(np.hypot(answer.elements.px, answer.elements.py).max())
         # The share of adhesion of FASTSTRIP is corrected, its elements are not.
-        state = "adhesion in the march" if self.method == "strips" else "adhesion"
-        self.tell(f"up to {most:.0f} MPa; shaded: {state}, white: slip")
+        state = "adhesion (march)" if self.method == "strips" else "adhesion"
+        self.tell(f"up to {most:.0f} MPa; shaded: {state}")
 
 
 class Creep(Picture):
@@ -322,7 +342,7 @@ class Creep(Picture):
         force = "Fx" if outcome.axis == "cksi" else "Fy"
         plot = self.figure
         self.out.set(plot.xaxis[0], axis_label=f"{control.title}, {control.unit}")
-        self.out.set(plot.yaxis[0], axis_label=f"{force} on the rail over mu N")
+        self.out.set(plot.yaxis[0], axis_label=f"{force} on the rail over μ·N")
         value = getattr(outcome.case, outcome.axis) / control.scale
         self.out.set(self.here, location=value)
         if outcome.curve is None:

@@ -222,6 +222,7 @@ class Page:
         if self.reference is not None and self.outcome.motion != self.reference_of:
             self.reference = None
         self.show()
+        self.document.add_next_tick_callback(lambda: self.solver.prepare(case))
 
     def show(self) -> None:
         start = time.thread_time()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 import time
@@ -159,6 +160,11 @@ class Solver:
             self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, cant=case.cant,
                                            radius=RADIUS, tangential="none", estimate=False)
         return self._wheelset[1]  # type: ignore[return-value]
+
+    def prepare(self, case: Case) -> None:
+        """Make the wheelset of a case, so that the first yaw takes no longer than others."""
+        with contextlib.suppress(FaststripError):
+            self._wheelset_of(case)
 
     def _answer(self, name: str, geometry: Geometry, case: Case) -> Answer:
         contact = self._contacts[name]

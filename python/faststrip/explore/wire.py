@@ -15,7 +15,8 @@ import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Div, Model
 
 # First what Bokeh does needlessly at each painting, for half of its time: it writes the same style
-# sheets again, and asks for colours that a style sheet may set, which those of this page do not.
+# sheets again, asks for colours that a style sheet may set, which those of this page do not, and
+# for the size of letters, which stays.
 # `text`: models and their properties; sources and their columns, places in `numbers` or lists;
 # elements of pages and what stands in them.
 HAND_ON = """
@@ -27,6 +28,10 @@ if (!Bokeh.is_spared) {
   }
   const visual = Bokeh.require('core/visuals/visual').VisualProperties?.prototype
   if (visual?._get_css_value) visual._get_css_value = () => ''
+  const plot = Bokeh.require('models/plots/plot_canvas').PlotView?.prototype
+  const size = plot && Object.getOwnPropertyDescriptor(plot, 'base_font_size')
+  if (size?.get) Object.defineProperty(plot, 'base_font_size', {
+    get() { return this.font_size_found ??= size.get.call(this) }})
 }
 // Bokeh gives documents that are made for export the callbacks of the page.
 if (wire.document == null) return
