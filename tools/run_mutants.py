@@ -77,8 +77,8 @@ TIME_OUT = "time-out"
 FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
          "test/embed/test_callers.py", "test/embed/test_legacy.py",
          "test/embed/test_wheelsets.py"]
-FORTRAN_ROOMS = ("base", "numerics", "influence", "geometry", "normal", "tangential", "contact",
-                 "wheelset", "files", "kalker", "tables")
+FORTRAN_ROOMS = ("base", "numerics", "lookup", "influence", "geometry", "normal", "tangential",
+                 "contact", "wheelset", "files", "kalker", "tables")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],

@@ -23,7 +23,7 @@ module faststrip_command_lookup_direct
     implicit none
     private
 
-    public :: direct_choice_t, direct_t, make_workers, release_workers, solve_direct
+    public :: direct_choice_t, direct_t, make_workers, release_workers, solve_direct, note_failure
     public :: direct_methods, direct_faststrip, direct_fastsim, direct_tang, direct_auto
 
     !> Methods, by their numbers.
@@ -83,6 +83,21 @@ contains
             call release_tang(workers(i)%tang)
         end do
     end subroutine release_workers
+
+    !> Keep the failure of the first of many solutions that threads share.
+    subroutine note_failure(i, found, first, status)
+        integer, intent(in) :: i                !! number of the solution
+        type(status_t), intent(in) :: found     !! its error
+        integer, intent(inout) :: first         !! the first that failed; beyond all: none
+        type(status_t), intent(inout) :: status !! its error
+
+        !$omp critical (lookup_failed)
+        if (i < first) then
+            first = i
+            status = found
+        end if
+        !$omp end critical (lookup_failed)
+    end subroutine note_failure
 
     !> Forces on the rail of a state, as `look_up_hertz` has them.
     subroutine solve_direct(direct, state, forces, status)

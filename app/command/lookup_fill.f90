@@ -3,7 +3,7 @@ module faststrip_command_lookup_fill
     use, intrinsic :: iso_fortran_env, only: int64, real32
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, clear_status
-    use faststrip_command_lookup_direct, only: direct_t, solve_direct
+    use faststrip_command_lookup_direct, only: direct_t, solve_direct, note_failure
     use faststrip_command_lookup_points, only: scattered_point
     use faststrip_command_lookup_scatter, only: scatter_of
     use faststrip_command_lookup_states, only: phi_at, shape_scale, fresh_state, fresh_coordinates
@@ -78,12 +78,7 @@ contains
                                 face, lookup%q%x(i), lookup%ratio%x(j), lookup%ratio%x(k), phi, &
                                 found)
                     if (is_error(found)) then
-                        !$omp critical (lookup_failed)
-                        if (line < failed) then
-                            failed = line
-                            status = found
-                        end if
-                        !$omp end critical (lookup_failed)
+                        call note_failure(line, found, failed, status)
                         exit lines_of_worker
                     end if
                     lookup%values(at + 1:at + n_forces) = real(phi, real32)
@@ -154,12 +149,7 @@ contains
             do i = me, size(states, 2), size(workers)
                 call judge_contact(workers(me), lookup, states(:, i), forces(:, :, i), found)
                 if (.not. is_error(found)) cycle
-                !$omp critical (lookup_failed)
-                if (i < failed) then
-                    failed = i
-                    status = found
-                end if
-                !$omp end critical (lookup_failed)
+                call note_failure(i, found, failed, status)
                 exit
             end do
         end do

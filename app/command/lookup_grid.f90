@@ -5,7 +5,7 @@
 module faststrip_command_lookup_grid
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, clear_status
-    use faststrip_command_lookup_direct, only: direct_t
+    use faststrip_command_lookup_direct, only: direct_t, note_failure
     use faststrip_command_lookup_points, only: scattered_point
     use faststrip_command_lookup_scatter, only: percentile
     use faststrip_command_lookup_states, only: phi_at, shape_scale
@@ -148,12 +148,7 @@ contains
             do i = me, n_samples, size(workers)
                 call solve_sample(workers(me), axis, x, i, f(:, i), found)
                 if (.not. is_error(found)) cycle
-                !$omp critical (lookup_failed)
-                if (i < failed) then
-                    failed = i
-                    status = found
-                end if
-                !$omp end critical (lookup_failed)
+                call note_failure(i, found, failed, status)
                 exit
             end do
         end do

@@ -8,8 +8,39 @@ import sys
 import threading
 
 import numpy as np
+from test_allocation import COUNTER
 
 from installed import HOSTS, ROOT, HostTest
+
+# A state alone and many of them, by both orders; status and allocations.
+ALLOCATIONS = r"""
+#include <faststrip.h>
+#include <stdio.h>
+static char bytes[20000000];
+static double states[100][8], forces[100][3], jacobians[100][24];
+int main(void)
+{
+    faststrip_lookup *table;
+    FILE *file = fopen("table.fslt", "rb");
+    size_t length = fread(bytes, 1, sizeof bytes, file);
+    int codes[100], order;
+    if (faststrip_lookup_open(bytes, length, &table, NULL, 0) != 0) return 1;
+    for (int i = 0; i < 100; i++) {
+        double state[8] = {5.0, 4.0, 8e4, 0.3, 82000.0, 1e-4 * (i - 50), 1e-4, 1e-5 * (i - 30)};
+        for (int k = 0; k < 8; k++) states[i][k] = state[k];
+    }
+    for (order = 1; order <= 3; order += 2) {
+        long before = allocations();
+        int status = faststrip_lookup_forces(table, (enum faststrip_lookup_order)order, 100,
+                                             states[0], forces[0], jacobians[0], codes);
+        status |= faststrip_lookup_forces(table, (enum faststrip_lookup_order)order, 1, states[0],
+                                          forces[0], NULL, NULL);
+        before = allocations() - before;
+        printf("%d %ld\n", status, before);
+    }
+    return faststrip_lookup_free(&table);
+}
+"""
 
 
 def number(bits):
@@ -84,7 +115,12 @@ class Faces(HostTest):
             thread.join()
         self.assertTrue(all((one == found[0]).all() for one in found))
 
-    def test_nothing_is_allocated_and_times_are_told(self):
+    def test_looking_up_allocates_nothing(self):
+        self.write("counted.c", COUNTER + ALLOCATIONS)
+        self.shell("gcc -O1 counted.c $(pkg-config --cflags --libs faststrip) -o counted")
+        self.assertEqual(self.shell("./counted"), "0 0\n0 0\n")
+
+    def test_times_are_told(self):
         told = dict(line.split() for line in self.shell("./by_c table.fslt time").splitlines())
         self.assertEqual(set(told), {"linear", "cubic", "linear_one_by_one"})
         self.assertTrue(all(float(value) > 0.0 for value in told.values()))
