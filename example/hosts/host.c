@@ -1035,18 +1035,9 @@ static void older(void)
     printf("sizes %d\nnamed %d\nwrong %d\n", sizes, named, wrong);
 }
 
-int main(int argc, char **argv)
+/* One of the things that a host looks after; is there such a one? */
+static int look_after(const char *what)
 {
-    const char *what = argc > 1 ? argv[1] : "";
-    int i;
-
-    for (i = 0; i < EXAMPLES; i++) make_example((uint64_t)i, &examples[i]);
-    make_points();
-    for (i = 0; i < ASKED; i++) {
-        ask_wheelset(i + 1, &states[i], &demands[i]);
-        states[i].z = 0.1;
-    }
-
     if (strcmp(what, "arithmetic") == 0) arithmetic();
     else if (strcmp(what, "locale") == 0) locale_kept();
     else if (strcmp(what, "stack") == 0) stack_use();
@@ -1059,6 +1050,21 @@ int main(int argc, char **argv)
 #ifdef COUNTING
     else if (strcmp(what, "quiet") == 0) quiet();
 #endif
-    else return 2;
-    return 0;
+    else return 0;
+    return 1;
+}
+
+int main(int argc, char **argv)
+{
+    int i;
+
+    for (i = 0; i < EXAMPLES; i++) make_example((uint64_t)i, &examples[i]);
+    make_points();
+    for (i = 0; i < ASKED; i++) {
+        ask_wheelset(i + 1, &states[i], &demands[i]);
+        states[i].z = 0.1;
+    }
+    for (i = 1; i < argc; i++)
+        if (!look_after(argv[i])) return 2;
+    return argc > 1 ? 0 : 2;
 }
