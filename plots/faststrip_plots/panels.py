@@ -24,7 +24,7 @@ NEAR_ZERO = 0.05  # of mu N (or mu N c): below it a ratio to the reference says 
 BASES = {"mu N": r"$\mu\cdot N$", "mu N c": r"$\mu\cdot N c$"}
 NORMAL_RATIOS = (0.4, 1.6)
 FORCE_RATIOS = (0.0, 2.0)
-PALE = "#dfe8f3"  # the body of strips and wheel
+PALE = style.PALE
 
 
 # ---------------------------------------------------------------- sweep over lateral shifts

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
-from dataclasses import dataclass
+import pathlib
+import sys
 
 import matplotlib
 
@@ -12,67 +14,21 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
 from .tables import InputError  # noqa: E402
 
-FONT = 10
-SMALL = 9
-DPI = 150
-MAP = "viridis_r"
-GREY = "#6b6b6b"
+
+def _package_style():
+    """The style of the Python package; without the package, which would look for its library."""
+    path = pathlib.Path(__file__).resolve().parents[2] / "python" / "faststrip" / "_style.py"
+    spec = importlib.util.spec_from_file_location("faststrip_style", path)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
-@dataclass(frozen=True)
-class Look:
-    """Name, colour and line of a method."""
-
-    label: str
-    colour: str
-    line: object
-    width: float = 1.8
-
-
-NORMAL = {
-    "strip": Look("strips", "#0b3c78", "-", 2.0),
-    "hertz": Look("Hertz", "#f08519", (0, (5, 1.8)), 1.8),
-    # wide, to be seen on both sides of a line it agrees with
-    "norm": Look("NORM", "#4d9748", (0, (1.6, 0.8)), 3.6),
-}
-METHOD = {
-    ("strip", "faststrip"): Look("strips + FASTSTRIP", "#0b3c78", "-", 2.0),
-    ("hertz", "fastsim"): Look("Hertz + FASTSIM", "#f08519", (0, (5, 1.8)), 1.8),
-    ("norm", "tang"): Look("NORM + TANG", "#4d9748", (0, (1.6, 0.8)), 3.6),
-    ("strip", "fastsim"): Look("strips + FASTSIM", "#a0306a", (0, (6, 1.6, 1.2, 1.6)), 1.6),
-    ("strip", "faststrip-paper"): Look(
-        "strips + FASTSTRIP as printed", "#111111", (0, (1.2, 1.2)), 1.8
-    ),
-    ("strip", "faststrip-corrected"): Look(
-        "strips + FASTSTRIP corrected", "#86dcc6", (0, (3, 1, 1, 1, 1, 1)), 2.2
-    ),
-}
-_OTHERS = (("#4b8f3c", (0, (1.2, 1.2))), ("#5f4ba8", (0, (3, 1, 1, 1, 1, 1))), ("#8a8a8a", "-"))
-CONTACT = dict(
-    linestyle="none",
-    marker="o",
-    markersize=5.2,
-    markerfacecolor="white",
-    markeredgecolor="black",
-    markeredgewidth=1.1,
-    label="CONTACT",
-)
-
-
-def normal_look(normal: str) -> Look:
-    """How a normal method is drawn; methods not known yet get a style of their own."""
-    if normal in NORMAL:
-        return NORMAL[normal]
-    colour, line = _OTHERS[sum(normal.encode()) % len(_OTHERS)]
-    return Look(normal, colour, line)
-
-
-def method_look(normal: str, tangential: str) -> Look:
-    """How a combination of methods is drawn."""
-    if (normal, tangential) in METHOD:
-        return METHOD[normal, tangential]
-    colour, line = _OTHERS[sum((normal + tangential).encode()) % len(_OTHERS)]
-    return Look(f"{normal} + {tangential}", colour, line)
+_style = _package_style()
+FONT, SMALL, DPI, MAP, GREY = _style.FONT, _style.SMALL, _style.DPI, _style.MAP, _style.GREY
+PALE, NORMAL, METHOD, CONTACT = _style.PALE, _style.NORMAL, _style.METHOD, _style.CONTACT
+Look, normal_look, method_look = _style.Look, _style.normal_look, _style.method_look
+number, title = _style.number, _style.title
 
 
 def luminance(colour: str) -> float:
@@ -83,40 +39,10 @@ def luminance(colour: str) -> float:
 
 def new_figure(width: float, height: float):
     """An empty figure in the common style, size in inches."""
-    plt.rcParams.update(
-        {
-            "font.size": FONT,
-            "axes.titlesize": FONT,
-            "axes.labelsize": FONT,
-            "xtick.labelsize": SMALL,
-            "ytick.labelsize": SMALL,
-            "legend.fontsize": FONT,
-            "axes.spines.top": False,
-            "axes.spines.right": False,
-            "axes.edgecolor": "#444444",
-            "axes.linewidth": 0.8,
-            "axes.grid": True,
-            "axes.axisbelow": True,
-            "grid.color": "#e3e3e3",
-            "grid.linewidth": 0.7,
-            "legend.frameon": False,
-            "mathtext.fontset": "dejavusans",
-            "savefig.facecolor": "white",
-        }
-    )
+    plt.rcParams.update(_style.PARAMETERS)
     figure = plt.figure(figsize=(width, height), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.08, h_pad=0.06)
     return figure
-
-
-def number(value: float) -> str:
-    """A short number for titles, with a true minus sign and no negative zero."""
-    return f"{value + 0.0:g}".replace("-", "\N{MINUS SIGN}")
-
-
-def title(axes, text: str) -> None:
-    """Title of a panel, flush left."""
-    axes.set_title(text, loc="left", fontweight="bold")
 
 
 def fit_panel(figure, axes, width: float, height: float) -> None:

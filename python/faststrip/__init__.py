@@ -29,6 +29,7 @@ from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
 from ._lookup import LookedUp, Lookup
 from ._many import ManyResult, solve_many
+from ._plot import plot_profiles
 from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
@@ -64,6 +65,7 @@ __all__ = [
     "hertz",
     "kalker",
     "library_version",
+    "plot_profiles",
     "profile_gap",
     "solve_many",
 ]

@@ -38,6 +38,7 @@ from ._library import (
     library,
     word_of,
 )
+from ._tables import dataset, frame
 from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
@@ -188,6 +189,21 @@ class Result:
     steps: Tuple[Step, ...] = field(default=(), compare=False)
     """what ``normal="auto"`` did; results are compared without, as it has times"""
 
+    def _columns(self) -> Dict[str, Any]:
+        """The figures; what is not known is nan."""
+        columns = {one.name: getattr(self, one.name) for one in fields(self)[:-1]}
+        columns["target_is_met"] = bool(self.target_is_met)
+        return {name: float("nan") if value is None else value for name, value in columns.items()}
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame of one row; ``attrs["units"]`` has the units. What is not known is
+        nan."""
+        return frame({name: [value] for name, value in self._columns().items()})
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset of numbers, with ``units`` and ``long_name``; not known is nan."""
+        return dataset(self._columns(), ())
+
 
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
@@ -210,6 +226,14 @@ class Strips(NamedTuple):
     p0: Array
     patch: npt.NDArray[np.int32]
 
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each strip; ``attrs["units"]`` has the units."""
+        return frame(self._asdict())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``strip``, with ``units`` and ``long_name``."""
+        return dataset(self._asdict(), ("strip",))
+
 
 class Elements(NamedTuple):
     """The elements of a contact: middle in mm, area in mm^2, pressure and traction on the rail in
@@ -224,6 +248,14 @@ class Elements(NamedTuple):
     sx: Array
     sy: Array
     state: npt.NDArray[np.int32]
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each element; ``attrs["units"]`` has the units."""
+        return frame(self._asdict())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``element``, with ``units`` and ``long_name``."""
+        return dataset(self._asdict(), ("element",))
 
 
 _NAMES_OF_NORMAL = {number: name for name, number in NORMAL.items()}
@@ -389,8 +421,10 @@ class Contact:
                                  "the contact is in use by another thread")
         try:
             if long:
-                status = interruptible(
-                    lambda kept=keep: function(workspace.handle, *arguments), self._abandon)
+                def call(kept: Any = keep) -> Any:
+                    return function(workspace.handle, *arguments)
+
+                status = interruptible(call, self._abandon)
             else:
                 status = function(workspace.handle, *arguments)
             return check(status, workspace.handle) if status >= FIRST_ERROR else status
@@ -546,6 +580,24 @@ class Contact:
         arrays = _arrays(n.value, doubles)
         self._call(function, n.value, ctypes.byref(n), *_addresses(arrays))
         return arrays
+
+    def plot(self, figure: Any = None) -> Any:
+        """Draw the last contact with matplotlib: the patch with its strips and pressures, pressures
+        on the centre line, and, if the contact was made with_elements, tractions on the rail with
+        the border of adhesion.
+
+        Parameters
+        ----------
+        figure : matplotlib.figure.Figure
+            To draw on; a new one unless given.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from ._plot import plot_contact
+
+        return plot_contact(self, figure)
 
     def copy_from(self, other: "Contact") -> None:
         """Take over gap, solution and capacity of another contact, for a step taken back."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ._arguments import array, as_long_as, flag, refused
 from ._library import FIRST_ERROR, TEXT, FaststripError, library, word_of
 from ._profile import Profile
+from ._tables import dataset, frame
 from ._wheelset import setup_of
 
 Array = npt.NDArray[np.float64]
@@ -33,6 +34,14 @@ class ContactFunctions(NamedTuple):
     y_wheel_left: Array  #: mm
     y_rail_left: Array  #: mm
 
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each shift; ``attrs["units"]`` has the units."""
+        return frame(self._asdict())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``y``, with ``units`` and ``long_name``."""
+        return dataset(self._asdict(), ("y",))
+
 
 class Conicity(NamedTuple):
     """Equivalent conicity over the amplitude; nan where it is not known."""
@@ -47,6 +56,21 @@ class Conicity(NamedTuple):
     words: Tuple[str, ...]  #: ``ok``, or ``out_of_range``: beyond the table, or no motion turns
     y_equilibrium: float  #: where delta_r rises through zero, mm
     largest_amplitude: float  #: that the table holds, mm
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each amplitude; ``attrs["units"]`` has the units."""
+        return frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``amplitude``, with ``units`` and ``long_name``."""
+        return dataset(self._columns(), ("amplitude",), attributes={
+            "y_equilibrium_mm": self.y_equilibrium,
+            "largest_amplitude_mm": self.largest_amplitude})
+
+    def _columns(self) -> Dict[str, Any]:
+        columns = self._asdict()
+        del columns["y_equilibrium"], columns["largest_amplitude"]
+        return {name: list(values) for name, values in columns.items()}
 
 
 def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: npt.ArrayLike, *,
@@ -91,8 +115,8 @@ def conicity(y: npt.ArrayLike, delta_r: npt.ArrayLike, amplitudes: npt.ArrayLike
           states.ctypes.data)
     found[states[:, 0] != 0] = np.nan
     found[states[:, 1] == 0, 4:] = np.nan
-    return Conicity(wanted, *found.T.copy(), tuple(map(word_of, states[:, 0].tolist())),
-                    *equilibrium.tolist())
+    return Conicity._make((wanted, *found.T.copy(), tuple(map(word_of, states[:, 0].tolist())),
+                           *equilibrium.tolist()))
 
 
 def _row(name: str, value: Any) -> Array:

@@ -208,16 +208,16 @@ class _Gaps:
             raise _bad("the gaps must broadcast but for their last axis, got "
                        + ", ".join(f"{name} {one.shape}"
                                    for name, one in zip(names, arrays))) from None
-        self.table = np.zeros(self.shape, dtype=_GAP)
-        self.table["n"] = n
+        table = np.zeros(self.shape, dtype=_GAP)
+        table["n"] = n
         for name, one in zip(names, arrays):
             if one.ndim == 0:
                 one = np.full(n, one[()])
             self.kept.append(one)
             rows = one.shape[:-1]
             places = np.arange(math.prod(rows), dtype=np.uintp).reshape(rows)
-            self.table[name] = one.ctypes.data + n * one.itemsize * places
-        self.table = self.table.reshape(-1)
+            table[name] = one.ctypes.data + n * one.itemsize * places
+        self.table = table.reshape(-1)
         if self.shape == ():
             _check_gap(*self.kept)
 
@@ -415,7 +415,7 @@ def _solve_some(case: Case, varying: Dict[str, Array], table: _Gaps, gap_of: Any
                 end: int, links: int, n_threads: int, found: "_Found") -> None:
     n = end - start
     cases = np.empty(n, dtype=_CASE)
-    cases[:] = np.frombuffer(case, dtype=_CASE)
+    cases[:] = np.frombuffer(bytes(case), dtype=_CASE)
     for name, values in varying.items():
         cases[name] = values[start:end]
     places = None if gap_of is None else np.ascontiguousarray(gap_of[start:end])

@@ -10,13 +10,14 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
-from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import number, numbers, refused, whole
 from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, library, word_of
+from ._tables import dataset, extra, frame
 
 Array = npt.NDArray[np.float64]
 Path = Union[str, "os.PathLike[str]"]
@@ -50,6 +51,17 @@ class Gap(NamedTuple):
     y_wheel: float  #: place of the contact on the wheel, mm
     y_rail: float  #: place of the contact on the rail, mm
     n_clipped: Tuple[int, int]  #: points left out of the wheel and of the rail
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each point; ``attrs["units"]`` has the units."""
+        return frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``y``, with ``units`` and ``long_name``."""
+        return dataset(self._columns(), ("y",))
+
+    def _columns(self) -> Dict[str, Array]:
+        return {"y": self.y, "h": self.h, "inv2r": self.inv2r, "inclination": self.inclination}
 
 
 def _candidates() -> Iterator[str]:
@@ -138,9 +150,7 @@ class Profile:
     def plot(self, axes: Any = None, **style: Any) -> Any:
         """Draw the points with matplotlib, z down; the axes are given back."""
         if axes is None:
-            import matplotlib.pyplot as plt
-
-            axes = plt.subplots()[1]
+            axes = extra("matplotlib.pyplot", "plot").subplots()[1]
         style.setdefault("label", pathlib.Path(self.path).name or self.kind)
         axes.plot(self.y, self.z, **style)
         axes.set_aspect("equal", adjustable="datalim")
@@ -202,8 +212,8 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
             break
         capacity = n.value
     _raise(status, text)
-    return Gap(*(row[:n.value].copy() for row in arrays), *map(float, contact[:4]),
-               (int(contact[4]), int(contact[5])))
+    return Gap._make((*(row[:n.value].copy() for row in arrays), *map(float, contact[:4]),
+                      (int(contact[4]), int(contact[5]))))
 
 
 def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[float] = None,

@@ -68,6 +68,21 @@ QUANTITIES: Dict[str, Tuple[str, str]] = {
     "radius_left": ("mm", "rolling radius of the left wheel"),
     "angle_right": ("rad", "contact angle of the right wheel"),
     "angle_left": ("rad", "contact angle of the left wheel"),
+    "contact_angle": ("rad", "contact angle"),
+    "radius": ("mm", "rolling radius"),
+    "speed": ("mm s-1", "rolling speed"),
+    "cksi": ("1", "longitudinal creepage"),
+    "ceta": ("1", "lateral creepage"),
+    "cphi": ("rad mm-1", "spin creepage"),
+    **{f"place_{axis}": ("mm", f"{axis} of the reference point in the track") for axis in "xyz"},
+    **{f"rail_{axis}": ("mm", f"{axis} of it on the rail's profile") for axis in "yz"},
+    **{f"wheel_{axis}": ("mm", f"{axis} of it in the frame of the wheel's profile")
+       for axis in "xyz"},
+    **{f"force_{axis}": ("N", f"{axis} of the force on the rail, in the track") for axis in "xyz"},
+    **{f"force_wheelset_{axis}": ("N", f"{axis} of it in the wheelset's frame")
+       for axis in "xyz"},
+    **{f"moment_{axis}": ("N mm", f"{axis} of the moment about the wheelset's centre, in the track")
+       for axis in "xyz"},
     "roll": ("rad", "roll, right wheel down"),
     "y_wheel_right": ("mm", "place of the contact on the right wheel"),
     "y_rail_right": ("mm", "place of the contact on the right rail"),

@@ -5,13 +5,14 @@ from __future__ import annotations
 import ctypes
 from ctypes import c_double, c_int, c_void_p
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, array, number, numbers, refused
 from ._library import Case
+from ._tables import dataset, frame
 
 Array = npt.NDArray[np.float64]
 KINDS = {"constant": 0, "linear": 2, "rational": 3, "exponential": 4}
@@ -92,6 +93,17 @@ class StripWear(NamedTuple):
     t_gamma_per_area: Array  #: friction power over the strip's area, N/mm^2
     mass: Optional[Array]  #: ug per metre rolled; None without a law
     pass_depth: Optional[Array]  #: depth when rolled over once, mm; None without a law
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each strip; ``attrs["units"]`` has the units."""
+        return frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``strip``, with ``units`` and ``long_name``."""
+        return dataset(self._columns(), ("strip",))
+
+    def _columns(self) -> Dict[str, Array]:
+        return {name: values for name, values in self._asdict().items() if values is not None}
 
 
 class WearQuestion:

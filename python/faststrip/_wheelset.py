@@ -6,7 +6,7 @@ import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_size_t, c_void_p
-from typing import Any, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,11 +23,15 @@ from ._library import (
     word_of,
 )
 from ._profile import FIRST_CAPACITY, Points, Profile, points_of
+from ._tables import dataset, frame
 from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
 WHEELS = {"both": 0, "right": 1, "left": 2}
 SIDES = "right", "left"
+# Components of what a contact has several numbers of.
+AXES = {"place": "xyz", "rail": "yz", "wheel": "xyz", "force": "xyz", "force_wheelset": "xyz",
+        "moment": "xyz"}
 MOST_CONTACTS = 16
 STEEL = Material()
 BY_POSITION, BY_LOADS, BY_AXLE_LOAD = 0, 1, 2
@@ -131,12 +135,12 @@ _NONE = (None,) * 3
 
 
 def _contact_of(row: Row) -> WheelContact:
-    return WheelContact(
+    return WheelContact._make((
         SIDES[row.side - 1], word_of(row.status), row.n_patches, row.strips_across,
         tuple(row.place), row.angle, tuple(row.rail), tuple(row.wheel), *_MOTION(row),
         tuple(row.force), tuple(row.force_wheelset), tuple(row.moment),
         *(_ESTIMATES(row) if row.is_estimated else _NONE),
-        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE))
+        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE)))
 
 
 def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any, radius_left: Any,
@@ -168,6 +172,29 @@ class WheelsetResult(NamedTuple):
     force_wheelset: Array  #: the same in the wheelset's frame
     moment: Array  #: about the wheelset's centre in the track, 2 x 3, N mm
     n_solutions: Tuple[int, ...]  #: contact problems that were solved
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, a row for each contact; vectors have a column for each component,
+        ``force_x`` and so on. ``attrs["units"]`` has the units."""
+        return frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over ``contact``, with ``units`` and ``long_name``."""
+        return dataset(self._columns(), ("contact",))
+
+    def _columns(self) -> Dict[str, Any]:
+        columns: Dict[str, Any] = {}
+        for name in WheelContact._fields:
+            values = [getattr(contact, name) for contact in self.contacts]
+            axes = AXES.get(name)
+            if axes is not None:
+                for k, axis in enumerate(axes):
+                    columns[f"{name}_{axis}"] = [value[k] for value in values]
+            elif name.startswith("est_err"):
+                columns[name] = [float("nan") if value is None else value for value in values]
+            else:
+                columns[name] = values
+        return columns
 
 
 class _Handle:
@@ -270,7 +297,7 @@ class Wheelset:
             demand.kind = BY_LOADS
             demand.load_right, demand.load_left = numbers(("load[0]", "load[1]"), loads)
         demand.roll_is_free = roll is None and z is None and demand.wheels == 0
-        names = [name for name, _ in State._fields_]
+        names = [field[0] for field in State._fields_]
         state = State(*numbers(names, (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate,
                                        roll_rate, yaw_rate, pitch_rate, curvature)))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()

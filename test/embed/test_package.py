@@ -130,13 +130,13 @@ class Package(unittest.TestCase):
             names = {"/".join(name.split("/")[1:]) for name in archive.getnames()}
         for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE",
                      "pyproject.toml", "python/faststrip/__init__.py",
-                     "src/faststrip/faststrip.f90", "src/lapack_small/lapack.f90",
+                     "src/faststrip/faststrip.f90", "tools/cmake/lapack_small.f90",
                      "tools/cmake/public_names.cmake"):
             self.assertIn(name, names)
         folders = {name.split("/")[0] for name in names if "/" in name}
         self.assertEqual(folders, {"include", "python", "src", "tools"})
         self.assertEqual({name.split("/")[1] for name in names if name.startswith("src/")},
-                         {"faststrip", "lapack_small"})
+                         {"faststrip"})
 
     def test_only_what_is_needed_is_imported(self):
         modules = self.command(self.python, "-c", MODULES).split()
@@ -262,14 +262,14 @@ end program compare
 
 
 class OwnRoutines(unittest.TestCase):
-    """src/lapack_small against LAPACK."""
+    """tools/cmake/lapack_small.f90 against LAPACK."""
 
     def test_they_agree_with_lapack(self):
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "compare.f90").write_text(COMPARE, encoding="utf-8")
             done = subprocess.run(
                 ["sh", "-euc", f"gfortran -O2 -std=f2018 '{ROOT}/src/faststrip/base/kinds.f90' "
-                 f"'{ROOT}/src/lapack_small/lapack.f90' compare.f90 -o compare "
+                 f"'{ROOT}/tools/cmake/lapack_small.f90' compare.f90 -o compare "
                  "$(pkg-config --libs openblas) && ./compare"],
                 cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
                 check=False, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})

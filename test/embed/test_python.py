@@ -30,10 +30,12 @@ class Package(HostTest):
 
     def test_pip_installs_the_package(self):
         names = sorted(path.name for path in (self.folder / "site" / "faststrip").iterdir())
-        self.assertEqual([name for name in names if name != "__pycache__"],
-                         ["__init__.py", "_arguments.py", "_contact.py", "_geometry.py",
-                          "_interrupt.py", "_library.py", "_many.py", "_profile.py",
-                          "_tables.py", "_wear.py", "_wheelset.py", "py.typed"])
+        mine = sorted(path.name for path in (ROOT / "python" / "faststrip").iterdir())
+        for found in (names, mine):
+            if "__pycache__" in found:
+                found.remove("__pycache__")
+        self.assertEqual(names, mine)
+        self.assertLessEqual({"__init__.py", "_library.py", "_many.py", "py.typed"}, set(names))
 
     def test_the_example_of_its_help(self):
         self.python("import doctest, faststrip, sys; "

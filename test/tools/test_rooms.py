@@ -26,8 +26,6 @@ PROGRAMS = {
 }
 # Made by the build.
 REVISION = "app/command/revision.f90"
-# Stands for a module of the core, of its name, where there is no LAPACK.
-INSTEAD = "src/lapack_small/lapack.f90"
 
 
 def module_of(package, path):
@@ -71,7 +69,7 @@ class Rooms(unittest.TestCase):
         found = {path for place in ("src", "app") for path in (ROOT / place).rglob("*.f90")
                  if "build" not in path.relative_to(ROOT).parts}
         known = {path for paths in self.files.values() for path in paths}
-        known |= {ROOT / name for name in (*PROGRAMS, REVISION, INSTEAD)}
+        known |= {ROOT / name for name in (*PROGRAMS, REVISION)}
         self.assertEqual(sorted(map(str, found - known)), [])
         for package, paths in self.files.items():
             with self.subTest(package):
