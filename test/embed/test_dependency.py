@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -41,20 +42,34 @@ for word in "$@"; do
 done
 exec {linker} "$@"
 """
+# Stands for gfortran and keeps what sees no change.
+COMPILER = """\
+#!/bin/sh
+exec {words} "$@"
+"""
 
 
 class Dependency(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        # Without links: what is relative is so to the place itself.
-        self.folder = pathlib.Path(temporary.name).resolve()
-        self.host = self.folder / "host"
-        self.write("bin/ld", LINKER.format(folder=self.folder, linker=shutil.which("ld")))
-        (self.folder / "bin" / "ld").chmod(0o755)
+    """One host, whose build keeps what it has compiled of the core from one test to the next."""
 
-    def write(self, name, text):
-        path = self.folder / name
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        # Without links: what is relative is so to the place itself.
+        cls.folder = pathlib.Path(temporary.name).resolve()
+        cls.host = cls.folder / "host"
+        recompile = [sys.executable, "-IS", str(ROOT / "tools" / "recompile.py")]
+        for name, text in (
+                ("ld", LINKER.format(folder=cls.folder, linker=shutil.which("ld"))),
+                ("gfortran", COMPILER.format(
+                    words=shlex.join([*recompile, shutil.which("gfortran")])))):
+            cls.write(f"bin/{name}", text)
+            (cls.folder / "bin" / name).chmod(0o755)
+
+    @classmethod
+    def write(cls, name, text):
+        path = cls.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
 
@@ -63,7 +78,11 @@ class Dependency(unittest.TestCase):
         self.write("host/fpm.toml", MANIFEST.format(
             package=package, path=os.path.relpath(ROOT / path, self.host), link=link))
         self.write("host/app/main.f90", source)
-        kept = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR") if name in os.environ}
+        (self.folder / "linked").unlink(missing_ok=True)
+        kept = {name: os.environ[name] for name in ("HOME", "TMPDIR") if name in os.environ}
+        kept["PATH"] = f"{self.folder}/bin{os.pathsep}{os.environ['PATH']}"
+        # fpm has another folder for other libraries.
+        kept["FASTSTRIP_TWIN"] = str(self.host / "build")
         done = subprocess.run(
             [pathlib.Path(sys.executable).parent / "fpm", "build", "--compiler", "gfortran",
              "--flag", f"-O0 -frecursive -fopenmp-simd -B{self.folder}/bin"],
