@@ -162,8 +162,7 @@ class Pictures(unittest.TestCase):
     def test_other_names(self):
         self.drawn("integrals", None, "--folder", "p",
                    pictures=("p/integrals.png", "p/integral_errors.png"))
-        for command in ("degrees", "bench_integral", "convergence", "bench_normal",
-                        "bench_reference"):
+        for command in ("degrees", "bench_integral", "convergence", "bench_normal"):
             with self.subTest(command):
                 self.drawn(command, None, "-o", "p/q.png", pictures=["p/q.png"])
         contact = str(ROOT / "reference/contact/s1002_uic60_B.csv")
@@ -171,13 +170,16 @@ class Pictures(unittest.TestCase):
                    pictures=["p/q.png"])
 
     def test_curves_of_some_distances_only(self):
-        for distances in ((0,), (2, 3), (7,), (0, 12)):
+        for distances in ((7,), (0, 12)):
             with self.subTest(distances):
                 self.drawn("integrals", text(CURVES, curve_rows(*distances)))
 
     def test_curves_without_published_values_somewhere(self):
-        self.drawn("integrals", changed(CURVES, 3, published="", rel_err=""))
-        self.drawn("integrals", changed(CURVES, 14, published="", rel_err=""))
+        rows = [dict(row) for row in ROWS[CURVES]]
+        # Outside of the table's range, and inside.
+        for k in (3, 14):
+            rows[k].update(published="", rel_err="")
+        self.drawn("integrals", text(CURVES, rows))
 
     def test_exact_polynomials(self):
         self.drawn("integrals", text(CURVES, curve_rows(0, 1, error=0.0)))
