@@ -4,7 +4,8 @@
     bench_embed.py --prefix FOLDER -o FILE.csv
 
 CSV: what,face,ns,over_fortran_ns; the least of many rounds, one core, one process for the compiled
-faces and this one for Python.
+faces and this one for Python. Python's own are many contacts in one call, ns a contact, and the
+import of the package where numpy is there already, in processor time.
 """
 
 import argparse
@@ -63,6 +64,38 @@ def python_rows(prefix):
                                         shear_modulus=82000.0, grid=(n, n)), calls)
 
 
+IMPORT = """
+import time, numpy
+start = time.process_time_ns()
+import faststrip
+print(time.process_time_ns() - start)
+"""
+
+
+def rows_of_python_alone(prefix):
+    import faststrip
+    import numpy
+
+    y = numpy.linspace(-15.0, 15.0, 301)
+    gap = y, 2e-3 * y**2, 1.0 / 920.0
+    for what, normal, tangential, n in (("hertz + polach", "hertz", "polach", 20000),
+                                        ("strips + faststrip", "strip", "faststrip", 200)):
+        contact = faststrip.Contact(normal=normal, tangential=tangential)
+        contact.set_gap(*gap)
+        load = numpy.linspace(5e4, 1.5e5, n)
+        yield f"{what}, one by one", "python", least_ns(
+            lambda i: contact.solve(load=load[i], creepage=(1e-3, 5e-4, 1e-4)), n // 10, 5)
+        yield f"{what}, many, one thread", "python", least_ns(
+            lambda i: faststrip.solve_many(gap, load=load, creepage=(1e-3, 5e-4, 1e-4),
+                                           normal=normal, tangential=tangential, threads=1),
+            1, 5) / n
+    yield "import", "python", min(
+        float(subprocess.run([sys.executable, "-c", IMPORT], stdout=subprocess.PIPE,
+                             encoding="utf-8", check=True,
+                             env={**os.environ, "PYTHONPATH": str(ROOT / "python"),
+                                  "FASTSTRIP_PREFIX": str(prefix)}).stdout) for _ in range(7))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--prefix", required=True, type=pathlib.Path)
@@ -80,6 +113,9 @@ def main():
                     continue
                 writer.writerow([what, face, f"{ns:.1f}", f"{ns - fortran[what]:.1f}"])
                 print(f"{what:26} {face:8} {ns:10.0f} ns {ns - fortran[what]:+8.0f}")
+        for what, face, ns in rows_of_python_alone(prefix):
+            writer.writerow([what, face, f"{ns:.1f}", ""])
+            print(f"{what:38} {ns:12.0f} ns")
 
 
 if __name__ == "__main__":

@@ -355,14 +355,31 @@ class _Workspace:
 class Contact:
     """One wheel on one rail: methods, their workspace, the gap, the last solution.
 
-    normal: a name of ``NORMAL``; tangential: one of ``TANGENTIAL``, where they are told in one line
-    each; some give forces alone, no elements. strips_per_patch is 1 to 1000, or ``auto``.
-    With normal ``auto`` both methods are as fine as their estimated errors ask, see `solve`.
-    estimate: are errors estimated, which of strips costs about one step? A result with an estimated
-    relative error of penetration, pmax or area above resolution_limit, or an estimated error of its
-    forces above force_limit, is called ``under_resolved``. Use one Contact per thread; calls
-    release Python's lock while they compute. Ctrl-C ends a call; after that the contact needs a gap
-    again.
+    Use one Contact per thread; calls release Python's lock while they compute. Ctrl-C ends a call;
+    after that the contact needs a gap again.
+
+    Parameters
+    ----------
+    normal : str
+        A name of ``NORMAL``, where they are told in one line each. With ``auto`` both methods are
+        as fine as their estimated errors ask, see `solve`.
+    tangential : str
+        A name of ``TANGENTIAL``; some give forces alone, no elements.
+    strips_per_patch : int or str
+        Across the largest patch, 1 to 1000, or ``auto``.
+    points_per_strip : int
+        Along a strip, 1 to 1000, of FASTSTRIP.
+    fastsim_grid : two ints
+        Points along a row, and rows, of FASTSIM.
+    with_elements : bool
+        Are tractions and slip of every element kept, for `elements` and `plot`?
+    max_points : int
+        Points of a gap there is room for at first; longer ones get room.
+    estimate : bool
+        Are errors estimated? Of strips that costs about one step.
+    resolution_limit, force_limit : float
+        A result with an estimated relative error of penetration, pmax or area above the first, or
+        an estimated error of its forces above the second, is called ``under_resolved``.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",
@@ -449,10 +466,26 @@ class Contact:
     def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike,
                 inclination: Optional[npt.ArrayLike] = None,
                 turn: Optional[npt.ArrayLike] = None) -> None:
-        """The gap of the undeformed bodies, ``h(x, y) = h(y) + x**2 inv2r(y)``: y strictly
-        increasing, mm; h in mm; inv2r in 1/mm, also one number for all y. inclination says
-        how far the surfaces have turned from the tangent plane at y = 0, rad, by which conformal
-        contacts are told; turn is its old name. The numbers are copied.
+        """The gap of the undeformed bodies, ``h(x, y) = h(y) + x**2 inv2r(y)``; it is copied.
+
+        Parameters
+        ----------
+        y : array_like, shape (n,)
+            Lateral coordinate, strictly increasing, mm; 5 to 1000000 points.
+        h : array_like, shape (n,) or ()
+            Gap on the line x = 0, mm.
+        inv2r : array_like, shape (n,) or ()
+            1/(2 R) with the local radius R along x, 1/mm.
+        inclination : array_like, shape (n,) or (), optional
+            How far the surfaces have turned from the tangent plane at y = 0, rad, by which
+            conformal contacts are told.
+        turn : array_like, optional
+            Old name of inclination.
+
+        Raises
+        ------
+        FaststripError
+            ``bad_argument``, ``not_finite``, ``not_increasing``, ``too_few_points``.
         """
         if turn is not None:
             if inclination is not None:
@@ -483,19 +516,48 @@ class Contact:
               contact_angle: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
               budget_us: Optional[float] = None) -> Result:
-        """Solve for a load (N) or a penetration (mm): one of the two.
+        """Solve for a load or a penetration: one of the two.
 
-        creepage is longitudinal, lateral and spin (rad/mm) about y = 0. warm_start begins with the
-        last solution, if there is one. friction says how mu falls with slip, which needs the
-        rolling speed (mm/s), and what it is on the flange, for which contact_angle (rad) counts.
-        Raises FaststripError where there is no result.
+        Parameters
+        ----------
+        load : float
+            Normal force, N.
+        penetration : float
+            From h = 0, mm.
+        creepage : three floats
+            Longitudinal, lateral and spin (rad/mm) creepage about y = 0.
+        mu : float
+            Coefficient of friction.
+        material : Material
+            Elastic constants of both bodies.
+        friction : Friction
+            How mu falls with slip, which needs the speed, and what it is on the flange, for which
+            contact_angle counts.
+        speed : float
+            Rolling speed, mm/s.
+        contact_angle : float
+            Of either sign, rad.
+        warm_start : bool
+            Begin with the last solution, if there is one.
+        target : str
+            Of a contact with normal ``auto``: one of ``TARGETS``, ``forces`` unless told otherwise.
+            Where it needs forces, ``faststrip`` gives them, whatever tangential is, but not
+            ``none``.
+        tolerance : float
+            The largest estimated error of the target that will do, 0.02 unless told otherwise;
+            ``target_missed`` is as near as strips come.
+        budget_us : float
+            Time for it, us: without a tolerance it gives the least estimated error in that time.
 
-        Of a contact with normal ``auto``, target is one of ``TARGETS``, ``forces`` unless told
-        otherwise; tolerance is the largest estimated error of it that will do, 0.02 unless told
-        otherwise; budget_us is the time for it, us: without a tolerance it gives the least
-        estimated error in that time. The steps taken are in the result; ``target_missed`` is as
-        near as strips come. Where the target needs forces, ``faststrip`` gives them, whatever
-        tangential is, but not ``none``.
+        Returns
+        -------
+        Result
+            Figures; of ``auto`` also the steps that were taken.
+
+        Raises
+        ------
+        FaststripError
+            Where there is no result.
         """
         if (load is None) == (penetration is None):
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
