@@ -11,7 +11,7 @@ module faststrip_command_lookup_join
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
                                                 take_threads, choice_text
     use faststrip_command_lookup_parts, only: take_values, is_solved
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
+    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_command_system, only: set_progress
     use faststrip_files_bytes, only: read_bytes
@@ -52,7 +52,7 @@ contains
             option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000)'), &
             direct_options]
         call parse_command(command, 1, most_files)
-        if (.not. given(command, '-o')) &
+        if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
         call take_direct_options(command, choice)
         tests = option_integer(command, '--tests', 10000, least=100, most=10000000)

@@ -80,7 +80,7 @@ contains
                      // new_line('a') // 'FILE.unfinished'), &
             direct_options]
         call parse_command(command, 0)
-        if (.not. given(command, '-o')) &
+        if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
         call take_direct_options(command, choice)
         choice%nu = option_number(command, '--nu', choice%nu, least=0)
@@ -111,7 +111,7 @@ contains
         end if
         call release_workers(workers)
         call write_table(option_text(command, '-o', ''), lookup)
-        call remove_file(work_name(option_text(command, '-o', '')))
+        if (given(command, '--axes-of')) call remove_file(work_name(option_text(command, '-o', '')))
     end subroutine run_lookup_make
 
     !> A table, or a part of it, on the nodes of another one.

@@ -20,12 +20,13 @@ module faststrip_command_lookup_parts
 
 contains
 
-    !> The file of work that goes on.
+    !> The file of work that goes on; empty where the table is no ordinary file.
     pure function work_name(path) result(name)
         character(len=*), intent(in) :: path !! of the table
         character(len=:), allocatable :: name
 
-        name = path // '.unfinished'
+        name = ''
+        if (index(path, '/dev/') /= 1) name = path // '.unfinished'
     end function work_name
 
     !> A table of which nothing is solved.

@@ -81,17 +81,18 @@ contains
 
         integer(c_int) :: ignored
 
-        ignored = c_remove(trim(path) // c_null_char)
+        if (len_trim(path) > 0) ignored = c_remove(trim(path) // c_null_char)
     end subroutine remove_file
 
-    !> Write a file: either the whole new one is left, or the old one.
+    !> Write a file: either the whole new one is left, or the old one. What is no ordinary file
+    !> (`/dev/...`) is written directly.
     subroutine write_bytes(path, bytes, status)
         character(len=*), intent(in) :: path           !! name of the file
         integer(int8), target, contiguous, intent(in) :: bytes(:) !! all of it
         type(status_t), intent(out) :: status          !! `st_file_write`
 
         type(c_ptr) :: stream
-        character(len=:), allocatable :: temporary
+        character(len=:), allocatable :: temporary, final
         integer(c_size_t) :: n
         integer(c_int) :: code
         integer :: number
@@ -103,21 +104,27 @@ contains
             return
         end if
         stream = c_null_ptr
-        do number = 1, most_temporaries
-            temporary = temporary_name(path, number)
-            stream = c_fopen(temporary // c_null_char, 'wx' // c_null_char)
-            if (c_associated(stream)) exit
-        end do
+        final = path
+        if (index(path, '/dev/') /= 1) final = final_path(path)
+        if (index(final, '/dev/') == 1) then
+            stream = c_fopen(final // c_null_char, 'w' // c_null_char)
+        else
+            do number = 1, most_temporaries
+                temporary = temporary_name(path, number)
+                stream = c_fopen(temporary // c_null_char, 'wx' // c_null_char)
+                if (c_associated(stream)) exit
+            end do
+        end if
         if (.not. c_associated(stream)) then
             call set_status(status, st_file_write, 'cannot write the file: ' // path)
             return
         end if
         n = c_fwrite_bytes(c_loc(bytes), 1_c_size_t, int(size(bytes), c_size_t), stream)
         code = c_fclose(stream)
-        if (code == 0 .and. n == size(bytes)) &
-            code = c_rename(temporary // c_null_char, final_path(path) // c_null_char)
+        if (code == 0 .and. n == size(bytes) .and. len(temporary) > 0) &
+            code = c_rename(temporary // c_null_char, final // c_null_char)
         if (code == 0 .and. n == size(bytes)) return
-        code = c_remove(temporary // c_null_char)
+        if (len(temporary) > 0) code = c_remove(temporary // c_null_char)
         call set_status(status, st_file_write, 'cannot write the file: ' // path)
     end subroutine write_bytes
 end module faststrip_files_bytes

@@ -1,6 +1,7 @@
 """`faststrip lookup`: tables are made as good as asked for, judged, read; damage is told."""
 
 import math
+import pathlib
 import struct
 import subprocess
 import time
@@ -92,6 +93,9 @@ class Lookup(ProgramTest):
         self.refused(1, *on_axes, "-o", "again.fslt", "--resume", "--points", "14",
                      says=["the same nodes, method"])
         self.assertFalse((self.folder / "x").exists())
+        self.good(*on_axes, "-o", "/dev/null")
+        self.assertTrue(pathlib.Path("/dev/null").is_char_device())
+        self.assertFalse(pathlib.Path("/dev/null.unfinished").exists())
 
     def test_a_killed_run_loses_one_step_at_most(self):
         table = self.table()
@@ -210,6 +214,7 @@ class Lookup(ProgramTest):
             ((), "make, join, info, test or eval"),
             (("frobnicate",), "got frobnicate"),
             (("make",), "-o TABLE.fslt"),
+            (("make", "-o", "-"), "-o TABLE.fslt"),
             (("make", "-o", "x", "--ab", "3:1"), "'3:1'"),
             (("make", "-o", "x", "--ab", "1"), "'1'"),
             (("make", "-o", "x", "--error", "0"), "'0'"),
