@@ -223,7 +223,7 @@ def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
     y_wheel, z_wheel = draw_profile(wheel, "wheel")
     with _styled():
         if axes is None:
-            axes = _new_figure(7.0, 4.6).subplots()
+            axes = _new_figure(7.0, 3.4).subplots()
         if gap is not None:
             place = gap.y_rail, float(np.interp(gap.y_rail, y_rail, z_rail))
             y_wheel = y_wheel + place[0] - gap.y_wheel
