@@ -492,7 +492,7 @@ def signals(rng, i):
     def send(process, folder):
         # Once the output is begun.
         for _ in range(1000):
-            if any(path.suffix == ".tmp" for path in folder.iterdir()):
+            if any(path.suffix in (".tmp", ".journal") for path in folder.iterdir()):
                 break
             time.sleep(0.005)
         time.sleep(wait)
@@ -606,6 +606,8 @@ def run(attempt, limit):
         after = snapshot(folder)
         changes = {name for name in before.keys() | after.keys()
                    if before.get(name) != after.get(name)}
+        # What a batch has done stays for who resumes it.
+        changes -= {"kept.csv.partial", "kept.csv.journal"}
         err = err.decode("utf-8", "backslashreplace")
         code = process.returncode
         return judge(attempt, code, seconds, err, changes, limit), code, err

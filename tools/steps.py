@@ -68,6 +68,8 @@ PROGRAMS = ("faststrip", "faststrip-lab")
 
 COMMON = "-frecursive -fimplicit-none -std=f2018"
 RELEASE_FLAGS = f"-O3 -fopenmp-simd -fPIC {COMMON} {os.environ.get('FASTSTRIP_FFLAGS', '')}"
+# Of the programs: rows of a batch are solved by threads. The library that is installed has none.
+PROGRAM_FLAGS = f"{RELEASE_FLAGS} -fopenmp"
 # Without the C library's vector functions, which know rounding to nearest only.
 SCALAR_FLAGS = f"-O3 -fno-tree-vectorize -fPIC {COMMON}"
 TEST_FLAGS = (f"-Og -g -fopenmp-simd {COMMON} -Wall -Wextra -pedantic -Werror -Wno-compare-reals"
@@ -318,10 +320,10 @@ def built(package, flags, target):
 def build():
     """Both programs in bin/, written only where they have changed."""
     write_revision()
-    fpm_build("build", "app", RELEASE_FLAGS)
+    fpm_build("build", "app", PROGRAM_FLAGS)
     pathlib.Path("bin").mkdir(exist_ok=True)
     for name in PROGRAMS:
-        made, target = built("app", RELEASE_FLAGS, name), f"bin/{name}"
+        made, target = built("app", PROGRAM_FLAGS, name), f"bin/{name}"
         if not os.path.exists(target) or not filecmp.cmp(made, target, shallow=False):
             # One that is running at the moment can be replaced, not written over.
             shutil.copy2(made, f"{target}.new")

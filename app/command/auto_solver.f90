@@ -16,10 +16,9 @@ module faststrip_command_auto_solver
                                             step_words, grid_words
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t, core_methods
-    use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_command_stages, only: solver_t, outcome_t, solve_pressures, solve_forces, &
                                         estimate_figures, find_strip_forces, tell_forces, &
-                                        add_times, take_figures
+                                        add_times, take_figures, make_room
     implicit none
     private
 
@@ -38,7 +37,7 @@ contains
         type(taken_t) :: taken
         real(wp) :: cpu ! us
 
-        call reserve_for_case(solver%workspace, solver%case, status)
+        call make_room(solver, status)
         if (is_error(status)) return
         wanted = wanted_of(solver%numerics, solver%case)
         cpu = cpu_microseconds()
@@ -50,7 +49,11 @@ contains
                                     curve=solver%curve)
         end if
         if (is_error(status)) return
-        call take_steps(taken, cpu_microseconds() - cpu, outcome)
+        cpu = cpu_microseconds() - cpu
+        ! Lengths of words are in memory that all threads share, see `faststrip_base_text`.
+        !$omp critical (words)
+        call take_steps(taken, cpu, solver%tells_times, outcome)
+        !$omp end critical (words)
         call take_result(result, outcome)
         solver%chosen%contact_methods_t = taken%steps(taken%best)%methods
         if (wanted%others%one_us > 0.0_wp .and. .not. taken%is_met) &
@@ -69,9 +72,10 @@ contains
     end subroutine solve_wanted
 
     !> Times and words of the core's steps.
-    subroutine take_steps(taken, cpu_us, outcome)
+    subroutine take_steps(taken, cpu_us, tells_times, outcome)
         type(taken_t), intent(in) :: taken
         real(wp), intent(in) :: cpu_us ! of all of them
+        logical, intent(in) :: tells_times
         type(outcome_t), intent(inout) :: outcome
 
         real(wp) :: normal_us, tangential_us, share
@@ -85,9 +89,9 @@ contains
         if (tangential_us > 0.0_wp) share = normal_us/(normal_us + tangential_us)
         outcome%normal_cpu_us = outcome%normal_cpu_us + share*cpu_us
         outcome%tangential_cpu_us = outcome%tangential_cpu_us + (1.0_wp - share)*cpu_us
-        outcome%choice = step_words(taken%steps(1))
+        outcome%choice = step_words(taken%steps(1), tells_times)
         do i = 2, taken%n
-            outcome%choice = outcome%choice // '; ' // step_words(taken%steps(i))
+            outcome%choice = outcome%choice // '; ' // step_words(taken%steps(i), tells_times)
         end do
     end subroutine take_steps
 
@@ -134,7 +138,9 @@ contains
             if (.not. is_error(tried)) step%estimate = max(step%estimate, &
                 contradiction(wanted%target, outcome%normal, best, trial%normal))
             call add_times(trial, outcome)
-            outcome%choice = outcome%choice // '; ' // grid_words(step)
+            !$omp critical (words)
+            outcome%choice = outcome%choice // '; ' // grid_words(step, solver%tells_times)
+            !$omp end critical (words)
             if (is_error(tried) .or. step%estimate >= best) then
                 solver%workspace%strips = strips
                 if (solver%with_field) solver%field = field

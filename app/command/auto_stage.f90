@@ -142,8 +142,9 @@ contains
     end function next_grid
 
     !> A step of the core in words: methods, estimate, time.
-    function step_words(step) result(text)
+    function step_words(step, tells_time) result(text)
         type(auto_step_t), intent(in) :: step !! what was tried
+        logical, intent(in) :: tells_time     !! else the words are those of any other run
         character(len=:), allocatable :: text !! for the CSV
 
         associate (methods => step%methods)
@@ -153,12 +154,13 @@ contains
                 text = text // ' + ' // trim(tangential_method_name(methods%tangential)) // ' ' &
                        // integer_text(methods%points_per_strip)
         end associate
-        text = text // told(step%estimate, step%normal_us + step%tangential_us)
+        text = text // told(step%estimate, step%normal_us + step%tangential_us, tells_time)
     end function step_words
 
     !> A try of Kalker's methods in words.
-    function grid_words(step) result(text)
+    function grid_words(step, tells_time) result(text)
         type(grid_step_t), intent(in) :: step !! what was tried
+        logical, intent(in) :: tells_time     !! as for `step_words`
         character(len=:), allocatable :: text !! for the CSV
 
         text = trim(normal_method_name(normal_norm)) // ' ' // integer_text(nint(step%across))
@@ -167,17 +169,18 @@ contains
         if (is_error(step%status)) then
             text = text // ': ' // trim(status_word(step%status%code))
         else
-            text = text // told(step%estimate, step%us)
+            text = text // told(step%estimate, step%us, tells_time)
         end if
     end function grid_words
 
-    function told(estimate, us) result(text)
+    function told(estimate, us, tells_time) result(text)
         real(wp), intent(in) :: estimate, us
+        logical, intent(in) :: tells_time
         character(len=:), allocatable :: text
 
         text = ': not known'
         if (estimate < unknown_error) text = ': ' // short(estimate)
-        text = text // ' in ' // integer_text(nint(us)) // ' us'
+        if (tells_time) text = text // ' in ' // integer_text(nint(us)) // ' us'
     end function told
 
     !> A number of two digits that count.

@@ -325,7 +325,8 @@ contains
     pure function beside(file, path) result(resolved)
         character(len=*), intent(in) :: file     !! name of that file
         character(len=*), intent(in) :: path     !! as it stands there
-        character(len=:), allocatable :: resolved
+        character(len=len(path) + merge(0, index(file, '/', back=.true.), index(path, '/') == 1)) &
+            :: resolved
 
         resolved = path
         if (index(path, '/') /= 1) resolved = file(:index(file, '/', back=.true.)) // path

@@ -3,14 +3,20 @@ module faststrip_command_files
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: temporary_name, temporary_prefix, temporary_ending, &
                                    most_temporaries
-    use faststrip_command_console, only: fail, usage_error, exit_bad_input
+    use faststrip_command_console, only: fail, usage_error, exit_bad_input, exit_usage
     use faststrip_command_system, only: identity_t, identify, is_fed, keep_in_mind, &
                                         remove_leftovers, kind_none, kind_file, kind_folder, &
                                         kind_pipe
     implicit none
     private
 
-    public :: take_input, take_output
+    public :: take_input, take_output, trouble_t, check_input
+
+    !> Why a file cannot be read in this run.
+    type :: trouble_t
+        integer :: code = 0                    !! exit code; 0: it can
+        character(len=:), allocatable :: words !! one line
+    end type trouble_t
 
     ! A named pipe into which nobody writes would be waited for without end.
     integer, parameter :: patience = 5 ! s
@@ -31,6 +37,18 @@ contains
     subroutine take_input(path)
         character(len=*), intent(in) :: path !! as it was given
 
+        type(trouble_t) :: trouble
+
+        call check_input(path, trouble)
+        if (trouble%code == exit_usage) call usage_error(trouble%words, '')
+        if (trouble%code /= 0) call fail(trouble%code, trouble%words)
+    end subroutine take_input
+
+    !> The same without ending the program, for one of several threads.
+    subroutine check_input(path, trouble)
+        character(len=*), intent(in) :: path     !! as it was given
+        type(trouble_t), intent(out) :: trouble  !! for who ends the program
+
         type(used_t) :: input
         integer :: i
 
@@ -40,15 +58,16 @@ contains
         input%identity = identify(path)
         if (input%identity%kind == kind_none) return ! whoever opens it says so
         do i = 1, size(outputs)
-            call refuse_overwriting(outputs(i), input)
+            call check_overwriting(outputs(i), input, trouble)
+            if (trouble%code /= 0) return
         end do
         if (input%identity%kind == kind_pipe .and. index(path, '/dev/') /= 1 &
             .and. index(path, '/proc/') /= 1) then
             if (.not. is_fed(path, patience)) &
-                call fail(exit_bad_input, 'nobody writes into the pipe for ' &
-                          // integer_text(patience) // ' s: ' // path)
+                trouble = trouble_t(exit_bad_input, 'nobody writes into the pipe for ' &
+                                    // integer_text(patience) // ' s: ' // path)
         end if
-    end subroutine take_input
+    end subroutine check_input
 
     !> Note a file that will be written, before anything is read. Ends the program with a usage
     !> error if it is another output. What an earlier run that was killed left beside it is
@@ -109,27 +128,29 @@ contains
     end subroutine append_output
 
     !> An output must neither be an input nor a file in a folder of inputs.
-    subroutine refuse_overwriting(output, input)
+    subroutine check_overwriting(output, input, trouble)
         type(used_t), intent(in) :: output, input
+        type(trouble_t), intent(inout) :: trouble
 
         character(len=:), allocatable :: folder
 
         if (input%identity%kind == kind_file) then
             if (.not. are_same(output%identity, input%identity)) return
             if (input%path == output%path) then
-                call usage_error(output%option // ' must not be a file that is read, got ' &
-                                 // output%path, '')
+                trouble = trouble_t(exit_usage, output%option // ' must not be a file that is ' &
+                                    // 'read, got ' // output%path)
             else
-                call usage_error(output%option // ' must not be a file that is read, got ' &
-                                 // output%path // ', which is ' // input%path, '')
+                trouble = trouble_t(exit_usage, output%option // ' must not be a file that is ' &
+                                    // 'read, got ' // output%path // ', which is ' // input%path)
             end if
         else if (input%identity%kind == kind_folder .and. output%identity%kind == kind_file) then
             folder = input%identity%path // '/'
             if (index(output%identity%path, folder) == 1) &
-                call usage_error(output%option // ' must not be a file that may be read, got ' &
-                                 // output%path // ' in the folder ' // input%path, '')
+                trouble = trouble_t(exit_usage, output%option // ' must not be a file that may ' &
+                                    // 'be read, got ' // output%path // ' in the folder ' &
+                                    // input%path)
         end if
-    end subroutine refuse_overwriting
+    end subroutine check_overwriting
 
     logical function are_same(one, other)
         type(identity_t), intent(in) :: one, other

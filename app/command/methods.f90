@@ -115,13 +115,15 @@ contains
     !> What a word must be.
     pure function one_of(words) result(text)
         character(len=*), intent(in) :: words(:)
-        character(len=:), allocatable :: text
+        character(len=len('one of ') + sum(len_trim(words)) + len(', ')*(size(words) - 1)) :: text
 
-        integer :: i
+        integer :: i, filled
 
         text = 'one of ' // trim(words(1))
+        filled = len('one of ') + len_trim(words(1))
         do i = 2, size(words)
-            text = text // ', ' // trim(words(i))
+            text(filled + 1:) = ', ' // trim(words(i))
+            filled = filled + len(', ') + len_trim(words(i))
         end do
     end function one_of
 

@@ -17,7 +17,7 @@ module faststrip_command_norm_stage
     use faststrip_contact_solve, only: workspace_t, solve_contact_normal
     use faststrip_command_system, only: set_detail
     use faststrip_command_methods, only: numerics_t
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_command_normal_stage, only: reserve_for_points
     implicit none
     private
 
@@ -102,7 +102,7 @@ contains
         strips%methods%normal = normal_strip
         if (strips%methods%strips_per_patch == strips_auto) &
             strips%methods%strips_per_patch = start_strips
-        call reserve_for_case(stage%start, strips, status)
+        call reserve_for_points(stage%start, strips, curve%n, status)
         if (.not. is_error(status)) &
             call solve_contact_normal(stage%start, strips, ignored, status, curve=curve)
         if (is_error(status)) stage%start%strips%n = 0

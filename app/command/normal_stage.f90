@@ -7,7 +7,7 @@ module faststrip_command_normal_stage
     implicit none
     private
 
-    public :: reserve_for_case
+    public :: reserve_for_case, reserve_for_points
 
 contains
 
@@ -19,6 +19,16 @@ contains
 
         call check_gap(case%gap, status)
         if (is_error(status)) return
-        call reserve_workspace(workspace, case%methods, size(case%gap%y), status)
+        call reserve_for_points(workspace, case, size(case%gap%y), status)
     end subroutine reserve_for_case
+
+    !> The same for a contact whose gap is a curve already.
+    subroutine reserve_for_points(workspace, case, points, status)
+        type(workspace_t), intent(inout) :: workspace !! sized
+        class(contact_case_t), intent(in) :: case     !! its methods
+        integer, intent(in) :: points                 !! of the gap
+        type(status_t), intent(out) :: status         !! those of `reserve_workspace`
+
+        call reserve_workspace(workspace, case%methods, points, status)
+    end subroutine reserve_for_points
 end module faststrip_command_normal_stage

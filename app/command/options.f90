@@ -2,6 +2,7 @@
 module faststrip_command_options
     use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: parse_real, parse_integer, integer_text
+    use faststrip_files_digest, only: digest_of_file
     use faststrip_command_console, only: usage_error, say, printable, program_name
     use faststrip_command_files, only: take_input, take_output
     use faststrip_command_system, only: start_signals
@@ -10,7 +11,7 @@ module faststrip_command_options
 
     public :: command_t, option_t, argument_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
-        option_text, option_number, option_integer, option_word, refuse_value
+        option_text, option_number, option_integer, option_word, refuse_value, given_options
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
@@ -227,6 +228,27 @@ contains
         text = default
         if (given(command, name)) text = command%options(find(command, name))%text
     end function option_text
+
+    !> The options that were given, with their values and, of files that are read, what is in them:
+    !> two runs whose options agree do the same with the same arguments.
+    function given_options(command, but_for) result(text)
+        type(command_t), intent(in) :: command     !! parsed
+        character(len=*), intent(in) :: but_for(:) !! options that do not count
+        character(len=:), allocatable :: text      !! in the order of the table
+
+        integer :: i
+
+        text = ''
+        do i = 1, size(command%options)
+            associate (option => command%options(i))
+                if (.not. option%is_given .or. any(but_for == option%name)) cycle
+                if (len(text) > 0) text = text // ' '
+                text = text // trim(option%name)
+                if (option%value_name /= '') text = text // '=' // printable(option%text)
+                if (option%reads) text = text // ' (SHA-256 ' // digest_of_file(option%text) // ')'
+            end associate
+        end do
+    end function given_options
 
     !> The option's value as a finite real number; a usage error if it is none, or too small.
     real(wp) function option_number(command, name, default, above, least) result(value)

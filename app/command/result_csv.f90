@@ -39,13 +39,18 @@ module faststrip_command_result_csv
 contains
 
     !> The cells of one contact; all but the status word are empty if there is no result.
-    subroutine put_result(writer, outcome, status)
+    subroutine put_result(writer, outcome, status, tells_times)
         type(csv_writer_t), intent(inout) :: writer !! an open file, in the middle of a row
         type(outcome_t), intent(in) :: outcome      !! figures
         type(status_t), intent(in) :: status        !! how it ended
+        logical, intent(in), optional :: tells_times !! else the cells of times are empty; default
+                                                    !! true
 
+        logical :: with_times
         integer :: i
 
+        with_times = .true.
+        if (present(tells_times)) with_times = tells_times
         call put_cell(writer, trim(status_word(status%code)))
         if (is_error(status)) then
             do i = 2, size(result_columns)
@@ -67,8 +72,8 @@ contains
             call put_cell(writer, tangential%friction_power, is_known=outcome%has_forces)
             call put_cell(writer, tangential%stick_fraction, is_known=outcome%knows_stick)
         end associate
-        call put_cell(writer, outcome%normal_us)
-        call put_cell(writer, outcome%tangential_us)
+        call put_cell(writer, outcome%normal_us, is_known=with_times)
+        call put_cell(writer, outcome%tangential_us, is_known=with_times)
         associate (certificate => outcome%certificate)
             call put_cell(writer, certificate%residual_inside, is_known=outcome%is_certified)
             call put_cell(writer, certificate%overlap_outside, is_known=outcome%is_certified)

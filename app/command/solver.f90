@@ -7,7 +7,8 @@ module faststrip_command_solver
     use faststrip_base_material, only: check_material
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: gap_t, check_gap
-    use faststrip_geometry_gap_curve, only: reserve_gap_curve, set_gap_curve
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
+                                            copy_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_case, only: contact_case_t
@@ -25,6 +26,14 @@ module faststrip_command_solver
     private
 
     public :: solver_t, release_solver, outcome_t, make_solver, solve, name_yield
+    public :: ready_gap_t, make_ready
+
+    !> A gap that is ready for many contacts.
+    type :: ready_gap_t
+        integer(int64) :: id = 0          !! number that no other gap of the run has, above 0
+        type(gap_curve_t) :: curve        !! smoothed if that was asked for
+        real(wp) :: change_um = 0.0_wp    !! rms change by that, um
+    end type ready_gap_t
 
 contains
 
@@ -58,13 +67,14 @@ contains
     end subroutine release_solver
 
     !> Solve one contact.
-    subroutine solve(solver, case, outcome, status)
+    subroutine solve(solver, case, outcome, status, ready)
         type(solver_t), intent(inout) :: solver     !! made beforehand
         class(contact_case_t), intent(in) :: case   !! what to solve; its methods do not count
         type(outcome_t), intent(out) :: outcome     !! figures
         type(status_t), intent(out) :: status       !! an error, or a named limitation
+        type(ready_gap_t), intent(in), optional :: ready !! its gap; that of the case does not count
 
-        call solve_methods(solver, case, outcome, status)
+        call solve_methods(solver, case, outcome, status, ready)
         if (is_error(status)) return
         call name_yield(solver%numerics%yield_mpa, outcome%normal%pmax, status)
         if (outcome%has_forces) &
@@ -74,14 +84,19 @@ contains
     end subroutine solve
 
     !> The same without the limit of the user.
-    subroutine solve_methods(solver, case, outcome, status)
+    subroutine solve_methods(solver, case, outcome, status, ready)
         type(solver_t), intent(inout) :: solver     !! made beforehand
         class(contact_case_t), intent(in) :: case   !! what to solve; its methods do not count
         type(outcome_t), intent(out) :: outcome     !! figures
         type(status_t), intent(out) :: status       !! an error, or a named limitation
+        type(ready_gap_t), intent(in), optional :: ready !! its gap
 
         outcome%choice = ''
-        call take_contact(solver, case, outcome, status)
+        if (present(ready)) then
+            call take_ready(solver, case, ready, outcome, status)
+        else
+            call take_contact(solver, case, outcome, status)
+        end if
         if (is_error(status)) return
         solver%chosen = solver%numerics
         solver%case%methods = core_methods(solver%chosen)
@@ -116,25 +131,20 @@ contains
         type(outcome_t), intent(inout) :: outcome
         type(status_t), intent(out) :: status
 
-        type(gap_t) :: smooth
         type(environment_t) :: environment
         integer(int64) :: before, after
-        real(wp) :: change, cpu ! mm, us
+        real(wp) :: cpu ! us
 
         call check_material(case%material, status)
         if (is_error(status)) return
         solver%case = case
-        if (solver%numerics%smoothing_um > 0.0_wp) then
-            call smooth_gap(case%gap, 1.0e-3_wp*solver%numerics%smoothing_um, smooth, change, &
-                            status)
-            if (is_error(status)) return
-            solver%case%gap = smooth
-            outcome%gap_change_um = 1.0e3_wp*change
-        end if
+        call smooth_if_wanted(solver%numerics, solver%case%gap, outcome%gap_change_um, status)
+        if (is_error(status)) return
         call check_gap(solver%case%gap, status)
         if (is_error(status)) return
         call reserve_gap_curve(solver%curve, size(solver%case%gap%y), status)
         if (is_error(status)) return
+        solver%gap_id = 0
         cpu = cpu_microseconds()
         call system_clock(before)
         ! As the library does: in its own rounding mode, without the host's traps.
@@ -146,4 +156,61 @@ contains
         outcome%normal_cpu_us = cpu_microseconds() - cpu
     end subroutine take_contact
 
+    !> The same with a gap that is a curve already: only copied, unless it is that of the last
+    !> contact.
+    subroutine take_ready(solver, case, ready, outcome, status)
+        type(solver_t), intent(inout) :: solver
+        class(contact_case_t), intent(in) :: case
+        type(ready_gap_t), intent(in) :: ready
+        type(outcome_t), intent(inout) :: outcome
+        type(status_t), intent(out) :: status
+
+        call check_material(case%material, status)
+        if (is_error(status)) return
+        solver%case = case
+        outcome%gap_change_um = ready%change_um
+        if (solver%gap_id == ready%id) return
+        solver%gap_id = 0
+        call reserve_gap_curve(solver%curve, ready%curve%n, status)
+        if (is_error(status)) return
+        call copy_gap_curve(ready%curve, solver%curve, status)
+        if (.not. is_error(status)) solver%gap_id = ready%id
+    end subroutine take_ready
+
+    !> Smooth a gap if that is asked for.
+    subroutine smooth_if_wanted(numerics, gap, change_um, status)
+        type(numerics_t), intent(in) :: numerics
+        type(gap_t), intent(inout) :: gap
+        real(wp), intent(out) :: change_um ! rms, um
+        type(status_t), intent(out) :: status
+
+        type(gap_t) :: smooth
+        real(wp) :: change ! mm
+
+        change_um = 0.0_wp
+        call clear_status(status)
+        if (numerics%smoothing_um <= 0.0_wp) return
+        call smooth_gap(gap, 1.0e-3_wp*numerics%smoothing_um, smooth, change, status)
+        if (is_error(status)) return
+        gap = smooth
+        change_um = 1.0e3_wp*change
+    end subroutine smooth_if_wanted
+
+    !> Make a gap ready for many contacts: smoothed if that is asked for, and a curve.
+    subroutine make_ready(numerics, gap, ready, status)
+        type(numerics_t), intent(in) :: numerics    !! what was asked for
+        type(gap_t), intent(inout) :: gap           !! is smoothed
+        type(ready_gap_t), intent(inout) :: ready   !! its number is the caller's
+        type(status_t), intent(out) :: status       !! those of `smooth_gap` and `check_gap`
+
+        type(environment_t) :: environment
+
+        call smooth_if_wanted(numerics, gap, ready%change_um, status)
+        if (.not. is_error(status)) call check_gap(gap, status)
+        if (.not. is_error(status)) call reserve_gap_curve(ready%curve, size(gap%y), status)
+        if (is_error(status)) return
+        call hold_environment(environment)
+        call set_gap_curve(ready%curve, gap, status)
+        call restore_environment(environment)
+    end subroutine make_ready
 end module faststrip_command_solver

@@ -3,7 +3,7 @@
 module faststrip_command_stages
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_resolution
@@ -14,7 +14,8 @@ module faststrip_command_stages
                                           strip_forces_t, reserve_strip_forces
     use faststrip_kalker_tangential, only: are_alike
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_norm, &
+    use faststrip_contact_methods, only: contact_methods_t, normal_strip, normal_hertz, &
+                                         normal_norm, &
                                          tangential_none, tangential_faststrip, &
                                          tangential_faststrip_plain, tangential_tang, gives_stick
     use faststrip_contact_solve, only: workspace_t, solve_contact_normal, &
@@ -22,7 +23,7 @@ module faststrip_command_stages
                                        estimate_contact_forces
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_command_normal_stage, only: reserve_for_points
     use faststrip_command_norm_stage, only: norm_stage_t, reserve_norm_stage, solve_by_norm, &
                                             take_rows
     use faststrip_command_wear_figures, only: wear_figures_t
@@ -32,7 +33,7 @@ module faststrip_command_stages
     private
 
     public :: solver_t, outcome_t, solve_pressures, solve_forces, estimate_figures
-    public :: find_strip_forces, tell_forces, add_times, take_figures
+    public :: find_strip_forces, tell_forces, add_times, take_figures, make_room
 
     !> Methods with their workspaces, used for one contact after the other.
     type :: solver_t
@@ -42,7 +43,11 @@ module faststrip_command_stages
         type(contact_case_t) :: case        !! the last one: its gap smoothed if that was asked
                                             !! for, its methods the core's part of `chosen`
         type(gap_curve_t) :: curve          !! its gap, for all methods
+        integer(int64) :: gap_id = 0        !! number of that gap; 0: it has none
         type(workspace_t) :: workspace      !! with the strips of the last contact
+        integer, private :: points = 0      ! of a gap that the workspace has room for
+        type(contact_methods_t), private :: methods ! that it has room for
+        logical :: tells_times = .true.     !! do the steps of auto tell their times?
         type(norm_stage_t) :: norm          !! if that is the normal method
         type(tang_stage_t) :: tang          !! if that is the tangential method
         type(tangential_field_t) :: field   !! of the last contact, if wanted
@@ -83,10 +88,10 @@ contains
         integer(int64) :: before, after
         real(wp) :: cpu ! us
 
-        call reserve_for_case(solver%workspace, solver%case, status)
+        call make_room(solver, status)
         if (is_error(status)) return
         if (solver%chosen%normal == normal_norm) &
-            call reserve_norm_stage(solver%norm, size(solver%case%gap%y), status)
+            call reserve_norm_stage(solver%norm, solver%curve%n, status)
         if (is_error(status)) return
         cpu = cpu_microseconds()
         call system_clock(before)
@@ -113,6 +118,24 @@ contains
         if (is_error(status)) return
         if (solver%with_field) call grow_field(solver, status)
     end subroutine solve_pressures
+
+    !> Room in the workspace for the contact and its methods. Where there is enough the last
+    !> solution stays, for the next one to start from.
+    subroutine make_room(solver, status)
+        type(solver_t), intent(inout) :: solver !! with a contact
+        type(status_t), intent(out) :: status   !! those of `reserve_workspace`
+
+        call clear_status(status)
+        associate (methods => solver%case%methods)
+            if (solver%curve%n <= solver%points .and. &
+                methods%normal == solver%methods%normal .and. &
+                methods%strips_per_patch == solver%methods%strips_per_patch) return
+            solver%points = max(solver%points, solver%curve%n)
+            call reserve_for_points(solver%workspace, solver%case, solver%points, status)
+            solver%methods = methods
+        end associate
+        if (is_error(status)) solver%points = 0
+    end subroutine make_room
 
     !> The tangential problem; an error of it becomes that of the contact.
     subroutine solve_forces(solver, outcome, status)

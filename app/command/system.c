@@ -16,6 +16,13 @@
 #include <time.h>
 #include <unistd.h>
 
+#if defined(__GNUC__)
+/* Only OpenBLAS has it. */
+extern void openblas_set_num_threads(int n) __attribute__((weak));
+#else
+static void (*const openblas_set_num_threads)(int) = NULL;
+#endif
+
 enum { kind_none, kind_file, kind_folder, kind_pipe, kind_other };
 enum { most_temporaries = 64, longest_text = 200 };
 
@@ -26,7 +33,7 @@ static volatile sig_atomic_t n_temporaries;
 static char speaker[32] = "faststrip";
 static char doing[2][longest_text];
 static volatile sig_atomic_t doing_now;
-static volatile sig_atomic_t told, seconds;
+static volatile sig_atomic_t told, told_at, seconds, quiet;
 
 /* The kind of what a path leads to, and the numbers that tell it from all other files. */
 int faststrip_identify(const char *path, long long identity[2])
@@ -107,10 +114,25 @@ int faststrip_is_fed(const char *path, int wait)
 /* Remember a file that has to go if the program ends before its time. */
 void faststrip_keep_in_mind(const char *path)
 {
-    if (n_temporaries >= most_temporaries || strlen(path) >= PATH_MAX)
+    int i;
+
+    for (i = 0; i < n_temporaries && temporaries[i][0]; i++)
+        ;
+    if (i >= most_temporaries || strlen(path) >= PATH_MAX)
         return;
-    strcpy(temporaries[n_temporaries], path);
-    n_temporaries++;
+    strcpy(temporaries[i], path);
+    if (i == n_temporaries)
+        n_temporaries++;
+}
+
+/* It has got its name, or is another run's from now on. */
+void faststrip_forget(const char *path)
+{
+    int i;
+
+    for (i = 0; i < n_temporaries; i++)
+        if (strcmp(temporaries[i], path) == 0)
+            temporaries[i][0] = '\0';
 }
 
 static void remove_temporaries(void)
@@ -118,7 +140,8 @@ static void remove_temporaries(void)
     int i;
 
     for (i = 0; i < n_temporaries; i++)
-        unlink(temporaries[i]);
+        if (temporaries[i][0])
+            unlink(temporaries[i]);
 }
 
 /* Remove what killed runs on this host left in a folder: files called prefix, number of the
@@ -232,7 +255,8 @@ static void end_by_signal(int number)
     _exit(128 + number);
 }
 
-/* Once a second: what is being done, if that is news; else ever more rarely. */
+/* Once a second: what is being done, if that is news; else ever more rarely. Of news, after a
+ * minute every ten seconds, after ten minutes every minute. */
 static void tell_progress(int number)
 {
     char line[longest_text + 40] = "";
@@ -240,7 +264,10 @@ static void tell_progress(int number)
 
     (void)number;
     seconds++;
-    if (now != told || (seconds & (seconds - 1)) == 0) {
+    if (quiet)
+        return;
+    if ((now != told && seconds - told_at >= (seconds < 60 ? 1 : seconds < 600 ? 10 : 60))
+        || (seconds & (seconds - 1)) == 0) {
         append(line, sizeof line, speaker);
         append(line, sizeof line, ": ");
         append(line, sizeof line, doing[now & 1]);
@@ -249,14 +276,28 @@ static void tell_progress(int number)
         append(line, sizeof line, " s\n");
         tell(line);
         told = now;
+        told_at = seconds;
     }
     errno = saved;
+}
+
+/* Let the library of linear algebra use no threads of its own: rows have them. */
+void faststrip_use_one_thread_each(void)
+{
+    if (openblas_set_num_threads)
+        openblas_set_num_threads(1);
 }
 
 /* Which of the programs speaks, at the start of each line on stderr. */
 void faststrip_set_speaker(const char *name)
 {
     strncpy(speaker, name, sizeof speaker - 1);
+}
+
+/* Do not tell of long work. */
+void faststrip_be_quiet(void)
+{
+    quiet = 1;
 }
 
 /* What the lines on stderr say that long work is at. */

@@ -1,11 +1,13 @@
 !> The operating system: which file a path means, signals, progress of long work.
 module faststrip_command_system
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long_long, c_null_char
+    !$ use omp_lib, only: omp_in_parallel
     implicit none
     private
 
-    public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, remove_leftovers
-    public :: start_signals, set_progress, set_detail, set_speaker, is_printed, become
+    public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, forget_file
+    public :: remove_leftovers, start_signals, set_progress, set_detail, set_speaker, is_printed
+    public :: be_quiet, use_one_thread_each, become
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     ! Kinds of files, as `system.c` numbers them.
@@ -59,6 +61,19 @@ module faststrip_command_system
             import :: c_char
             character(kind=c_char), intent(in) :: path(*)
         end subroutine c_keep_in_mind
+
+        subroutine c_forget(path) bind(c, name='faststrip_forget')
+            import :: c_char
+            character(kind=c_char), intent(in) :: path(*)
+        end subroutine c_forget
+
+        !> Do not tell of long work.
+        subroutine be_quiet() bind(c, name='faststrip_be_quiet')
+        end subroutine be_quiet
+
+        !> Let the library of linear algebra have one thread in each of ours.
+        subroutine use_one_thread_each() bind(c, name='faststrip_use_one_thread_each')
+        end subroutine use_one_thread_each
 
         subroutine c_remove_leftovers(folder, prefix, ending) &
             bind(c, name='faststrip_remove_leftovers')
@@ -122,13 +137,20 @@ contains
         type(identity_t) :: identity
 
         identity%kind = c_identify(path // c_null_char, identity%numbers)
-        identity%path = resolved(path)
+        call resolve(path, identity%path)
     end function identify
 
     !> A path without links and dots; empty if there is no such place.
     function resolved(path) result(text)
         character(len=*), intent(in) :: path !! a name
         character(len=:), allocatable :: text
+
+        call resolve(path, text)
+    end function resolved
+
+    subroutine resolve(path, text)
+        character(len=*), intent(in) :: path
+        character(len=:), allocatable, intent(out) :: text
 
         character(kind=c_char) :: out(longest_path)
         integer :: i, length
@@ -138,7 +160,7 @@ contains
         do i = 1, length
             text(i:i) = out(i)
         end do
-    end function resolved
+    end subroutine resolve
 
     !> Does somebody write into a named pipe within some seconds?
     logical function is_fed(path, seconds)
@@ -154,6 +176,13 @@ contains
 
         call c_keep_in_mind(path // c_null_char)
     end subroutine keep_in_mind
+
+    !> Do not remove it any more.
+    subroutine forget_file(path)
+        character(len=*), intent(in) :: path !! as it was given to `keep_in_mind`
+
+        call c_forget(path // c_null_char)
+    end subroutine forget_file
 
     !> Remove what killed runs left in a folder: files `PREFIX<process>_<number>ENDING` of
     !> processes that are gone.
@@ -197,10 +226,12 @@ contains
         call c_set_progress(text // c_null_char)
     end subroutine set_progress
 
-    !> Say more about what is being done, until the next call.
+    !> Say more about what is being done, until the next call. Of threads that work side by side
+    !> nothing is said.
     subroutine set_detail(text)
         character(len=*), intent(in) :: text !! a few words
 
+        !$ if (omp_in_parallel()) return
         call c_set_progress(present_work // ', ' // text // c_null_char)
     end subroutine set_detail
 end module faststrip_command_system

@@ -5,6 +5,7 @@ program faststrip_main
     use faststrip_command_integral, only: run_integral
     use faststrip_command_contact, only: run_contact
     use faststrip_command_batch, only: run_batch
+    use faststrip_command_merge, only: run_merge
     use faststrip_command_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
     use faststrip_command_profile, only: run_profile
@@ -19,6 +20,7 @@ program faststrip_main
     case ('integral'); call run_integral()
     case ('contact'); call run_contact()
     case ('batch'); call run_batch()
+    case ('merge'); call run_merge()
     case ('sweep'); call run_sweep()
     case ('table'); call run_table()
     case ('profile'); call run_profile()
@@ -46,6 +48,7 @@ contains
         call say('  integral               influence integrals of strips')
         call say('  contact CASE.nml       one contact, from two profiles or a gap file')
         call say('  batch CASES.csv        one contact per row of a CSV file')
+        call say('  merge PART.csv...      parts of a batch joined')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  wheelset CASE.nml      contacts of a wheelset on a track, one row a contact')
         call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')

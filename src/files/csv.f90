@@ -8,19 +8,27 @@
 module faststrip_files_csv
     use faststrip_files_csv_table, only: csv_text_t, csv_table_t, read_csv, column_index, &
                                          require_column, cell_text, cell_number, cell_integer, &
-                                         column_numbers, several_columns
+                                         column_numbers, several_columns, take_only_row
+    use faststrip_files_csv_stream, only: csv_stream_t, csv_scan_t, row_place_t, open_stream, &
+                                          find_row, row_place, go_to_row, close_stream, scan_csv, &
+                                          find_row_place
     use faststrip_files_csv_writer, only: csv_writer_t, open_csv, put_comment, put_header, &
-                                          put_cell, end_row, put_line, close_csv, abort_csv, &
-                                          real_text
+                                          put_cell, end_row, put_line, put_text, close_csv, &
+                                          abort_csv, collect_csv, collected, collected_length, &
+                                          forget_collected, real_text, failure_words
     use faststrip_files_temporary, only: temporary_prefix, temporary_ending, most_temporaries, &
-                                         temporary_name
+                                         temporary_name, final_path
     implicit none
     private
 
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers, several_columns
-    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
-    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
-    public :: real_text
+    public :: column_numbers, several_columns, take_only_row
+    public :: csv_stream_t, csv_scan_t, row_place_t
+    public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
+    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name, final_path
+    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, put_text
+    public :: close_csv, abort_csv
+    public :: collect_csv, collected, collected_length, forget_collected
+    public :: real_text, failure_words
 end module faststrip_files_csv

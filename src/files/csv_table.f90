@@ -13,6 +13,7 @@ module faststrip_files_csv_table
     public :: csv_text_t, csv_table_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
     public :: column_numbers, several_columns
+    public :: start_table, take_names, take_only_row, leave_blanks, byte_order_mark
 
     !> One text of its own length.
     type :: csv_text_t
@@ -38,9 +39,24 @@ module faststrip_files_csv_table
     integer, parameter :: most_cells = 25000000
 
     character(len=1), parameter :: tab = achar(9)
+    !> What may stand in front of a text in UTF-8.
     character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
 contains
+
+    ! Length of the text of a cell; 0 outside the table.
+    pure integer function cell_length(table, row, column) result(length)
+        type(csv_table_t), intent(in) :: table   !! a table that was read
+        integer, intent(in) :: row               !! 1 to n_rows
+        integer, intent(in) :: column            !! 1 to n_columns
+        integer :: i
+
+        length = 0
+        if (row < 1 .or. row > table%n_rows) return
+        if (column < 1 .or. column > table%n_columns) return
+        i = (row - 1)*table%n_columns + column
+        length = table%end_of(i) - table%end_of(i - 1)
+    end function cell_length
 
     !> Read a whole file. On an error the table is empty but for the name of the file.
     subroutine read_csv(path, table, status)
@@ -51,17 +67,19 @@ contains
                                                  !! fewer cells than names, an open quote
         type(text_file_t) :: file
 
-        call empty_table(path, table)
+        call start_table(path, table)
         call open_text(path, file, status)
         if (status%code /= 0) return
         call read_rows(file, table, status)
         call close_text(file)
-        if (status%code /= 0) call empty_table(path, table)
+        if (status%code /= 0) call start_table(path, table)
     end subroutine read_csv
 
-    subroutine empty_table(path, table)
-        character(len=*), intent(in) :: path
-        type(csv_table_t), intent(out) :: table
+    !> A table without names and rows, for who takes line by line: `take_names`, then
+    !> `take_only_row`.
+    subroutine start_table(path, table)
+        character(len=*), intent(in) :: path    !! name of the file, for messages
+        type(csv_table_t), intent(out) :: table !! empty
 
         ! Tuned [characters, cells]: first room. Origin: chosen: a gap of 400 points.
         integer, parameter :: first_text = 16384, first_cells = 2048
@@ -71,7 +89,7 @@ contains
         allocate (character(len=first_text) :: table%text)
         allocate (table%end_of(0:first_cells))
         table%end_of(0) = 0
-    end subroutine empty_table
+    end subroutine start_table
 
     subroutine read_rows(file, table, status)
         type(text_file_t), intent(inout) :: file
@@ -118,10 +136,39 @@ contains
         table%line = table%line(:table%n_rows)
     end subroutine read_rows
 
-    ! Leave out the blanks and tabulators at both ends of a range.
+    !> Take one line as the names of the columns.
+    subroutine take_names(table, line, number, status)
+        type(csv_table_t), intent(inout) :: table !! of `start_table`
+        character(len=*), intent(in) :: line      !! without blanks at its ends, not empty
+        integer, intent(in) :: number             !! of the line
+        type(status_t), intent(out) :: status     !! `st_file_format`: a name twice, an open quote
+        integer :: n
+
+        call clear_status(status)
+        call take_cells(line, table, 0, n, number, status)
+        if (status%code == 0) call take_header(table, n, number, status)
+    end subroutine take_names
+
+    !> Take one line as the table's only row, number 1, instead of the one before.
+    subroutine take_only_row(table, line, number, status)
+        type(csv_table_t), intent(inout) :: table !! with names
+        character(len=*), intent(in) :: line      !! without blanks at its ends, not empty
+        integer, intent(in) :: number             !! of the line
+        type(status_t), intent(out) :: status     !! `st_file_format`: more or fewer cells than
+                                                  !! names, an open quote
+        integer :: n, filled
+
+        call clear_status(status)
+        table%n_rows = 0
+        filled = 0
+        call take_cells(line, table, filled, n, number, status)
+        if (status%code == 0) call keep_row(table, filled, n, number, status)
+    end subroutine take_only_row
+
+    !> Leave out the blanks and tabulators at both ends of a range.
     pure subroutine leave_blanks(text, first, last)
-        character(len=*), intent(in) :: text
-        integer, intent(inout) :: first, last
+        character(len=*), intent(in) :: text    !! all of it
+        integer, intent(inout) :: first, last   !! the range; empty if there is nothing else
 
         do while (last >= first)
             if (text(last:last) /= ' ' .and. text(last:last) /= tab) exit
@@ -226,7 +273,7 @@ contains
     pure function cell(table, i) result(text)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: i
-        character(len=:), allocatable :: text
+        character(len=table%end_of(i) - table%end_of(i - 1)) :: text
 
         text = table%text(table%end_of(i - 1) + 1:table%end_of(i))
     end function cell
@@ -398,12 +445,9 @@ contains
         type(csv_table_t), intent(in) :: table   !! a table that was read
         integer, intent(in) :: row               !! 1 to n_rows
         integer, intent(in) :: column            !! 1 to n_columns
-        character(len=:), allocatable :: text    !! without quotes
+        character(len=cell_length(table, row, column)) :: text !! without quotes
 
-        text = ''
-        if (row < 1 .or. row > table%n_rows) return
-        if (column < 1 .or. column > table%n_columns) return
-        text = cell(table, (row - 1)*table%n_columns + column)
+        if (len(text) > 0) text = cell(table, (row - 1)*table%n_columns + column)
     end function cell_text
 
     !> The real number in a cell. Refused: an empty cell, anything beside the number, NaN and

@@ -10,14 +10,15 @@ module faststrip_files_csv_writer
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_write
     use faststrip_base_text, only: trim_blanks, integer_text
     use faststrip_files_lines, only: is_folder
-    use faststrip_files_stdio, only: c_fopen, c_fdopen, c_fputs, c_fclose, c_rename, c_remove
+    use faststrip_files_stdio, only: c_fopen, c_fdopen, c_fwrite, c_fclose, c_rename, c_remove
     use faststrip_files_temporary, only: most_temporaries, temporary_name, final_path
     implicit none
     private
 
     public :: csv_writer_t
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
-    public :: real_text
+    public :: collect_csv, collected, collected_length, forget_collected, put_text
+    public :: real_text, failure_words
 
     !> A file being written; its parts are the writer's own business.
     type :: csv_writer_t
@@ -25,11 +26,16 @@ module faststrip_files_csv_writer
         character(len=:), allocatable :: path
         character(len=:), allocatable :: final
         character(len=:), allocatable :: temporary
-        character(len=:), allocatable :: row
+        character(len=:), allocatable :: row ! may be longer
+        integer :: used = 0                  ! characters of it that count
+        logical :: collects = .false.        ! do ended rows stay in `row`?
         type(status_t) :: status
         type(c_ptr) :: stream = c_null_ptr
         integer :: n_cells = 0
     end type csv_writer_t
+
+    ! Tuned [characters]: first room. Origin: chosen: a row of a result.
+    integer, parameter :: first_room = 2048
 
     !> Add one cell to the row: text (quoted where needed), a whole number, or a real number so
     !> that it reads back as the same double; a number that is not finite leaves the cell empty.
@@ -81,7 +87,7 @@ contains
         writer%final = path
         if (index(path, '/dev/') /= 1) writer%final = final_path(path)
         writer%temporary = ''
-        writer%row = ''
+        allocate (character(len=first_room) :: writer%row)
         if (path == '-') then
             flush (output_unit)
             writer%stream = c_fdopen(c_dup(1_c_int), 'w' // c_null_char)
@@ -102,6 +108,40 @@ contains
         if (.not. c_associated(writer%stream)) call note_failure(writer)
         status = writer%status
     end subroutine open_csv
+
+    !> Start a writer that writes nowhere: lines and rows are collected until `forget_collected`.
+    subroutine collect_csv(writer)
+        type(csv_writer_t), intent(out) :: writer !! needs no closing
+
+        writer%path = 'memory'
+        writer%temporary = ''
+        writer%collects = .true.
+        allocate (character(len=first_room) :: writer%row)
+    end subroutine collect_csv
+
+    !> How much was collected so far.
+    pure integer function collected_length(writer)
+        type(csv_writer_t), intent(in) :: writer !! of `collect_csv`
+
+        collected_length = writer%used
+    end function collected_length
+
+    !> A part of what was collected.
+    pure function collected(writer, first, last) result(text)
+        type(csv_writer_t), intent(in) :: writer !! of `collect_csv`
+        integer, intent(in) :: first             !! its first character
+        integer, intent(in) :: last              !! its last, at most `collected_length`
+        character(len=last - first + 1) :: text
+
+        text = writer%row(first:last)
+    end function collected
+
+    !> Begin to collect anew.
+    pure subroutine forget_collected(writer)
+        type(csv_writer_t), intent(inout) :: writer !! of `collect_csv`, not in the middle of a row
+
+        writer%used = 0
+    end subroutine forget_collected
 
     !> Add a comment line, above the header.
     subroutine put_comment(writer, text)
@@ -129,7 +169,7 @@ contains
         character(len=*), intent(in) :: value       !! one line of text, kept as it is
 
         if (scan(value, achar(10) // achar(13)) > 0) call note_line_break(writer)
-        call append_cell(writer, quoted(value))
+        call append_quoted(writer, value)
     end subroutine put_text_cell
 
     subroutine put_integer_cell(writer, value)
@@ -143,6 +183,8 @@ contains
         type(csv_writer_t), intent(inout) :: writer !! an open file
         real(wp), intent(in) :: value               !! any; not finite: an empty cell
         logical, intent(in), optional :: is_known   !! else an empty cell, too; default true
+        character(len=24) :: buffer
+        integer :: first
 
         if (present(is_known)) then
             if (.not. is_known) then
@@ -150,7 +192,12 @@ contains
                 return
             end if
         end if
-        call append_cell(writer, real_text(value))
+        if (.not. ieee_is_finite(value)) then
+            call append_cell(writer, '')
+            return
+        end if
+        call write_real(value, buffer, first)
+        call append_cell(writer, buffer(first:))
     end subroutine put_real_cell
 
     !> A double as text with 17 significant digits, which read back as the same double; empty
@@ -203,9 +250,10 @@ contains
         first = merge(2, 1, buffer(sign_at:sign_at) == ' ')
     end subroutine write_real
 
-    pure function quoted(value) result(text)
+    ! Add a text in quotes if it needs them.
+    subroutine append_quoted(writer, value)
+        type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: value
-        character(len=:), allocatable :: text
         integer :: i
         logical :: needed
 
@@ -213,61 +261,95 @@ contains
         if (len(value) > 0) needed = needed .or. len(trim_blanks(value)) < len(value) &
                                      .or. value(1:1) == '#'
         if (.not. needed) then
-            text = value
+            call append_cell(writer, value)
             return
         end if
-        text = '"'
+        call append_cell(writer, '"')
         do i = 1, len(value)
-            if (value(i:i) == '"') text = text // '"'
-            text = text // value(i:i)
+            if (value(i:i) == '"') call append(writer, '"')
+            call append(writer, value(i:i))
         end do
-        text = text // '"'
-    end function quoted
+        call append(writer, '"')
+    end subroutine append_quoted
 
     subroutine append_cell(writer, text)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: text
 
-        if (writer%n_cells > 0) writer%row = writer%row // ','
-        writer%row = writer%row // text
+        if (writer%n_cells > 0) call append(writer, ',')
+        call append(writer, text)
         writer%n_cells = writer%n_cells + 1
     end subroutine append_cell
+
+    ! Put a text behind what there is of the row.
+    subroutine append(writer, text)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: longer
+
+        if (writer%used + len(text) > len(writer%row)) then
+            allocate (character(len=2*(writer%used + len(text))) :: longer)
+            longer(:writer%used) = writer%row(:writer%used)
+            call move_alloc(longer, writer%row)
+        end if
+        writer%row(writer%used + 1:writer%used + len(text)) = text
+        writer%used = writer%used + len(text)
+    end subroutine append
 
     !> End the row and write it.
     subroutine end_row(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call put_line(writer, writer%row)
-        writer%row = ''
+        call append(writer, new_line('a'))
         writer%n_cells = 0
+        if (writer%collects) return
+        call put_text(writer, writer%row(:writer%used))
+        writer%used = 0
     end subroutine end_row
 
     !> Write one line as it is, for files that are no tables.
     subroutine put_line(writer, text)
         type(csv_writer_t), intent(inout) :: writer !! an open file, not in the middle of a row
         character(len=*), intent(in) :: text        !! the line, without its end
-        integer(c_int) :: code
 
-        if (.not. c_associated(writer%stream) .or. writer%status%code /= 0) return
-        code = c_fputs(text // new_line('a') // c_null_char, writer%stream)
-        if (code < 0) call note_failure(writer)
+        call append(writer, text)
+        call end_row(writer)
     end subroutine put_line
+
+    !> Write whole lines as they are.
+    subroutine put_text(writer, text)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, not in the middle of a row
+        character(len=*), intent(in) :: text        !! lines with their ends
+
+        if (writer%collects) then
+            call append(writer, text)
+        else if (c_associated(writer%stream) .and. writer%status%code == 0) then
+            if (c_fwrite(text, 1_c_size_t, len(text, c_size_t), writer%stream) &
+                < len(text, c_size_t)) call note_failure(writer)
+        end if
+    end subroutine put_text
 
     subroutine note_failure(writer)
         type(csv_writer_t), intent(inout) :: writer
 
-        character(len=:), allocatable :: name
-        integer(c_int), pointer :: last_error
-        integer(c_int) :: number
+        character(len=:), allocatable :: name, words
 
-        call c_f_pointer(c_errno_location(), last_error)
-        number = last_error
+        words = failure_words()
         if (writer%status%code /= 0) return
         name = writer%path
         if (name == '-') name = 'standard output'
         call set_status(writer%status, st_file_write, 'cannot write the file: ' // name // ': ' &
-                        // cause(number))
+                        // words)
     end subroutine note_failure
+
+    !> The C library's words for its last error.
+    function failure_words() result(words)
+        character(len=:), allocatable :: words
+        integer(c_int), pointer :: last_error
+
+        call c_f_pointer(c_errno_location(), last_error)
+        words = cause(last_error)
+    end function failure_words
 
     ! The C library's words for an error.
     function cause(number) result(words)

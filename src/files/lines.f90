@@ -2,16 +2,19 @@
 !>
 !> A line ends with LF, CRLF or CR; the last one may have no end.
 module faststrip_files_lines
-    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, &
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long, c_null_char, &
                                            c_null_ptr, c_ptr, c_size_t
+    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_missing, &
                                      st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
-    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose
+    use faststrip_files_sha256, only: sha256_t, sha256_add
+    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose, c_fseek
     implicit none
     private
 
     public :: text_file_t, open_text, find_line, read_line, close_text, is_folder
+    public :: place_t, place_in, go_to_place, count_anew
     public :: longest_line, most_lines, most_bytes
 
     ! What is longer has no end, or is no table: the longest table the program writes itself has a
@@ -29,14 +32,25 @@ module faststrip_files_lines
     type :: text_file_t
         character(len=:), allocatable :: path !! its name
         integer :: line = 0                   !! number of the line read last
-        integer :: bytes = 0                  !! read so far
         character(kind=c_char, len=:), allocatable :: buffer !! of the file, what is read on
+        logical :: is_hashed = .false.        !! is `hash` of all that is read?
+        type(sha256_t) :: hash                !! started by who asks for it, before the first line
+        character(len=:), allocatable :: without !! in messages: what the limits are without, or ''
+        integer, private :: lines = 0         !! that count for the limit
+        integer, private :: bytes = 0         !! the same
+        integer(int64), private :: base = 0   !! bytes of the file before the buffer
         type(c_ptr), private :: stream = c_null_ptr !! of the C library
         integer, private :: next = 1          !! first character of the buffer not yet given
         integer, private :: filled = 0        !! last one that was read
         logical, private :: has_ended = .false. !! is there nothing left to fill it with?
         logical, private :: has_failed = .false. !! because reading failed?
     end type text_file_t
+
+    !> Between two lines of a file.
+    type :: place_t
+        integer(int64) :: offset = 0 !! bytes before it
+        integer :: line = 0          !! lines before it
+    end type place_t
 
     character(len=1), parameter :: line_feed = achar(10), carriage_return = achar(13)
 
@@ -64,6 +78,7 @@ contains
 
         call clear_status(status)
         file%path = path
+        file%without = ''
         exists = .false.
         if (len_trim(path) > 0) inquire (file=path, exist=exists)
         if (.not. exists) then
@@ -92,6 +107,40 @@ contains
         file%stream = c_null_ptr
         if (allocated(file%buffer)) deallocate (file%buffer)
     end subroutine close_text
+
+    !> Where the next line begins.
+    pure type(place_t) function place_in(file)
+        type(text_file_t), intent(in) :: file !! an open one
+
+        place_in = place_t(file%base + file%next - 1, file%line)
+    end function place_in
+
+    !> Read on from a place where a line begins. What was passed over is not hashed.
+    subroutine go_to_place(file, place, status)
+        type(text_file_t), intent(inout) :: file !! an open one that can be read twice
+        type(place_t), intent(in) :: place       !! of `place_in`
+        type(status_t), intent(out) :: status    !! `st_file_format`: it cannot be read there
+
+        call clear_status(status)
+        if (c_fseek(file%stream, int(place%offset, c_long), 0_c_int) /= 0) then
+            call set_place_status(status, st_file_format, 'cannot read on', '', file%path, &
+                                  place%line)
+            return
+        end if
+        file%base = place%offset
+        file%line = place%line
+        file%next = 1
+        file%filled = 0
+        file%has_ended = .false.
+    end subroutine go_to_place
+
+    !> Let the limits count from here on: what was read so far is no sign that there is no end.
+    pure subroutine count_anew(file)
+        type(text_file_t), intent(inout) :: file !! an open one
+
+        file%lines = 0
+        file%bytes = 0
+    end subroutine count_anew
 
     !> Is there a folder of that name?
     logical function is_folder(path)
@@ -140,7 +189,10 @@ contains
         first = file%next
         last = i - 1
         found = first <= file%filled
-        if (found .or. file%has_failed) file%line = file%line + 1
+        if (found .or. file%has_failed) then
+            file%line = file%line + 1
+            file%lines = file%lines + 1
+        end if
         if (last - first + 1 > longest_line) then
             call refuse('a line must have at most ' // integer_text(longest_line) // ' characters')
         else if (file%has_failed .and. i > file%filled) then
@@ -151,10 +203,12 @@ contains
             if (file%buffer(i:i + 1) == carriage_return // line_feed) file%next = i + 2
         end if
         file%bytes = file%bytes + last - first + 2
-        if (file%line > most_lines) then
-            call refuse('a file must have at most ' // integer_text(most_lines) // ' lines')
+        if (file%lines > most_lines .or. file%line == huge(file%line)) then
+            call refuse('a file must have at most ' // integer_text(most_lines) // ' lines' &
+                        // file%without)
         else if (file%bytes > most_bytes) then
-            call refuse('a file must have at most ' // integer_text(most_bytes/1048576) // ' MB')
+            call refuse('a file must have at most ' // integer_text(most_bytes/1048576) // ' MB' &
+                        // file%without)
         end if
 
     contains
@@ -173,9 +227,12 @@ contains
 
         file%buffer(:file%filled - file%next + 1) = file%buffer(file%next:file%filled)
         file%filled = file%filled - file%next + 1
+        file%base = file%base + file%next - 1
         file%next = 1
         room = len(file%buffer) - file%filled
         n = c_fread(file%buffer(file%filled + 1:), 1_c_size_t, room, file%stream)
+        if (file%is_hashed) &
+            call sha256_add(file%hash, file%buffer(file%filled + 1:file%filled + int(n)))
         file%filled = file%filled + int(n)
         file%has_ended = n < room
         file%has_failed = c_ferror(file%stream) /= 0

@@ -1,11 +1,11 @@
 !> Files through the C library: its streams tell how much was read, and report every failed write,
 !> also one that shows only when the buffer is emptied, where FLUSH and CLOSE may stay silent.
 module faststrip_files_stdio
-    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_ptr, c_size_t
+    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_ptr, c_size_t
     implicit none
     private
 
-    public :: c_fopen, c_fdopen, c_fread, c_fputs, c_ferror, c_fclose, c_rename, c_remove
+    public :: c_fopen, c_fdopen, c_fread, c_fwrite, c_ferror, c_fclose, c_fseek, c_rename, c_remove
 
     interface
         !> Open a file; no stream if that fails.
@@ -34,13 +34,15 @@ module faststrip_files_stdio
             integer(c_size_t) :: n
         end function c_fread
 
-        !> Write text; negative if that fails.
-        function c_fputs(text, stream) bind(c, name='fputs') result(code)
-            import :: c_char, c_int, c_ptr
-            character(kind=c_char), intent(in) :: text(*) !! with a null behind it
+        !> Write; how many items went.
+        function c_fwrite(from, size, count, stream) bind(c, name='fwrite') result(n)
+            import :: c_char, c_ptr, c_size_t
+            character(kind=c_char), intent(in) :: from(*) !! all of them
+            integer(c_size_t), value :: size              !! of an item, bytes
+            integer(c_size_t), value :: count             !! items
             type(c_ptr), value :: stream                  !! opened for writing
-            integer(c_int) :: code
-        end function c_fputs
+            integer(c_size_t) :: n
+        end function c_fwrite
 
         !> Not 0 if anything failed.
         function c_ferror(stream) bind(c, name='ferror') result(code)
@@ -48,6 +50,15 @@ module faststrip_files_stdio
             type(c_ptr), value :: stream !! an open one
             integer(c_int) :: code
         end function c_ferror
+
+        !> Go to a place of a stream; not 0 if that fails.
+        function c_fseek(stream, offset, from) bind(c, name='fseek') result(code)
+            import :: c_int, c_long, c_ptr
+            type(c_ptr), value :: stream      !! an open one
+            integer(c_long), value :: offset  !! bytes
+            integer(c_int), value :: from     !! 0: from the beginning on
+            integer(c_int) :: code
+        end function c_fseek
 
         !> Close a stream; not 0 if that fails.
         function c_fclose(stream) bind(c, name='fclose') result(code)

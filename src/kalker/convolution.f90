@@ -105,6 +105,7 @@ contains
             call c_f_pointer(convolution%spectrum_memory, convolution%spectrum, [half, my])
             call c_f_pointer(convolution%source_memory, convolution%source, [half, my, n_sources])
             call c_f_pointer(convolution%kernel_memory, convolution%kernel, [half, my, n_kernels])
+            !$omp critical (fftw_planner)
             convolution%plans(1) = fftw_plan_many_dft_r2c( &
                 1_c_int, [int(mx, c_int)], int(ny, c_int), convolution%field, c_null_ptr, 1_c_int, &
                 int(mx, c_int), convolution%source, c_null_ptr, 1_c_int, int(half, c_int), &
@@ -115,6 +116,7 @@ contains
                 int(mx, c_int), fftw_estimate)
             convolution%plans(3) = plan_along_y(convolution%source_memory, fftw_forward)
             convolution%plans(4) = plan_along_y(convolution%spectrum_memory, fftw_backward)
+            !$omp end critical (fftw_planner)
         end associate
         do i = 1, size(convolution%plans)
             if (c_associated(convolution%plans(i))) cycle
@@ -153,10 +155,12 @@ contains
 
         integer :: i
 
+        !$omp critical (fftw_planner)
         do i = 1, size(convolution%plans)
             if (c_associated(convolution%plans(i))) call fftw_destroy_plan(convolution%plans(i))
             convolution%plans(i) = c_null_ptr
         end do
+        !$omp end critical (fftw_planner)
         call fftw_free(convolution%field_memory)
         call fftw_free(convolution%spectrum_memory)
         call fftw_free(convolution%source_memory)

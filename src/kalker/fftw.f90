@@ -1,7 +1,8 @@
 !> Interfaces to FFTW 3's transforms along one axis of many, double precision.
 !>
 !> FFTW is GPL: only modules that the embeddable core does not need may use this one. Its planner
-!> is not thread-safe: plans are made and destroyed by one thread at a time, executing them is free.
+!> is not thread-safe: plans are made and destroyed by one thread at a time, which
+!> `faststrip_kalker_convolution` sees to for threads of OpenMP; executing them is free.
 module faststrip_kalker_fftw
     use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr, c_size_t
     implicit none

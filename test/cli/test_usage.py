@@ -6,7 +6,7 @@ import tempfile
 
 from cli_program import LAB, PROGRAM, ROOT, ProgramTest, gap_case, gap_text, parabola
 
-SUBCOMMANDS = ("integral", "contact", "batch", "sweep", "wheelset", "conicity")
+SUBCOMMANDS = ("integral", "contact", "batch", "merge", "sweep", "wheelset", "conicity")
 OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 
 

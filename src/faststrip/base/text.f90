@@ -1,4 +1,7 @@
 !> Words and numbers of a text, read strictly; how an error in a file is told.
+!>
+!> Lengths of function results are found by functions: where they are deferred (`len=:`), gfortran
+!> 12 keeps the length of a result in memory that all threads share.
 module faststrip_base_text
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_decimal, only: compose_decimal, most_digits
@@ -19,19 +22,33 @@ module faststrip_base_text
 
 contains
 
+    ! Length of a text without the blanks and tabulators at its two ends.
+    pure integer function inner_length(text) result(length)
+        character(len=*), intent(in) :: text
+
+        length = verify(text, ' ' // tab, back=.true.)
+        if (length > 0) length = length - verify(text, ' ' // tab) + 1
+    end function inner_length
+
+    ! Characters of a whole number.
+    pure integer function number_length(value) result(length)
+        integer, intent(in) :: value
+        integer :: rest
+
+        length = merge(2, 1, value < 0)
+        rest = value/10
+        do while (rest /= 0)
+            length = length + 1
+            rest = rest/10
+        end do
+    end function number_length
+
     !> Text without the blanks and tabulators at its two ends.
     pure function trim_blanks(text) result(inner)
         character(len=*), intent(in) :: text           !! any text
-        character(len=:), allocatable :: inner         !! may be empty
-        integer :: first, last
+        character(len=inner_length(text)) :: inner     !! may be empty
 
-        first = verify(text, ' ' // tab)
-        if (first == 0) then
-            inner = ''
-        else
-            last = verify(text, ' ' // tab, back=.true.)
-            inner = text(first:last)
-        end if
+        if (len(inner) > 0) inner = text(verify(text, ' ' // tab):)
     end function trim_blanks
 
     !> Text with the letters A to Z made small.
@@ -257,11 +274,9 @@ contains
     !> A whole number as text without blanks.
     pure function integer_text(value) result(text)
         integer, intent(in) :: value           !! any
-        character(len=:), allocatable :: text  !! sign and digits
-        character(len=11) :: buffer
+        character(len=number_length(value)) :: text !! sign and digits
 
-        write (buffer, '(i0)') value
-        text = trim(buffer)
+        write (text, '(i0)') value
     end function integer_text
 
     !> Record an error in a file as `<what>, got <value> (<file>:<line>)`.

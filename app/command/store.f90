@@ -1,0 +1,414 @@
+!> An output that grows piece by piece and is never lost: what a killed run has written, another one
+!> takes up.
+!>
+!> Beside the output OUT stand, while it is being made, OUT.lock (which process makes it), and from
+!> the first piece on OUT.partial (what there is of it) and OUT.journal (a manifest of that, renamed
+!> into place after each piece). At the end OUT.partial becomes OUT, and OUT.journal OUT.manifest or
+!> nothing. Whatever lies between two of these steps is found by the next run.
+module faststrip_command_store
+    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_file_write
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_text, close_csv, failure_words, &
+                                   final_path
+    use faststrip_files_digest, only: hash_file
+    use faststrip_files_lines, only: is_folder
+    use faststrip_files_sha256, only: sha256_t, sha256_start, sha256_add, sha256_digest
+    use faststrip_files_stdio, only: c_rename, c_remove
+    use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
+                                          write_manifest, read_manifest, unlike_value
+    use faststrip_command_system, only: keep_in_mind, forget_file
+    implicit none
+    private
+
+    public :: store_t, open_store, resume_store, append_to_store, finish_store, release_store
+    public :: is_made, manifest_path, remove_made
+
+    !> Words of the names beside an output.
+    character(len=*), parameter :: lock_word = '.lock', partial_word = '.partial', &
+                                   journal_word = '.journal', manifest_word = '.manifest'
+    !> Seconds between two times when what was written is brought to the disk.
+    integer, parameter :: synchronised_every = 2
+
+    !> An output being made.
+    type :: store_t
+        private
+        character(len=:), allocatable :: path  ! as it was given
+        character(len=:), allocatable :: final ! where links lead to
+        logical :: is_kept = .false.           ! can another run take it up?
+        logical :: is_begun = .false.          ! is `file` or `writer` open?
+        type(csv_writer_t) :: writer           ! if not kept
+        integer(c_int) :: file = -1, lock = -1
+        type(sha256_t) :: hash                 ! of what was written
+        integer(int64) :: bytes = 0            ! the same
+        integer(int64) :: synchronised = 0     ! when that was, clock
+    end type store_t
+
+    interface
+        function c_lock(path, holder, capacity) bind(c, name='faststrip_lock') result(file)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            character(kind=c_char), intent(out) :: holder(*)
+            integer(c_int), value :: capacity
+            integer(c_int) :: file
+        end function c_lock
+
+        subroutine c_unlock(file, path) bind(c, name='faststrip_unlock')
+            import :: c_char, c_int
+            integer(c_int), value :: file
+            character(kind=c_char), intent(in) :: path(*)
+        end subroutine c_unlock
+
+        function c_open_behind(path, bytes) bind(c, name='faststrip_open_behind') result(file)
+            import :: c_char, c_int, c_int64_t
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int64_t), value :: bytes
+            integer(c_int) :: file
+        end function c_open_behind
+
+        function c_write(file, text, length) bind(c, name='faststrip_write') result(code)
+            import :: c_char, c_int, c_int64_t
+            integer(c_int), value :: file
+            character(kind=c_char), intent(in) :: text(*)
+            integer(c_int64_t), value :: length
+            integer(c_int) :: code
+        end function c_write
+
+        function c_close(file, synchronise) bind(c, name='faststrip_close') result(code)
+            import :: c_int
+            integer(c_int), value :: file, synchronise
+            integer(c_int) :: code
+        end function c_close
+
+        function c_synchronise(file) bind(c, name='faststrip_synchronise') result(code)
+            import :: c_int
+            integer(c_int), value :: file
+            integer(c_int) :: code
+        end function c_synchronise
+
+        function c_length(path) bind(c, name='faststrip_length') result(bytes)
+            import :: c_char, c_int64_t
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int64_t) :: bytes
+        end function c_length
+    end interface
+
+contains
+
+    !> Take hold of an output. Nothing is written yet.
+    subroutine open_store(store, path, can_resume, status, is_busy)
+        type(store_t), intent(out) :: store   !! to be ended by `finish_store` or `release_store`
+        character(len=*), intent(in) :: path  !! name of the file, `-`, or `/dev/...`
+        logical, intent(in) :: can_resume     !! can another run go on? Else, and of what is no
+                                              !! file, what is written is gone if the run is ended
+        type(status_t), intent(out) :: status !! `st_file_write`: another run has it, or its folder
+                                              !! cannot be written to
+        logical, intent(out), optional :: is_busy !! has another run it? Then this is no error
+
+        character(len=:), allocatable :: holder
+
+        call clear_status(status)
+        if (present(is_busy)) is_busy = .false.
+        store%path = path
+        store%final = final_path(path)
+        if (path == '-' .or. index(path, '/dev/') == 1 .or. index(store%final, '/dev/') == 1 &
+            .or. len_trim(path) == 0) then
+            call open_csv(store%writer, path, status)
+            store%is_begun = .true.
+            return
+        end if
+        store%is_kept = can_resume
+        if (is_folder(path)) then
+            call set_status(status, st_file_write, 'cannot write the file: ' // path &
+                            // ': Is a directory')
+            return
+        end if
+        call hold_lock(store%final // lock_word, store%lock, holder, status)
+        if (is_error(status)) then
+            call set_status(status, st_file_write, 'cannot write the file: ' // path // ': ' &
+                            // status%message)
+        else if (store%lock < 0 .and. present(is_busy)) then
+            is_busy = .true.
+            return
+        else if (store%lock < 0) then
+            call set_status(status, st_file_write, 'another run is writing the file: ' // path &
+                            // ': ' // holder)
+        end if
+        if (is_error(status) .or. store%is_kept) return
+        call open_csv(store%writer, path, status)
+        store%is_begun = .true.
+    end subroutine open_store
+
+    !> Take a lock, a file that goes with the run.
+    subroutine hold_lock(path, lock, holder, status)
+        character(len=*), intent(in) :: path   !! name of the file
+        integer(c_int), intent(out) :: lock    !! for `let_go`; negative if another process has it
+        character(len=:), allocatable, intent(out) :: holder !! which one; empty if not known
+        type(status_t), intent(out) :: status  !! `st_file_write`: the words of the system
+
+        integer(c_int), parameter :: longest = 200
+        character(kind=c_char) :: words(longest)
+        integer :: i
+
+        call clear_status(status)
+        holder = ''
+        lock = c_lock(path // c_null_char, words, longest)
+        if (lock >= 0) then
+            call keep_in_mind(path)
+        else if (lock < -1) then
+            call set_status(status, st_file_write, failure_words())
+        else
+            do i = 1, longest
+                if (words(i) == c_null_char) exit
+                holder = holder // words(i)
+            end do
+        end if
+    end subroutine hold_lock
+
+    !> Give a lock back.
+    subroutine let_go(path, lock)
+        character(len=*), intent(in) :: path     !! name of the file
+        integer(c_int), intent(inout) :: lock    !! of `hold_lock`; negative: nothing happens
+
+        if (lock < 0) return
+        call c_unlock(lock, path // c_null_char)
+        call forget_file(path)
+        lock = -1
+    end subroutine let_go
+
+    !> Go on where a run before was ended, if there was one that did the same work.
+    subroutine resume_store(store, work, with_manifest, found, is_whole, status)
+        type(store_t), intent(inout) :: store     !! opened
+        type(manifest_t), intent(inout) :: work   !! what is to be done; becomes the journal
+        logical, intent(in) :: with_manifest      !! as for `finish_store`
+        logical, intent(out) :: found             !! is there anything?
+        logical, intent(out) :: is_whole          !! is it all there is to do? Then it is finished
+        type(status_t), intent(out) :: status     !! `st_file_write`: it is other work, or broken
+
+        type(manifest_t) :: journal
+        character(len=:), allocatable :: unlike
+        integer(int64) :: bytes, there
+
+        call clear_status(status)
+        found = .false.
+        is_whole = .false.
+        if (.not. store%is_kept) return
+        if (c_length(store%final // journal_word // c_null_char) < 0) then
+            if (with_manifest) call find_made(store%final, work, is_whole)
+            found = is_whole
+            return
+        end if
+        call read_manifest(store%final // journal_word, journal, status)
+        if (is_error(status)) return
+        unlike = unlike_value(journal, work)
+        if (len(unlike) > 0) then
+            call set_status(status, st_file_write, 'cannot resume ' // store%path // ': ' &
+                            // unlike // ' was ' // value_of(journal, unlike) // ', is ' &
+                            // value_of(work, unlike))
+            return
+        end if
+        bytes = number_of(journal, 'bytes')
+        if (c_length(store%final // partial_word // c_null_char) < 0 .and. &
+            number_of(journal, 'done') == number_of(journal, 'to_do')) then
+            ! Ended after the file had got its name.
+            call check_bytes(store%final, bytes, value_of(journal, 'sha256'), found)
+            is_whole = found
+            if (.not. found) return
+            work = journal
+            call name_journal(store, with_manifest, status)
+            return
+        end if
+        call hash_file(store%final // partial_word, bytes, store%hash, found, there)
+        if (found) found = there == bytes .and. &
+                           sha256_digest(store%hash) == value_of(journal, 'sha256')
+        if (found) then
+            store%file = c_open_behind(store%final // partial_word // c_null_char, bytes)
+            found = store%file >= 0
+        end if
+        if (.not. found) then
+            call set_status(status, st_file_write, 'cannot resume ' // store%path // ': ' &
+                            // store%path // partial_word // ' is not what ' // store%path &
+                            // journal_word // ' says')
+            return
+        end if
+        store%is_begun = .true.
+        store%bytes = bytes
+        work = journal
+    end subroutine resume_store
+
+    !> Is an output there, whole, and of this work? Then its manifest is taken.
+    subroutine find_made(path, work, is_there)
+        character(len=*), intent(in) :: path
+        type(manifest_t), intent(inout) :: work
+        logical, intent(out) :: is_there
+
+        type(manifest_t) :: manifest
+
+        call is_made(path, manifest, is_there)
+        if (is_there) is_there = len(unlike_value(manifest, work)) == 0
+        if (is_there) work = manifest
+    end subroutine find_made
+
+    !> Is an output with a manifest there, and is it what the manifest says?
+    subroutine is_made(path, manifest, is_there)
+        character(len=*), intent(in) :: path      !! name of the output
+        type(manifest_t), intent(out) :: manifest !! of it
+        logical, intent(out) :: is_there
+
+        type(status_t) :: status
+
+        call read_manifest(manifest_path(path), manifest, status)
+        is_there = .not. is_error(status)
+        if (is_there) call check_bytes(path, number_of(manifest, 'bytes'), &
+                                       value_of(manifest, 'sha256'), is_there)
+    end subroutine is_made
+
+    !> Name of the manifest of an output.
+    function manifest_path(path) result(name)
+        character(len=*), intent(in) :: path !! name of the output
+        character(len=:), allocatable :: name
+
+        name = final_path(path) // manifest_word
+    end function manifest_path
+
+    !> Remove an output with its manifest.
+    subroutine remove_made(path)
+        character(len=*), intent(in) :: path !! name of the output
+
+        integer(c_int) :: code
+
+        ! Without its manifest it is no whole part for anybody.
+        code = c_remove(manifest_path(path) // c_null_char)
+        code = c_remove(path // c_null_char)
+    end subroutine remove_made
+
+    !> Add a piece, and let the journal tell of it. The first piece makes the files.
+    subroutine append_to_store(store, text, journal, status)
+        type(store_t), intent(inout) :: store      !! opened
+        character(len=*), intent(in) :: text       !! whole lines
+        type(manifest_t), intent(inout) :: journal !! what is done with this piece; `bytes` and
+                                                   !! `sha256` are set
+        type(status_t), intent(out) :: status      !! `st_file_write`
+
+        integer(int64) :: now, rate
+        integer(c_int) :: code
+
+        call clear_status(status)
+        if (.not. store%is_kept) then
+            call put_text(store%writer, text)
+            return
+        end if
+        if (.not. store%is_begun) call begin(store, status)
+        if (is_error(status)) return
+        if (c_write(store%file, text, len(text, c_int64_t)) /= 0) then
+            call refuse(store, status)
+            return
+        end if
+        call sha256_add(store%hash, text)
+        store%bytes = store%bytes + len(text, int64)
+        call system_clock(now, rate)
+        code = 0
+        if (now - store%synchronised > synchronised_every*rate) then
+            code = c_synchronise(store%file)
+            store%synchronised = now
+        end if
+        if (code /= 0) then
+            call refuse(store, status)
+            return
+        end if
+        call set_value(journal, 'bytes', store%bytes)
+        call set_value(journal, 'sha256', sha256_digest(store%hash))
+        call write_manifest(store%final // journal_word, journal, status)
+    end subroutine append_to_store
+
+    subroutine begin(store, status)
+        type(store_t), intent(inout) :: store
+        type(status_t), intent(inout) :: status
+
+        integer(c_int) :: code
+
+        ! Of a run that is not taken up.
+        code = c_remove(store%final // journal_word // c_null_char)
+        store%file = c_open_behind(store%final // partial_word // c_null_char, 0_c_int64_t)
+        if (store%file < 0) call refuse(store, status)
+        if (is_error(status)) return
+        call sha256_start(store%hash)
+        store%bytes = 0
+        store%is_begun = .true.
+    end subroutine begin
+
+    subroutine refuse(store, status)
+        type(store_t), intent(in) :: store
+        type(status_t), intent(out) :: status
+
+        call set_status(status, st_file_write, 'cannot write the file: ' // store%path // ': ' &
+                        // failure_words())
+    end subroutine refuse
+
+    !> Give the output its name.
+    subroutine finish_store(store, with_manifest, status)
+        type(store_t), intent(inout) :: store  !! all of it was appended
+        logical, intent(in) :: with_manifest   !! shall the manifest stay?
+        type(status_t), intent(out) :: status  !! `st_file_write`
+
+        integer(c_int) :: code
+
+        call clear_status(status)
+        if (store%is_kept) then
+            code = c_close(store%file, 1_c_int)
+            store%file = -1
+            if (code == 0) code = c_rename(store%final // partial_word // c_null_char, &
+                                           store%final // c_null_char)
+            if (code /= 0) then
+                call refuse(store, status)
+            else
+                call name_journal(store, with_manifest, status)
+            end if
+        else
+            call close_csv(store%writer, status)
+        end if
+        call release_store(store)
+    end subroutine finish_store
+
+    !> The last step: the journal becomes the manifest, or nothing.
+    subroutine name_journal(store, with_manifest, status)
+        type(store_t), intent(in) :: store
+        logical, intent(in) :: with_manifest
+        type(status_t), intent(inout) :: status
+
+        integer(c_int) :: code
+
+        if (with_manifest) then
+            code = c_rename(store%final // journal_word // c_null_char, &
+                            store%final // manifest_word // c_null_char)
+        else
+            code = c_remove(store%final // journal_word // c_null_char)
+        end if
+        if (code /= 0) call refuse(store, status)
+    end subroutine name_journal
+
+    !> Let go of an output; what was appended stays for who resumes.
+    subroutine release_store(store)
+        type(store_t), intent(inout) :: store !! opened
+
+        integer(c_int) :: code
+
+        if (store%file >= 0) code = c_close(store%file, 0_c_int)
+        store%file = -1
+        if (store%lock >= 0) call let_go(store%final // lock_word, store%lock)
+    end subroutine release_store
+
+    !> Is a file so long, and is that its digest?
+    subroutine check_bytes(path, bytes, wanted, is_right)
+        character(len=*), intent(in) :: path
+        integer(int64), intent(in) :: bytes
+        character(len=*), intent(in) :: wanted
+        logical, intent(out) :: is_right
+
+        type(sha256_t) :: hash
+
+        is_right = c_length(path // c_null_char) == bytes
+        if (is_right) call hash_file(path, bytes, hash, is_right)
+        if (is_right) is_right = sha256_digest(hash) == wanted
+    end subroutine check_bytes
+end module faststrip_command_store

@@ -1,0 +1,60 @@
+!> Who solves rows of a batch: one for each thread, with all that must not be shared. In a module of
+!> its own, for the compiler takes long to make and to give back so much.
+module faststrip_command_worker
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, collect_csv
+    use faststrip_command_gap_cache, only: own_gap_t
+    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver
+    implicit none
+    private
+
+    public :: worker_t, make_workers, release_workers
+
+    !> Who solves rows: one for each thread.
+    type :: worker_t
+        type(solver_t) :: solver        !! made beforehand
+        type(csv_table_t) :: table      !! with the names of the columns
+        type(csv_writer_t) :: writer    !! collects rows
+        type(own_gap_t) :: gap          !! that the cache had no room for
+        type(outcome_t) :: outcome      !! of the last row
+        logical :: can_go_on = .false.  !! is there a solution of this chain to start from?
+        logical :: tells_times = .false. !! are times written?
+    end type worker_t
+
+contains
+
+    !> Workers for some threads.
+    subroutine make_workers(n, numerics, table, tells_times, workers, status)
+        integer, intent(in) :: n                          !! how many
+        type(numerics_t), intent(in) :: numerics          !! methods
+        type(csv_table_t), intent(in) :: table            !! with names
+        logical, intent(in) :: tells_times                !! are times written?
+        type(worker_t), pointer, intent(out) :: workers(:) !! for `release_workers`
+        type(status_t), intent(out) :: status             !! those of `make_solver`
+
+        integer :: i
+
+        allocate (workers(n))
+        do i = 1, n
+            call make_solver(numerics, .false., workers(i)%solver, status)
+            if (is_error(status)) return
+            workers(i)%tells_times = tells_times
+            workers(i)%solver%tells_times = tells_times
+            workers(i)%table = table
+            call collect_csv(workers(i)%writer)
+        end do
+    end subroutine make_workers
+
+    !> Give back what workers have.
+    subroutine release_workers(workers)
+        type(worker_t), pointer, intent(inout) :: workers(:) !! none afterwards
+
+        integer :: i
+
+        do i = 1, size(workers)
+            call release_solver(workers(i)%solver)
+        end do
+        deallocate (workers)
+    end subroutine release_workers
+end module faststrip_command_worker
