@@ -7,7 +7,7 @@ module faststrip_interop_c_many
     use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_intptr_t, c_char, c_ptr, &
                                            c_null_ptr, c_loc, c_associated, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument
+                                     message_length, st_bad_argument
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_solve, only: most_gap_points
     use faststrip_geometry_gap, only: min_gap_points
@@ -96,8 +96,7 @@ contains
         if (is_error(status)) then
             code = max(code, put_text(trim(status%message), text, length))
         else if (many%failed <= n) then
-            ! What does not fit is cut, and no matter.
-            ignored = put_text(failed_text(many), text, length)
+            call tell_failure(many, text, length)
         else
             ignored = put_text('', text, length)
         end if
@@ -284,14 +283,16 @@ contains
         figures%target_error = 0
     end function nothing_found
 
-    !> The words of the first contact without a result.
-    function failed_text(many) result(words)
+    !> The words of the first contact without a result; what does not fit is cut.
+    subroutine tell_failure(many, text, length)
         type(many_t), intent(in) :: many
-        character(len=:), allocatable :: words
+        type(c_ptr), intent(in) :: text
+        integer(c_size_t), intent(in) :: length
 
-        character(len=20) :: place
+        character(len=message_length + 40) :: words
+        integer(c_int) :: ignored
 
-        write (place, '(i0)') many%failed - 1
-        words = 'contacts['//trim(place)//']: '//trim(many%failure%message)
-    end function failed_text
+        write (words, '(a, i0, 2a)') 'contacts[', many%failed - 1, ']: ', many%failure%message
+        ignored = put_text(trim(words), text, length)
+    end subroutine tell_failure
 end module faststrip_interop_c_many
