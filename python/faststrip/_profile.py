@@ -223,7 +223,7 @@ def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[floa
 
     >>> y, z = draw_profile("60e1", "rail", cant=0.0, n=3)
     >>> y.round(3).tolist()
-    [-36.0, 0.0, 36.0]
+    [-37.15, 0.0, 37.15]
     """
     if kind not in ("wheel", "rail"):
         raise refused("kind", "wheel or rail", kind)
