@@ -123,13 +123,20 @@ def install_library(stage, prefix, version):
         (library / link).symlink_to(shared.name)
 
 
+# What Fortran's run-time library calls once a program has threads, by references too weak to
+# bring it along from an archive: without, a program linked statically jumps to nowhere at its end.
+OF_THREADS = ("pthread_mutex_init", "pthread_mutex_destroy", "pthread_cond_init",
+              "pthread_cond_destroy", "pthread_cond_wait", "pthread_cond_broadcast")
+
+
 def run_time_libraries():
     """What a program linked statically needs of Fortran's compiler, in the linker's order."""
     names = ["gfortran", "quadmath", "m"]
     # Not every machine has the one with numbers of 16 bytes; a name that comes back was not found.
     if command("gfortran", "-print-file-name=libquadmath.a").strip() == "libquadmath.a":
         names.remove("quadmath")
-    return " ".join(f"-l{name}" for name in names)
+    wanted = ",".join(f"-u,{name}" for name in OF_THREADS)
+    return " ".join([f"-Wl,{wanted}", *(f"-l{name}" for name in names)])
 
 
 def main():
