@@ -32,11 +32,14 @@ BAD = ("header.begin\ntype = 1\nheader.end\nspline.begin\npoint.begin\n1 2\n3 x\
        "spline.end\n")
 
 
-def wheel_text(last):
+def wheel_rows(last):
     """A wheel from -40 mm to a quarter of `last`."""
-    rows = "".join(f"{y / 4} {-(y / 4) ** 2 / 2000}\n" for y in range(-160, last + 1))
-    return ("header.begin\ntype = 1\nheader.end\nspline.begin\npoint.begin\n" + rows
-            + "point.end\nspline.end\n")
+    return "".join(f"{y / 4} {-(y / 4) ** 2 / 2000}\n" for y in range(-160, last + 1))
+
+
+def wheel_text(last):
+    return ("header.begin\ntype = 1\nheader.end\nspline.begin\npoint.begin\n"
+            + wheel_rows(last) + "point.end\nspline.end\n")
 
 
 WHEEL = wheel_text(160)
@@ -98,6 +101,20 @@ class Behind(ExploreTest):
                 if len(files) > 1:
                     with zipfile.ZipFile(io.BytesIO(content)) as archive:
                         self.assertEqual(set(archive.namelist()), set(files))
+
+    def test_files_of_one_name_are_both_saved(self):
+        case, exporting = self.part("case"), self.part("exporting")
+        rail = "".join(f"{36 * np.sin(a / 100)} {36 - 36 * np.cos(a / 100)}\n"
+                       for a in range(-150, 151))
+        shapes = {"wheel": case.read_shape("wheel", "one.txt", wheel_rows(160).encode()),
+                  "rail": case.read_shape("rail", "one.txt", rail.encode())}
+        outcome = self.part("solving").Solver().solve(case.Case(**shapes))
+        files = exporting.case_files(outcome)
+        self.assertEqual(set(files), {"explore.nml", "one.txt", "rail_one.txt"})
+        self.agree(rows_of(exporting.numbers_csv(outcome))[0], self.solved_by_program(files))
+        named = dataclasses.replace(shapes["wheel"], label="s1002")
+        outcome = self.part("solving").Solver().solve(case.Case(wheel=named))
+        self.assertIn("wheel_s1002", exporting.case_files(outcome))
 
     def test_norm_and_tang_are_the_programs(self):
         case, exporting = self.part("case"), self.part("exporting")

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from .._contact import Result, library_version
 from .._profile import _data_lines, _program
-from .case import RADIUS
+from .case import RADIUS, STANDARD, Shape
 from .solving import METHODS, Answer, Outcome
 
 Array = npt.NDArray[np.float64]
@@ -37,6 +37,17 @@ METHOD_NAMES = {**METHODS, "norm": ("norm", "tang")}
 def quoted(text: str) -> str:
     """A text of a namelist."""
     return "'" + text.replace("'", "''") + "'"
+
+
+def put_beside(kind: str, shape: Shape, files: Dict[str, bytes]) -> str:
+    """The name of a profile in a case file; a file is put among those beside it."""
+    if not shape.is_file:
+        return shape.label
+    name = shape.label
+    while name in files or name in STANDARD[kind] or name == f"{NAME}.nml":
+        name = f"{kind}_{name}"
+    files[name] = shape.content
+    return name
 
 
 def case_files(outcome: Outcome) -> Dict[str, bytes]:
@@ -62,12 +73,10 @@ def case_files(outcome: Outcome) -> Dict[str, bytes]:
     else:
         lines += ["&contact", f"  name = {quoted(NAME)}", f"  load_N = {case.load!r}",
                   f"  load_direction = {quoted(direction)}", f"  shift_mm = {case.shift!r}", "/",
-                  "&wheel", f"  profile = {quoted(case.wheel.label)}",
+                  "&wheel", f"  profile = {quoted(put_beside('wheel', case.wheel, files))}",
                   f"  radius_mm = {RADIUS!r}", "/",
-                  "&rail", f"  profile = {quoted(case.rail.label)}", f"  cant = {case.cant!r}", "/"]
-        for shape in (case.wheel, case.rail):
-            if shape.is_file:
-                files[shape.label] = shape.content
+                  "&rail", f"  profile = {quoted(put_beside('rail', case.rail, files))}",
+                  f"  cant = {case.cant!r}", "/"]
     lines += ["&material", f"  mu = {case.mu!r}", "/",
               "&motion", "  creepage = 'given'", f"  cksi = {case.cksi!r}",
               f"  ceta = {case.ceta!r}", f"  cphi_rad_per_mm = {case.cphi!r}", "/",

@@ -105,6 +105,12 @@ class Picture:
         """Move a range."""
         self.out.set(side, start=start, end=end)
 
+    def draw_norm(self, column: str) -> None:
+        """A column over y as NORM is drawn."""
+        self.figure.scatter("y", column, source=self.source("norm", f"y {column}"),
+                            marker="circle", size=4, fill_color="white", line_color=NORM.colour,
+                            line_width=1.4)
+
     def hover(self, renderer: Any, rows: List[Tuple[str, str]]) -> None:
         self.figure.add_tools(HoverTool(renderers=[renderer], tooltips=rows))
 
@@ -186,8 +192,7 @@ class Patch(Picture):
                            ("pressure", "@p0{0} MPa")])
         self.figure.line("y", "x", source=self.source("ellipse", "y x"), line_color=HERTZ.colour,
                          line_dash=HERTZ.dash, line_width=HERTZ.width)
-        self.figure.scatter("y", "x", source=self.source("norm", "y x"), marker="circle", size=4,
-                            fill_color="white", line_color=NORM.colour, line_width=1.4)
+        self.draw_norm("x")
 
     def show(self, outcome: Outcome) -> None:
         strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")
@@ -250,8 +255,7 @@ class Pressure(Picture):
         self.hover(strips, [("y", "@y{0.00} mm"), ("pressure", "@p{0} MPa")])
         self.figure.line("y", "p", source=self.source("hertz", "y p"), line_color=HERTZ.colour,
                          line_dash=HERTZ.dash, line_width=HERTZ.width)
-        self.figure.scatter("y", "p", source=self.source("norm", "y p"), marker="circle", size=4,
-                            fill_color="white", line_color=NORM.colour, line_width=1.4)
+        self.draw_norm("p")
 
     def show(self, outcome: Outcome) -> None:
         strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")

@@ -257,6 +257,9 @@ class Page:
         except CaseError as problem:
             self.say(str(problem))
             return
+        if shape.label in STANDARD[kind]:
+            self.say(f"a file must not be called as a profile of the list: {shape.label}")
+            return
         self.shapes[kind][shape.label] = shape
         select = self.selects[kind]
         select.options = list(self.shapes[kind])
