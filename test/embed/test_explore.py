@@ -178,12 +178,6 @@ class Behind(ExploreTest):
         with self.assertRaisesRegex(case.CaseError, "s1002, cone20, cone40 or a file, got s1003"):
             case.find_shape("wheel", "s1003")
 
-    def test_colours_are_those_of_the_other_pictures(self):
-        look = self.part("look")
-        text = (ROOT / "plots" / "faststrip_plots" / "style.py").read_text(encoding="utf-8")
-        for one in look.LOOKS.values():
-            self.assertIn(f'Look("{one.label}", "{one.colour}"', text)
-
     def test_what_is_drawn_of_elements(self):
         fields = self.part("fields")
         outcome = self.part("solving").Solver().solve(self.part("case").Case())

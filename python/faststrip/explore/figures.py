@@ -22,9 +22,10 @@ from bokeh.models import (
 from bokeh.palettes import viridis
 from bokeh.plotting import figure
 
+from .._style import GREY, PALE
 from . import fields
 from .case import CONTROL
-from .look import AXIS, BODY, FONT, GREY, GRID, HERTZ, LOOKS, NORM, PALE, SLIP, SMALL, STRIPS
+from .look import AXIS, BODY, FONT, GRID, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIPS
 from .solving import Curve, Outcome
 from .wire import Out
 

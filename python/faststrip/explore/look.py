@@ -1,9 +1,11 @@
-"""How things look: the colours of the project's pictures, told apart also in grey and by the
+"""How things look: as in the project's other pictures, told apart also in grey and by the
 colour-blind."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
+
+from .._style import METHOD
 
 
 class Look(NamedTuple):
@@ -15,15 +17,19 @@ class Look(NamedTuple):
     width: float
 
 
-STRIPS = Look("strips + FASTSTRIP", "#0b3c78", "solid", 2.0)
-HERTZ = Look("Hertz + FASTSIM", "#f08519", "dashed", 2.0)
-NORM = Look("NORM + TANG", "#4d9748", "dotted", 3.6)
+def _look(normal: str, tangential: str, dash: str) -> Look:
+    """The look of two methods, with the dash as Bokeh has it."""
+    look = METHOD[normal, tangential]
+    return Look(look.label, look.colour, dash, look.width)
+
+
+STRIPS = _look("strip", "faststrip", "solid")
+HERTZ = _look("hertz", "fastsim", "dashed")
+NORM = _look("norm", "tang", "dotted")
 LOOKS = {"strips": STRIPS, "hertz": HERTZ, "norm": NORM}
 
-GREY = "#6b6b6b"
 GRID = "#e3e3e3"
 AXIS = "#444444"
-PALE = "#dfe8f3"  # the body of the wheel, and elements in adhesion
 SLIP = "#ffffff"  # elements that slide
 BODY = "#ececec"  # the body of the rail
 SMALL = "11px"
