@@ -17,7 +17,8 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
                 " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
-                " fswdft fswnew fswslv fswfre fsfric fswear fsstwr fscfun fsconi".split())
+                " fswdft fswnew fswslv fswfre fsfric fswear fsstwr fscfun fsconi"
+                " fslopn fslfre fslinf fslook".split())
 
 # What only the laboratory says, its modules' names and its commands, and where it reads.
 LABORATORY = ("faststrip_lab", "fuzz", "bench", "trade", "scenes", "reference/", "example/")
@@ -151,7 +152,6 @@ class Installed(HostTest):
         texts = {
             "include/faststrip.h": rf'FASTSTRIP_VERSION "{version}"',
             "src/faststrip/interop/c.f90": rf"version = '{version}'",
-            "app/command/console.f90": rf"version = '{version}'",
             "python/faststrip/__init__.py": rf'(?m)^__version__ = "{version}"$',
             "CITATION.cff": rf"(?m)^version: {version}$",
         }
@@ -178,7 +178,7 @@ class Installed(HostTest):
                 found.add(name)
         self.assertEqual(found, {
             "fpm.toml", "include/faststrip.h", "src/faststrip/interop/c.f90",
-            "app/command/console.f90", "python/faststrip/__init__.py", "CITATION.cff"})
+            "python/faststrip/__init__.py", "CITATION.cff"})
 
     def test_pkg_config_knows_the_flags(self):
         flags = self.shell("pkg-config --cflags --libs faststrip")
