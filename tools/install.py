@@ -3,8 +3,9 @@
 
     install.py --stage FOLDER --program FILE --prefix FOLDER
 
-FOLDER of --stage is what `fpm install` made of the core, and FILE the program. The core's archive
-could be handed on as it is, but for what hosts of other languages need and what they must not see:
+FOLDER of --stage is what `fpm install` made of the core, and FILE the program, beside which lies
+what it loads to write NetCDF. The core's archive could be handed on as it is, but for what hosts of
+other languages need and what they must not see:
 
 - Only public names are visible: what `use faststrip` gives, and the C and F77 faces. No host can
   come to depend on a procedure behind them, or clash with it. Local names do not reach across
@@ -28,6 +29,8 @@ import tomllib
 from man_page import man_page
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+# What the program loads to write NetCDF.
+NETCDF = "faststrip_netcdf.so"
 PKG_CONFIG = """\
 prefix={prefix}
 libdir=${{prefix}}/lib
@@ -150,6 +153,7 @@ def main():
         version = tomllib.load(file)["version"]
     copies = (
         (options.program, "bin/faststrip"),
+        (options.program.with_name(NETCDF), f"lib/faststrip/{NETCDF}"),
         (options.stage / "include" / "faststrip.mod", "include/faststrip/faststrip.mod"),
         (ROOT / "include" / "faststrip.h", "include/faststrip.h"),
         (ROOT / "LICENSE", "share/doc/faststrip/LICENSE"),

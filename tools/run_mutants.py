@@ -46,6 +46,8 @@ import threading
 import time
 import tomllib
 
+from netcdf_plugin import where_netcdf_is
+
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
 FLAGS = "-Og -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
 TRAPS = "-ffpe-trap=invalid,zero,overflow"
@@ -83,6 +85,7 @@ OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", FACES)],
     "command": [("python", ["test/cli"])],
+    "netcdf": [("python", ["test/cli/test_netcdf.py"])],
     "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
     "python": [("installed", [*FACES[:3], FACES[-1]])],
     "plots": [("python", ["test/plots"])],
@@ -91,13 +94,16 @@ TABLES = ["test/tools/test_generated_modules.py"]
 ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),
               ("python", ["test/plots"])]
 # What is linked of what: the beginnings of the names of its sources.
-PACKAGES = ("src/",)
+PACKAGES = ("src/faststrip/", "src/files/", "src/kalker/", "src/tables/")
 TESTS = (*PACKAGES, "test/", "build/tests/")
 PROGRAMS = {
     "faststrip": (*PACKAGES, "app/command/", "app/programs/faststrip.f90"),
     "faststrip-lab": (*PACKAGES, "app/command/", "app/lab/", "app/programs/faststrip_lab.f90"),
 }
 LIBRARY = ("src/faststrip/",)
+# What the program loads to write NetCDF: bin/faststrip_netcdf.so.
+NETCDF_PACKAGE = "src/netcdf/"
+NETCDF = (NETCDF_PACKAGE, "src/files/", "src/faststrip/base/")
 
 
 class Unfit(Exception):
@@ -245,6 +251,8 @@ class Source:
         else:
             compiler = ["gfortran", *FLAGS.split(), *(TRAPS.split() if self.name == RUNNER else []),
                         "-J", str(target), *(f"-I{place}" for place in (target, *modules))]
+            if self.name.startswith(NETCDF_PACKAGE):
+                compiler += where_netcdf_is()
         done = subprocess.run(
             [*compiler, "-c", str(path), "-o", str(target / self.object)],
             cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -382,6 +390,9 @@ class Job:
         for name, beginnings in PROGRAMS.items():
             call(["gfortran", "-o", self.folder / "bin" / name, *self.object_paths(beginnings),
                   *self.base.libraries], self.folder)
+        if self.object_paths((NETCDF_PACKAGE,)):
+            call(["gfortran", "-shared", "-o", self.folder / "bin" / "faststrip_netcdf.so",
+                  *self.object_paths(NETCDF), *where_netcdf_is()], self.folder)
 
     def install(self):
         """Install as ./run install does, from the objects of the mutant."""

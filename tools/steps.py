@@ -328,6 +328,8 @@ def build():
             # One that is running at the moment can be replaced, not written over.
             shutil.copy2(made, f"{target}.new")
             os.replace(f"{target}.new", target)
+    quietly("build-netcdf", [sys.executable, "tools/netcdf_plugin.py", "--flags", RELEASE_FLAGS,
+                             "-o", "bin/faststrip_netcdf.so"], "the build failed")
 
 
 # Testing
@@ -419,8 +421,8 @@ def python_tests(text):
     page_packages(text)
     folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
                if os.path.isdir(name)]
-    if "test/embed" in folders:
-        python_packages("test", "what the tests of the Python package need")
+    if "test/cli" in folders:
+        python_packages("test", "what the tests of the Python package and of NetCDF need")
     # Two at a time at least: most of them wait for one program.
     jobs = max(2, len(os.sched_getaffinity(0)))
     return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", str(jobs),

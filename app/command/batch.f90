@@ -31,6 +31,7 @@ module faststrip_command_batch
                                           counted, unlike_value, value_of
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_methods, only: numerics_t
+    use faststrip_command_netcdf_file, only: is_netcdf, check_names, use_single_precision
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer, given, given_options
     use faststrip_command_parts, only: part_options, part_choice_t, take_part_options, share_of, &
@@ -139,7 +140,9 @@ contains
                 // new_line('a') // 'empty figures; the others go on, and the exit code is 1.' &
                 // new_line('a')
             command%options = [ &
-                option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
+                option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
+                         // new_line('a') // 'FILE.nc', writes=.true.), &
+                option_t('--single', '', 'numbers of FILE.nc in single precision'), &
                 option_t('--threads', 'N', 'threads that solve rows (default: all cores)'), &
                 option_t('--chain', 'N', 'start rows from the one before, in chains of N' &
                          // new_line('a') // '(default 1: each from nothing)'), &
@@ -159,6 +162,14 @@ contains
             job%input = command%arguments(1)%text
             job%is_file = file_kind(job%input) == kind_file
             if (job%choice%is_part .or. job%choice%resumes) call check_kept(job)
+            if (is_netcdf(option_text(command, '-o', ''))) then
+                if (job%choice%is_part .or. job%choice%is_shared) &
+                    call usage_error('parts are CSV, -o must not end with .nc: faststrip netcdf' &
+                                     // ' makes it of the whole', command%name)
+            else if (given(command, '--single')) then
+                call usage_error('--single needs -o with a file that ends with .nc', command%name)
+            end if
+            if (given(command, '--single')) call use_single_precision()
         end associate
     end subroutine read_command
 
@@ -188,6 +199,9 @@ contains
         call open_stream(job%input, job%stream, status)
         call fail_on_error(status)
         call find_columns(job%stream%table, job%columns, status)
+        call fail_on_error(status)
+        if (is_netcdf(option_text(job%command, '-o', ''))) &
+            call check_names(job%stream%table%names, job%input, status)
         call fail_on_error(status)
         if (.not. job%is_file) return
         call set_progress('batch: reading ' // job%input)

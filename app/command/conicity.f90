@@ -79,7 +79,8 @@ contains
             option_t('--functions', 'FILE', 'of a case: write delta r, radii, contact angles,' &
                      // new_line('a') // 'roll and contact places over the shift there', &
                      writes=.true.), &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
+            option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
+                     // new_line('a') // 'FILE.nc', writes=.true.)]
         call parse_command(command, 0, 1)
         method = option_word(command, '--method', 'klingel', &
                              [character(len=10) :: 'klingel', 'regression'])

@@ -41,7 +41,8 @@ contains
             // new_line('a') // 'the columns y_mm,h_mm,inv2R_per_mm. CSV, one row.' &
             // new_line('a')
         command%options = [ &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
+                     // new_line('a') // 'FILE.nc', &
                      writes=.true.), &
             option_t('--strips', 'FILE', 'write the strips there, with the sums over each', &
                      writes=.true.), &

@@ -34,8 +34,8 @@ contains
             // ' lie beside them:' // new_line('a') // 'all parts must be there, whole, and of' &
             // ' one input with the same options by the' // new_line('a') // 'same program. The' &
             // ' exit code is 1 if a contact failed, as that of one run.' // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
-                                    writes=.true.)]
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF' &
+                                    // new_line('a') // 'to FILE.nc', writes=.true.)]
         call parse_command(command, 1, n_optional=most_files - 1)
         allocate (names(size(command%arguments)))
         do i = 1, size(names)

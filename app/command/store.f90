@@ -4,7 +4,8 @@
 !> Beside the output OUT stand, while it is being made, OUT.lock (which process makes it), and from
 !> the first piece on OUT.partial (what there is of it) and OUT.journal (a manifest of that, renamed
 !> into place after each piece). At the end OUT.partial becomes OUT, and OUT.journal OUT.manifest or
-!> nothing. Whatever lies between two of these steps is found by the next run.
+!> nothing. An output that is to be NetCDF is made of OUT.partial, which goes last, and has no
+!> manifest. Whatever lies between two of these steps is found by the next run.
 module faststrip_command_store
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
     use, intrinsic :: iso_fortran_env, only: int64
@@ -17,6 +18,7 @@ module faststrip_command_store
     use faststrip_files_stdio, only: c_rename, c_remove
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
                                           write_manifest, read_manifest, unlike_value
+    use faststrip_command_netcdf_file, only: is_netcdf, write_netcdf
     use faststrip_command_system, only: keep_in_mind, forget_file
     implicit none
     private
@@ -357,13 +359,17 @@ contains
         if (store%is_kept) then
             code = c_close(store%file, 1_c_int)
             store%file = -1
-            if (code == 0) code = c_rename(store%final // partial_word // c_null_char, &
-                                           store%final // c_null_char)
             if (code /= 0) then
                 call refuse(store, status)
-            else
-                call name_journal(store, with_manifest, status)
+            else if (is_netcdf(store%path)) then
+                call write_netcdf(store%final // partial_word, store%path, status)
+            else if (c_rename(store%final // partial_word // c_null_char, &
+                              store%final // c_null_char) /= 0) then
+                call refuse(store, status)
             end if
+            if (.not. is_error(status)) call name_journal(store, with_manifest, status)
+            if (is_netcdf(store%path) .and. .not. is_error(status)) &
+                code = c_remove(store%final // partial_word // c_null_char)
         else
             call close_csv(store%writer, status)
         end if

@@ -49,9 +49,10 @@ contains
             // ' row per shift' // new_line('a') // 'and method; one that fails gets its status' &
             // ' word and empty figures.' // new_line('a') // 'With --normal or --tangential' &
             // ' there is one row more, by these methods.' // new_line('a')
-        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
-                                    writes=.true.), &
-                           method_options]
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
+                     // new_line('a') // 'FILE.nc', writes=.true.), &
+            method_options]
         command%about = command%about // method_notes()
         call parse_command(command, 1)
         call read_case(command%arguments(1)%text, case)

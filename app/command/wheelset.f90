@@ -88,7 +88,8 @@ contains
             'code is 1.' // new_line('a')
         command%options = [ &
             option_t('--states', 'FILE.csv', 'the states', reads=.true.), &
-            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
+                     // new_line('a') // 'FILE.nc', writes=.true.), &
             option_t('--strips', 'FILE', 'write the strips of all contacts there, with their ' // &
                      'places', writes=.true.), &
             option_t('--profiles', 'FILE', 'write wheels and rails in the track there, of one ' // &

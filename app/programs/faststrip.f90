@@ -11,11 +11,14 @@ program faststrip_main
     use faststrip_command_profile, only: run_profile
     use faststrip_command_wheelset, only: run_wheelset
     use faststrip_command_conicity, only: run_conicity
+    use faststrip_command_netcdf, only: run_netcdf
+    use faststrip_command_netcdf_file, only: finish_as_asked
     use faststrip_command_explore, only: run_explore
     use faststrip_command_lookup, only: run_lookup
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
+    call finish_as_asked()
     select case (command_argument(1))
     case ('integral'); call run_integral()
     case ('contact'); call run_contact()
@@ -26,6 +29,7 @@ program faststrip_main
     case ('profile'); call run_profile()
     case ('wheelset'); call run_wheelset()
     case ('conicity'); call run_conicity()
+    case ('netcdf'); call run_netcdf()
     case ('explore'); call run_explore()
     case ('lookup'); call run_lookup()
     case ('--help', '-h', 'help')
@@ -55,6 +59,7 @@ contains
         call say('  conicity               contact geometry and equivalent conicity of a wheelset')
         call say('  lookup ACTION          tables of creep forces: made, judged, looked up')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
+        call say('  netcdf TABLE.csv       a table as NetCDF')
         call say('  explore                a page to play with, of the Python package')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

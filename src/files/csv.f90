@@ -15,7 +15,8 @@ module faststrip_files_csv
     use faststrip_files_csv_writer, only: csv_writer_t, open_csv, put_comment, put_header, &
                                           put_cell, end_row, put_line, put_text, close_csv, &
                                           abort_csv, collect_csv, collected, collected_length, &
-                                          forget_collected, real_text, failure_words
+                                          forget_collected, real_text, failure_words, &
+                                          finish_tables
     use faststrip_files_temporary, only: temporary_prefix, temporary_ending, most_temporaries, &
                                          temporary_name, final_path
     implicit none
@@ -28,7 +29,7 @@ module faststrip_files_csv
     public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
     public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name, final_path
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, put_text
-    public :: close_csv, abort_csv
+    public :: close_csv, abort_csv, finish_tables
     public :: collect_csv, collected, collected_length, forget_collected
     public :: real_text, failure_words
 end module faststrip_files_csv

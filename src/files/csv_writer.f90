@@ -19,6 +19,7 @@ module faststrip_files_csv_writer
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
     public :: collect_csv, collected, collected_length, forget_collected, put_text
     public :: real_text, failure_words
+    public :: table_finisher, finish_tables
 
     !> A file being written; its parts are the writer's own business.
     type :: csv_writer_t
@@ -42,6 +43,19 @@ module faststrip_files_csv_writer
     interface put_cell
         module procedure put_text_cell, put_integer_cell, put_real_cell
     end interface put_cell
+
+    abstract interface
+        !> Make another file of a table that is whole.
+        subroutine table_finisher(table, path, is_finished, status)
+            import :: status_t
+            character(len=*), intent(in) :: table !! name of the CSV file
+            character(len=*), intent(in) :: path  !! of the file to be left, as it was given
+            logical, intent(out) :: is_finished   !! else the CSV file gets that name
+            type(status_t), intent(out) :: status !! `st_file_write`
+        end subroutine table_finisher
+    end interface
+
+    procedure(table_finisher), pointer :: finish => null()
 
     interface
         function c_dup(descriptor) bind(c, name='dup') result(copy)
@@ -108,6 +122,13 @@ contains
         if (.not. c_associated(writer%stream)) call note_failure(writer)
         status = writer%status
     end subroutine open_csv
+
+    !> From now on `close_csv` lets a procedure make another file of a table.
+    subroutine finish_tables(by)
+        procedure(table_finisher) :: by !! it
+
+        finish => by
+    end subroutine finish_tables
 
     !> Start a writer that writes nowhere: lines and rows are collected until `forget_collected`.
     subroutine collect_csv(writer)
@@ -380,6 +401,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer !! closed afterwards
         type(status_t), intent(out) :: status       !! `st_file_write`
         integer(c_int) :: code
+        logical :: is_finished
 
         call clear_status(status)
         if (.not. c_associated(writer%stream)) then
@@ -391,7 +413,12 @@ contains
         writer%stream = c_null_ptr
         if (code /= 0) call note_failure(writer)
         if (len(writer%temporary) > 0) then
-            if (writer%status%code == 0) then
+            is_finished = .false.
+            if (associated(finish) .and. writer%status%code == 0) &
+                call finish(writer%temporary, writer%path, is_finished, writer%status)
+            if (is_finished) then
+                code = c_remove(writer%temporary // c_null_char)
+            else if (writer%status%code == 0) then
                 code = c_rename(writer%temporary // c_null_char, writer%final // c_null_char)
                 if (code /= 0) call note_failure(writer)
             end if

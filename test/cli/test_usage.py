@@ -6,7 +6,8 @@ import tempfile
 
 from cli_program import LAB, PROGRAM, ROOT, ProgramTest, gap_case, gap_text, parabola
 
-SUBCOMMANDS = ("integral", "contact", "batch", "merge", "sweep", "wheelset", "conicity")
+SUBCOMMANDS = ("integral", "contact", "batch", "merge", "sweep", "wheelset", "conicity",
+               "netcdf")
 OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 
 
@@ -40,6 +41,7 @@ class Help(ProgramTest):
             ("contact", ("--fields", "--strips", "--gap", "--profiles", "--shift")),
             ("batch", ("--normal", "--tangential", "--strips-per-patch")),
             ("wheelset", ("--states",)),
+            ("netcdf", ("-o", "--single")),
             ("conicity", ("--delta-r", "--amplitudes", "--method", "--roll", "--functions")),
         ):
             text = self.check(name, "--help")

@@ -57,7 +57,8 @@ class Installed(HostTest):
         for name in ("bin/faststrip", "include/faststrip.h", "include/faststrip/faststrip.mod",
                      "lib/libfaststrip.a", "lib/libfaststrip.so", "lib/libfaststrip.so.0",
                      f"lib/libfaststrip.so.{self.version}", "lib/pkgconfig/faststrip.pc",
-                     "share/man/man1/faststrip.1", "share/doc/faststrip/LICENSE"):
+                     "lib/faststrip/faststrip_netcdf.so", "share/man/man1/faststrip.1",
+                     "share/doc/faststrip/LICENSE"):
             with self.subTest(name):
                 self.assertTrue((prefix / name).is_file())
         self.assertTrue((prefix / "bin/faststrip").stat().st_mode & stat.S_IXUSR)

@@ -11,6 +11,7 @@ import unittest
 from harness import ROOT
 
 RUNNER = ROOT / "tools" / "run_mutants.py"
+sys.path.insert(0, str(RUNNER.parent))
 spec = importlib.util.spec_from_file_location("run_mutants", RUNNER)
 run_mutants = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(run_mutants)

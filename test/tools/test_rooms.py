@@ -16,6 +16,7 @@ PACKAGES = {
     "src/files": [CORE],
     "src/kalker": [CORE],
     "src/tables": [CORE],
+    "src/netcdf": [CORE, "src/files"],
     "app/command": [CORE, "src/files", "src/kalker", "src/tables"],
     "app/lab": [CORE, "src/files", "src/kalker", "src/tables", "app/command"],
 }

@@ -66,7 +66,8 @@ class Project(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
         for name in ("run", "fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             self.copy(name)
-        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py"):
+        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py",
+                     "netcdf_plugin.py"):
             self.copy(f"tools/{name}")
         self.manifest("app", 'faststrip-command.path = "command"')
         self.manifest("app/command", 'faststrip.path = "../.."')
@@ -76,6 +77,7 @@ class Project(unittest.TestCase):
         self.write("app/programs/faststrip.f90", MAIN)
         self.write("app/programs/faststrip_lab.f90", LAB)
         self.write("src/faststrip/base/kinds.f90", LIBRARY)
+        self.write("src/netcdf/plugin.f90", "module faststrip_netcdf_plugin\nend module\n")
 
     def copy(self, name):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -177,7 +179,7 @@ class Installing(Project):
                 self.assertRegex(
                     result.stderr,
                     r"\n +sudo apt-get install -y gfortran g\+\+ pkg-config libopenblas-dev"
-                    r" libgsl-dev libfftw3-dev"
+                    r" libgsl-dev libfftw3-dev libnetcdff-dev"
                     r"( python3-venv)?\n",
                 )
                 self.assertFalse((self.folder / ".venv").exists())

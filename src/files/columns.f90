@@ -1,0 +1,224 @@
+!> The columns of result tables: what they hold, for files that say so themselves.
+module faststrip_files_columns
+    use faststrip_base_text, only: lower_case
+    implicit none
+    private
+
+    public :: column_t, known_column, is_variable_name
+    public :: holds_anything, holds_text, holds_counts, holds_numbers
+
+    !> What a column may hold; of one that is not known its cells tell.
+    integer, parameter :: holds_anything = 0, holds_text = 1, holds_counts = 2, holds_numbers = 3
+
+    !> A column.
+    type :: column_t
+        character(len=26) :: name = ''
+        integer :: holds = holds_anything
+        character(len=64) :: long_name = '' !! what it is, in a few words
+    end type column_t
+
+    ! What is solved.
+    type(column_t), parameter :: of_cases(*) = [ &
+        column_t('case', holds_text, 'name of the case'), &
+        column_t('gap_file', holds_text, 'file of the undeformed gap'), &
+        column_t('normal', holds_text, 'method of the normal contact'), &
+        column_t('tangential', holds_text, 'method of the creep forces'), &
+        column_t('E_MPa', holds_numbers, "Young's modulus"), &
+        column_t('nu', holds_numbers, "Poisson's ratio"), &
+        column_t('mu', holds_numbers, 'coefficient of friction'), &
+        column_t('friction_kind', holds_text, 'kind of the friction law'), &
+        column_t('mu_kinetic', holds_numbers, 'coefficient of friction at large slip'), &
+        column_t('half_slip_speed_mm_s', holds_numbers, 'slip speed of the middle of friction'), &
+        column_t('initial_slope_factor', holds_numbers, 'factor of the initial slope'), &
+        column_t('speed_mm_s', holds_numbers, 'rolling speed'), &
+        column_t('N_N', holds_numbers, 'normal load'), &
+        column_t('given_penetration_mm', holds_numbers, 'penetration that was given'), &
+        column_t('yw_mm', holds_numbers, 'lateral shift of the wheel'), &
+        column_t('gamma_rad', holds_numbers, 'contact angle'), &
+        column_t('cksi', holds_numbers, 'longitudinal creepage'), &
+        column_t('ceta', holds_numbers, 'lateral creepage'), &
+        column_t('cphi_rad_per_mm', holds_numbers, 'spin creepage')]
+
+    ! What every contact has.
+    type(column_t), parameter :: of_results(*) = [ &
+        column_t('status', holds_text, 'ok, a limitation of the result, or an error'), &
+        column_t('message', holds_text, 'what there is to say about the status'), &
+        column_t('penetration_mm', holds_numbers, 'penetration'), &
+        column_t('area_mm2', holds_numbers, 'contact area'), &
+        column_t('pmax_MPa', holds_numbers, 'largest pressure'), &
+        column_t('ymin_mm', holds_numbers, 'least y of the contact'), &
+        column_t('ymax_mm', holds_numbers, 'largest y of the contact'), &
+        column_t('xmax_mm', holds_numbers, 'largest half-length of the contact'), &
+        column_t('n_patches', holds_counts, 'number of contact patches'), &
+        column_t('strips_across', holds_counts, 'strips across the patch that has most'), &
+        column_t('Fx_N', holds_numbers, 'longitudinal force on the rail'), &
+        column_t('Fy_N', holds_numbers, 'lateral force on the rail, in the contact plane'), &
+        column_t('Mz_Nmm', holds_numbers, 'moment on the rail about the reference point'), &
+        column_t('friction_power_N', holds_numbers, 'frictional work per distance rolled'), &
+        column_t('stick_fraction', holds_numbers, 'share of the area in adhesion'), &
+        column_t('normal_us', holds_numbers, 'wall time of the normal contact'), &
+        column_t('tangential_us', holds_numbers, 'wall time of the creep forces'), &
+        column_t('residual_inside', holds_numbers, 'largest gap left inside, over the depth'), &
+        column_t('overlap_outside', holds_numbers, 'largest overlap outside, over the depth'), &
+        column_t('est_err_penetration', holds_numbers, &
+                 'estimated relative error of the penetration'), &
+        column_t('est_err_pmax', holds_numbers, 'estimated relative error of pmax'), &
+        column_t('est_err_area', holds_numbers, 'estimated relative error of the area'), &
+        column_t('est_err_Fx', holds_numbers, 'estimated error of Fx over mu N'), &
+        column_t('est_err_Fy', holds_numbers, 'estimated error of Fy over mu N'), &
+        column_t('est_err_Mz', holds_numbers, 'estimated error of Mz over mu N c'), &
+        column_t('gap_change_um', holds_numbers, 'what smoothing changed of the gap, rms'), &
+        column_t('choice', holds_text, 'the steps of the automatic solution'), &
+        column_t('t_gamma_N', holds_numbers, 'T gamma without spin'), &
+        column_t('t_gamma_spin_N', holds_numbers, 'T gamma with spin'), &
+        column_t('t_gamma_per_area_N_per_mm2', holds_numbers, 'T gamma without spin per area'), &
+        column_t('fatigue_index', holds_numbers, 'surface-fatigue index'), &
+        column_t('wear_ug_per_m', holds_numbers, 'wear, mass per distance rolled'), &
+        column_t('wear_mm3_per_m', holds_numbers, 'wear, volume per distance rolled')]
+
+    ! Strips, elements, gaps.
+    type(column_t), parameter :: of_parts(*) = [ &
+        column_t('patch', holds_counts, 'number of the patch'), &
+        column_t('strip', holds_counts, 'number of the strip'), &
+        column_t('x_mm', holds_numbers, 'x, along the rolling direction'), &
+        column_t('y_mm', holds_numbers, 'y, across the rolling direction'), &
+        column_t('y_left_mm', holds_numbers, 'left edge of the strip'), &
+        column_t('y_right_mm', holds_numbers, 'right edge of the strip'), &
+        column_t('half_length_mm', holds_numbers, 'half-length of the strip'), &
+        column_t('p0_MPa', holds_numbers, 'largest pressure of the strip'), &
+        column_t('load_N', holds_numbers, 'load of the strip'), &
+        column_t('wear_depth_mm_per_pass', holds_numbers, 'wear depth per pass'), &
+        column_t('wear_depth_mm_per_km', holds_numbers, 'wear depth per distance rolled'), &
+        column_t('state', holds_counts, 'state of the element: 1 adhesion, 2 slip'), &
+        column_t('pn_MPa', holds_numbers, 'pressure'), &
+        column_t('px_MPa', holds_numbers, 'longitudinal traction'), &
+        column_t('py_MPa', holds_numbers, 'lateral traction'), &
+        column_t('sx', holds_numbers, 'longitudinal slip over the rolling speed'), &
+        column_t('sy', holds_numbers, 'lateral slip over the rolling speed'), &
+        column_t('power_MPa', holds_numbers, 'frictional work per area and distance rolled'), &
+        column_t('h_mm', holds_numbers, 'undeformed gap'), &
+        column_t('inv2R_per_mm', holds_numbers, '1/(2R) along the rolling direction')]
+
+    ! Wheelsets.
+    type(column_t), parameter :: of_wheelsets(*) = [ &
+        column_t('side', holds_text, 'left or right'), &
+        column_t('contact', holds_counts, 'number of the contact of the wheel, 0: none'), &
+        column_t('solution', holds_counts, 'number of the solution beside a jump'), &
+        column_t('x_track_mm', holds_numbers, 'x of the contact in the track'), &
+        column_t('y_track_mm', holds_numbers, 'y of the contact in the track'), &
+        column_t('z_track_mm', holds_numbers, 'z of the contact in the track, down'), &
+        column_t('contact_angle_rad', holds_numbers, 'contact angle'), &
+        column_t('Fs_N', holds_numbers, 'lateral force on the rail, in the contact plane'), &
+        column_t('Fx_track_N', holds_numbers, 'force on the rail along x of the track'), &
+        column_t('Fy_track_N', holds_numbers, 'force on the rail along y of the track'), &
+        column_t('Fz_track_N', holds_numbers, 'force on the rail along z of the track'), &
+        column_t('Fx_wheelset_N', holds_numbers, 'force on the rail along x of the wheelset'), &
+        column_t('Fy_wheelset_N', holds_numbers, 'force on the rail along y of the wheelset'), &
+        column_t('Fz_wheelset_N', holds_numbers, 'force on the rail along z of the wheelset'), &
+        column_t('z_mm', holds_numbers, 'z, down'), &
+        column_t('roll_rad', holds_numbers, 'roll of the wheelset'), &
+        column_t('y_rail_mm', holds_numbers, 'y on the profile of the rail'), &
+        column_t('z_rail_mm', holds_numbers, 'z on the profile of the rail'), &
+        column_t('x_wheel_mm', holds_numbers, 'x on the wheel'), &
+        column_t('y_wheel_mm', holds_numbers, 'y on the profile of the wheel'), &
+        column_t('z_wheel_mm', holds_numbers, 'z on the profile of the wheel'), &
+        column_t('radius_mm', holds_numbers, 'rolling radius'), &
+        column_t('rolling_speed_mm_s', holds_numbers, 'rolling speed'), &
+        column_t('body', holds_text, 'wheel or rail'), &
+        column_t('y_profile_mm', holds_numbers, 'y on the profile'), &
+        column_t('z_profile_mm', holds_numbers, 'z on the profile')]
+
+    ! Conicity and contact functions.
+    type(column_t), parameter :: of_conicity(*) = [ &
+        column_t('amplitude_mm', holds_numbers, 'amplitude of the lateral motion'), &
+        column_t('tan_gamma_e', holds_numbers, 'equivalent conicity'), &
+        column_t('y_min_mm', holds_numbers, 'least y'), &
+        column_t('y_max_mm', holds_numbers, 'largest y'), &
+        column_t('regression', holds_numbers, 'equivalent conicity by linear regression'), &
+        column_t('nonlinearity_per_mm', holds_numbers, 'nonlinearity of the conicity'), &
+        column_t('method', holds_text, 'method of the conicity'), &
+        column_t('delta_r_mm', holds_numbers, 'rolling radius difference, right less left'), &
+        column_t('radius_right_mm', holds_numbers, 'rolling radius of the right wheel'), &
+        column_t('radius_left_mm', holds_numbers, 'rolling radius of the left wheel'), &
+        column_t('gamma_right_rad', holds_numbers, 'contact angle of the right wheel'), &
+        column_t('gamma_left_rad', holds_numbers, 'contact angle of the left wheel'), &
+        column_t('y_wheel_right_mm', holds_numbers, 'y on the profile of the right wheel'), &
+        column_t('y_rail_right_mm', holds_numbers, 'y on the profile of the right rail'), &
+        column_t('y_wheel_left_mm', holds_numbers, 'y on the profile of the left wheel'), &
+        column_t('y_rail_left_mm', holds_numbers, 'y on the profile of the left rail')]
+
+    ! Descriptions of profiles.
+    type(column_t), parameter :: of_profiles(*) = [ &
+        column_t('file', holds_text, 'name of the file'), &
+        column_t('format', holds_text, 'format of the file'), &
+        column_t('kind', holds_text, 'wheel or rail'), &
+        column_t('points', holds_counts, 'number of points'), &
+        column_t('z_min_mm', holds_numbers, 'least z'), &
+        column_t('z_max_mm', holds_numbers, 'largest z'), &
+        column_t('Sd_mm', holds_numbers, 'flange thickness'), &
+        column_t('Sh_mm', holds_numbers, 'flange height'), &
+        column_t('qR_mm', holds_numbers, 'flange gradient'), &
+        column_t('length_mm', holds_numbers, 'length along the points'), &
+        column_t('spacing_min_mm', holds_numbers, 'least distance of two points'), &
+        column_t('spacing_max_mm', holds_numbers, 'largest distance of two points'), &
+        column_t('y_of_widest_gap_mm', holds_numbers, 'y of the largest distance'), &
+        column_t('y_positive_to', holds_text, 'sense of y in the file'), &
+        column_t('z_positive_to', holds_text, 'sense of z in the file'), &
+        column_t('runs_to', holds_text, 'where the points run to'), &
+        column_t('unit_mm', holds_numbers, 'unit of length of the file'), &
+        column_t('sections', holds_counts, 'number of sections'), &
+        column_t('kinks', holds_counts, 'number of kinks'), &
+        column_t('touchable_points', holds_counts, 'number of points that can be touched'), &
+        column_t('touchable_y_min_mm', holds_numbers, 'least y that can be touched'), &
+        column_t('touchable_y_max_mm', holds_numbers, 'largest y that can be touched'), &
+        column_t('curvature_min_per_mm', holds_numbers, 'least curvature'), &
+        column_t('curvature_max_per_mm', holds_numbers, 'largest curvature'), &
+        column_t('wear_top_mm', holds_numbers, 'wear of the top of the rail'), &
+        column_t('wear_side_mm', holds_numbers, 'wear of the side of the rail'), &
+        column_t('wear_corner_mm', holds_numbers, 'wear of the corner of the rail'), &
+        column_t('wear_max_mm', holds_numbers, 'largest wear'), &
+        column_t('curation', holds_text, 'what was changed of the points')]
+
+    ! Given: NC_MAX_NAME of NetCDF.
+    integer, parameter :: longest_name = 256
+
+    type(column_t), parameter :: columns(*) = [of_cases, of_results, of_parts, of_wheelsets, &
+                                               of_conicity, of_profiles]
+
+contains
+
+    !> What is known of the column of that name. Of one that is not known only the words of which
+    !> the name is made, for the long name.
+    pure function known_column(name) result(column)
+        character(len=*), intent(in) :: name !! of a column
+        type(column_t) :: column
+        integer :: i
+
+        do i = 1, size(columns)
+            if (columns(i)%name /= name) cycle
+            column = columns(i)
+            return
+        end do
+        column%long_name = name
+        do i = 1, len(column%long_name)
+            if (column%long_name(i:i) == '_') column%long_name(i:i) = ' '
+        end do
+    end function known_column
+
+    !> Can a column's name be that of a NetCDF variable? UTF-8 is not looked at.
+    pure logical function is_variable_name(name)
+        character(len=*), intent(in) :: name !! of a column
+        integer :: i
+
+        is_variable_name = .false.
+        if (len(name) == 0 .or. len(name) > longest_name) return
+        do i = 1, len(name)
+            ! Control characters, and what parts groups.
+            if (iachar(name(i:i)) < iachar(' ') .or. name(i:i) == '/' &
+                .or. iachar(name(i:i)) == 127) return ! Given: DEL
+        end do
+        is_variable_name = index('0123456789abcdefghijklmnopqrstuvwxyz_', &
+                                 lower_case(name(1:1))) > 0
+        if (iachar(name(1:1)) > 127) is_variable_name = .true. ! Given: ASCII
+    end function is_variable_name
+end module faststrip_files_columns
