@@ -89,6 +89,7 @@ OWN_STAGES = {
     "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
     "python": [("installed", [*FACES[:3], FACES[-1]])],
     "plots": [("python", ["test/plots"])],
+    "tools": [("python", ["test/tools/test_blocks.py"])],
 }
 TABLES = ["test/tools/test_generated_modules.py"]
 ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),

@@ -153,14 +153,14 @@ end module test_caller
 FORTRAN_LIST = """\
 [[mutant]]
 id = "numerics-other-offset"
-file = "src/arithmetic.f90"
+file = "src/faststrip/arithmetic.f90"
 text = "offset = 3"
 replacement = "offset = 4"
 why = "a constant that another module uses"
 
 [[mutant]]
 id = "numerics-squared"
-file = "src/arithmetic.f90"
+file = "src/faststrip/arithmetic.f90"
 text = "2*n"
 replacement = "n*n"
 why = "the same at 2"
@@ -198,7 +198,8 @@ class Lists(unittest.TestCase):
 
     def test_every_source_is_linked_somewhere(self):
         """What a mutant's programs are linked of is what the packages hold."""
-        linked = sum(run_mutants.PROGRAMS.values(), run_mutants.TESTS + run_mutants.LIBRARY)
+        linked = sum(run_mutants.PROGRAMS.values(), run_mutants.TESTS + run_mutants.LIBRARY
+                     + run_mutants.NETCDF)
         for begin in linked:
             if not begin.startswith("build/"):
                 self.assertTrue((ROOT / begin).exists(), begin)
@@ -301,8 +302,8 @@ class Verdicts(unittest.TestCase):
     def test_fortran_is_compiled_with_what_uses_it(self):
         self.write("fpm.toml", 'name = "tiny"\n[build]\nauto-executables = false\n'
                    'auto-examples = false\n[library]\nsource-dir = "src"\n')
-        self.write("src/arithmetic.f90", ARITHMETIC)
-        self.write("src/caller.f90", CALLER)
+        self.write("src/faststrip/arithmetic.f90", ARITHMETIC)
+        self.write("src/faststrip/caller.f90", CALLER)
         self.write("test/pf/numerics/test_caller.pf", FORTRAN_TEST)
         for name in ("tools/pf2f90.py", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
