@@ -52,6 +52,8 @@ module faststrip_normal_strip_carried
         real(wp), allocatable :: center_y(:, :)  !! dC/dy + C/r of other patches, apart from 1/r
         real(wp), allocatable :: tip_y(:, :)     !! the same of T
         real(wp), allocatable :: work(:, :)      !! one column of C', dC'/dl, T', dT'/dl, dT'/dx
+        real(wp), allocatable :: pressure(:)     !! of work, p0 H/D times the growth
+        real(wp), allocatable :: longer(:)       !! of work, lengths beside the growth, mm
     end type carried_t
 
 contains
@@ -69,11 +71,11 @@ contains
         if (carried%most > 0) &
             deallocate (carried%half_length, carried%y, carried%center, carried%center_l, &
                         carried%tip, carried%tip_l, carried%tip_x, carried%center_y, &
-                        carried%tip_y, carried%work)
+                        carried%tip_y, carried%work, carried%pressure, carried%longer)
         allocate (carried%half_length(n), carried%y(n), carried%center(n, n), &
                   carried%center_l(n, n), carried%tip(n, n), carried%tip_l(n, n), &
                   carried%tip_x(n, n), carried%center_y(n, n), carried%tip_y(n, n), &
-                  carried%work(n, 5), source=0.0_wp)
+                  carried%work(n, 5), carried%pressure(n), carried%longer(n), source=0.0_wp)
         carried%most = n
     end subroutine reserve_carried
 
@@ -195,26 +197,85 @@ contains
         type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
-        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
 
-        real(wp) :: sigma, pressure
-        integer :: n, p, s, first, last
+        real(wp) :: sigma, scale
+        integer :: n, p, s, k, first, last
 
         n = strips%n
+        scale = compliance/strips%penetration
         call start_residual(strips, demand, residual)
-        first = 1
+        last = 0
         do p = 1, carried%n_patches
-            last = first + carried%n_strips(p) - 1
+            first = last + 1
+            last = last + carried%n_strips(p)
             sigma = growth(carried, strips, p, first)
             do s = first, last
-                call carried_column(carried, strips, s, first, last, sigma)
-                pressure = compliance/strips%penetration*strips%p0(s)
-                residual(:n) = residual(:n) - pressure*carried%work(:n, 1)
-                residual(n + 1:2*n) = residual(n + 1:2*n) - pressure*carried%work(:n, 3)
+                carried%pressure(s) = scale*sigma*strips%p0(s)
+                carried%longer(s) = strips%half_length(s)/sigma - carried%half_length(s)
             end do
-            first = last + 1
+            call displace(carried%n_strips(p), carried%most, carried%pressure(first), &
+                          carried%longer(first), carried%center(first, first), &
+                          carried%center_l(first, first), carried%tip(first, first), &
+                          carried%tip_l(first, first), carried%tip_x(first, first), &
+                          carried%work(first, 1), carried%work(first, 2), carried%work(first, 3))
+            do k = first, last
+                residual(k) = residual(k) - carried%work(k, 1)
+                residual(n + k) = residual(n + k) &
+                                  - (carried%work(k, 2) + carried%longer(k)*carried%work(k, 3))
+            end do
+            if (carried%n_patches == 1) return
+            do s = first, last
+                if (first > 1) call far_column(carried, strips, s, 1, first - 1, sigma)
+                if (last < n) call far_column(carried, strips, s, last + 1, n, sigma)
+                carried%work(first:last, 1) = 0.0_wp
+                carried%work(first:last, 3) = 0.0_wp
+                residual(:n) = residual(:n) - scale*strips%p0(s)*carried%work(:n, 1)
+                residual(n + 1:2*n) = residual(n + 1:2*n) - scale*strips%p0(s)*carried%work(:n, 3)
+            end do
         end do
     end subroutine carried_residual
+
+    !> The displacements of a patch under its own pressures over the penetration: on its centre
+    !> lines, at its tips where they were, and what a tip gets for each length that it is longer.
+    !> Two sources at a time. The arrays come as arguments, which the compiler knows to be apart.
+    pure subroutine displace(n, most, pressure, longer, center_of, center_l, tip_of, tip_l, tip_x, &
+                             center, tip, slope)
+        integer, intent(in) :: n    ! strips of the patch
+        integer, intent(in) :: most ! rows of the numbers
+        real(wp), intent(in) :: pressure(n), longer(n)
+        real(wp), intent(in), dimension(most, *) :: center_of, center_l, tip_of, tip_l, tip_x
+        real(wp), intent(out), dimension(n) :: center, tip, slope
+
+        real(wp) :: p1, p2, q1, q2
+        integer :: s, k
+
+        if (mod(n, 2) == 1) then
+            p1 = pressure(n)
+            q1 = p1*longer(n)
+            center = p1*center_of(:n, n) + q1*center_l(:n, n)
+            tip = p1*tip_of(:n, n) + q1*tip_l(:n, n)
+            slope = p1*tip_x(:n, n)
+        else
+            center = 0.0_wp
+            tip = 0.0_wp
+            slope = 0.0_wp
+        end if
+        do s = 1, n - 1, 2
+            p1 = pressure(s)
+            q1 = p1*longer(s)
+            p2 = pressure(s + 1)
+            q2 = p2*longer(s + 1)
+            !$omp simd
+            do k = 1, n
+                center(k) = center(k) + ((p1*center_of(k, s) + q1*center_l(k, s)) &
+                                         + (p2*center_of(k, s + 1) + q2*center_l(k, s + 1)))
+                tip(k) = tip(k) + ((p1*tip_of(k, s) + q1*tip_l(k, s)) &
+                                   + (p2*tip_of(k, s + 1) + q2*tip_l(k, s + 1)))
+                slope(k) = slope(k) + (p1*tip_x(k, s) + p2*tip_x(k, s + 1))
+            end do
+        end do
+    end subroutine displace
 
     !> As `strip_jacobian`, by carried numbers.
     pure subroutine carried_jacobian(carried, strips, compliance, demand, p_scale, jacobian, &
@@ -224,8 +285,8 @@ contains
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
         real(wp), intent(in) :: p_scale              !! unit of the pressures' changes, MPa
-        real(wp), intent(inout) :: jacobian(:, :)    !! first 2n + 1 rows and columns
-        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+        real(wp), intent(inout), contiguous :: jacobian(:, :)    !! first 2n + 1 rows and columns
+        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
 
         real(wp) :: sigma
         integer :: n, p, s, first, last

@@ -78,7 +78,7 @@ contains
         type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
-        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
 
         integer :: n, s
         real(wp) :: scale
@@ -106,8 +106,8 @@ contains
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand         !! load or penetration
         real(wp), intent(in) :: p_scale              !! unit of the pressures' changes, MPa
-        real(wp), intent(inout) :: jacobian(:, :)    !! first 2n + 1 rows and columns
-        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+        real(wp), intent(inout), contiguous :: jacobian(:, :)    !! first 2n + 1 rows and columns
+        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
 
         integer :: n, s
 
@@ -133,7 +133,7 @@ contains
     !> penetration's column.
     pure subroutine start_jacobian(strips, jacobian)
         type(pass_strips_t), intent(in) :: strips !! strips and their penetration
-        real(wp), intent(inout) :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
+        real(wp), intent(inout), contiguous :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
 
         integer :: n, k
 
@@ -153,7 +153,7 @@ contains
             !! (at least n, 5): numbers on the centre lines and dI/dxd; at the tips I, dI/dxd, dI/dx
         real(wp), intent(in) :: scale             !! compliance over penetration
         real(wp), intent(in) :: p_scale           !! unit of the pressures' changes, MPa
-        real(wp), intent(inout) :: jacobian(:, :), residual(:) !! added to
+        real(wp), intent(inout), contiguous :: jacobian(:, :), residual(:) !! added to
 
         real(wp) :: tip, pressure, length
         integer :: n, k
@@ -185,7 +185,7 @@ contains
         type(pass_strips_t), intent(in) :: strips !! pressures, lengths and edges
         type(demand_t), intent(in) :: demand      !! load or penetration
         real(wp), intent(in) :: p_scale           !! unit of the pressures' changes, MPa
-        real(wp), intent(inout) :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
+        real(wp), intent(inout), contiguous :: jacobian(:, :) !! (2n + 1, 2n + 1) of it
 
         integer :: n
 
@@ -199,7 +199,7 @@ contains
     pure subroutine differentiate_load(strips, load, p_scale, jacobian)
         type(pass_strips_t), intent(in) :: strips
         real(wp), intent(in) :: load, p_scale
-        real(wp), intent(inout) :: jacobian(:, :)
+        real(wp), intent(inout), contiguous :: jacobian(:, :)
 
         integer :: n, s
         real(wp) :: strip_force
@@ -217,7 +217,7 @@ contains
     pure subroutine start_residual(strips, demand, residual)
         type(pass_strips_t), intent(inout) :: strips !! its centre lines are set
         type(demand_t), intent(in) :: demand         !! load or penetration
-        real(wp), intent(inout) :: residual(:)       !! (2n + 1)
+        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
 
         integer :: n
 

@@ -9,8 +9,8 @@ module faststrip_normal_strip_state
     use faststrip_normal_strip_carried, only: carried_t, reserve_carried
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
-    use faststrip_normal_strip_patches, only: patches_t, fewest_strips, only_match, nearest_patch, &
-                                              mirror_patches
+    use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, only_match, &
+                                              nearest_patch, mirror_patches
     implicit none
     private
 
@@ -42,6 +42,8 @@ module faststrip_normal_strip_state
         integer :: max_strips = 0   !! capacity, all patches together
         type(pass_strips_t) :: strips !! of the pass, all patches together
         real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
+        integer :: n_graded(max_patches) = 0 !! strips of patches whose `edge` is known
+        real(wp), allocatable :: edge(:)     !! right edges of strips in half-widths of their patch
         real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
                                        !! strips', so that the unit of length does not matter
     end type strip_workspace_t
@@ -71,9 +73,10 @@ contains
         if (workspace%max_strips >= max_strips) return
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) deallocate (workspace%old_eta, workspace%old_p0, &
-                                                     workspace%old_half_length)
+                                                     workspace%old_half_length, workspace%edge)
         allocate (workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
-                  workspace%old_half_length(max_strips), source=0.0_wp)
+                  workspace%old_half_length(max_strips), workspace%edge(max_strips), source=0.0_wp)
+        workspace%n_graded = 0
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
 
@@ -142,6 +145,7 @@ contains
         real(wp) :: middle, half, h, a
         integer :: p, k, i
 
+        call grade_edges(workspace, patches)
         associate (strips => workspace%strips)
             i = 0
             do p = 1, patches%n
@@ -154,8 +158,7 @@ contains
                     else
                         strips%y_left(i) = strips%y_right(i - 1)
                     end if
-                    strips%y_right(i) = middle &
-                                           + half*graded(2.0_wp*k/patches%at(p)%n_strips - 1.0_wp)
+                    strips%y_right(i) = middle + half*workspace%edge(i)
                     if (k == patches%at(p)%n_strips) strips%y_right(i) = patches%at(p)%y_to
                     call gap_at(workspace%curve, 0.5_wp*(strips%y_left(i) + strips%y_right(i)), &
                                 h, a)
@@ -165,6 +168,30 @@ contains
             end do
         end associate
     end subroutine position_edges
+
+    !> Right edges of strips in half-widths of their patch, unless those of as many are known.
+    pure subroutine grade_edges(workspace, patches)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(patches_t), intent(in) :: patches
+
+        integer :: p, k, n, last
+        logical :: known
+
+        known = .true.
+        last = 0
+        do p = 1, patches%n
+            n = patches%at(p)%n_strips
+            known = known .and. workspace%n_graded(p) == n
+            if (.not. known) then
+                workspace%n_graded(p:) = 0
+                workspace%n_graded(p) = n
+                do k = 1, n
+                    workspace%edge(last + k) = graded(2.0_wp*k/n - 1.0_wp)
+                end do
+            end if
+            last = last + n
+        end do
+    end subroutine grade_edges
 
     !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
     pure real(wp) function graded(t)

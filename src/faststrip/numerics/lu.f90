@@ -20,8 +20,8 @@ contains
     !> Factors P A = L U in place.
     pure subroutine lu_factor(n, a, pivot, singular)
         integer, intent(in) :: n           !! order
-        real(wp), intent(inout) :: a(:, :) !! the matrix, in the first n rows and columns; then
-                                           !! U, and below it L, whose diagonal is 1
+        real(wp), intent(inout), contiguous :: a(:, :) !! the matrix, in the first n rows and
+                                           !! columns; then U, and below it L, whose diagonal is 1
         integer, intent(inout) :: pivot(:) !! row exchanged with row k in step k, (n)
         logical, intent(out) :: singular   !! a pivot is below 1e-150 or above 1e150: not factored
 
@@ -68,7 +68,7 @@ contains
     !> Subtract what the columns of a panel take from two columns on their right.
     pure subroutine subtract_panel(n, first, last, j1, j2, a, pivot)
         integer, intent(in) :: n, first, last, j1, j2 ! j2 = j1: one column
-        real(wp), intent(inout) :: a(:, :)
+        real(wp), intent(inout), contiguous :: a(:, :)
         integer, intent(in) :: pivot(:)
 
         integer :: i, j, k
@@ -119,32 +119,58 @@ contains
     !> Solve with the factors.
     pure subroutine lu_solve(n, a, pivot, b)
         integer, intent(in) :: n         !! order
-        real(wp), intent(in) :: a(:, :)  !! factors of `lu_factor`
+        real(wp), intent(in), contiguous :: a(:, :) !! factors of `lu_factor`
         integer, intent(in) :: pivot(:)  !! its exchanges
-        real(wp), intent(inout) :: b(:)  !! right-hand side, then solution, (n)
+        real(wp), intent(inout), contiguous :: b(:) !! right-hand side, then solution, (n)
 
-        integer :: i, k
-        real(wp) :: other
+        integer :: i, k, rest
+        real(wp) :: other, f1, f2, f3, f4
 
         do k = 1, n
             other = b(pivot(k))
             b(pivot(k)) = b(k)
             b(k) = other
         end do
-        do k = 1, n
+        ! Four columns at a time, and before them those that are left over.
+        rest = mod(n, 4)
+        do k = 1, rest
             other = b(k)
             !$omp simd
             do i = k + 1, n
                 b(i) = b(i) - a(i, k)*other
             end do
         end do
-        do k = n, 1, -1
-            other = b(k)/a(k, k)
-            b(k) = other
+        do k = rest + 1, n, 4
+            f1 = b(k)
+            f2 = b(k + 1) - a(k + 1, k)*f1
+            f3 = b(k + 2) - a(k + 2, k)*f1 - a(k + 2, k + 1)*f2
+            f4 = b(k + 3) - a(k + 3, k)*f1 - a(k + 3, k + 1)*f2 - a(k + 3, k + 2)*f3
+            b(k + 1) = f2
+            b(k + 2) = f3
+            b(k + 3) = f4
+            !$omp simd
+            do i = k + 4, n
+                b(i) = b(i) - ((a(i, k)*f1 + a(i, k + 1)*f2) + (a(i, k + 2)*f3 + a(i, k + 3)*f4))
+            end do
+        end do
+        do k = n - 3, rest + 1, -4
+            f4 = b(k + 3)/a(k + 3, k + 3)
+            f3 = (b(k + 2) - a(k + 2, k + 3)*f4)/a(k + 2, k + 2)
+            f2 = (b(k + 1) - a(k + 1, k + 3)*f4 - a(k + 1, k + 2)*f3)/a(k + 1, k + 1)
+            f1 = (b(k) - a(k, k + 3)*f4 - a(k, k + 2)*f3 - a(k, k + 1)*f2)/a(k, k)
+            b(k) = f1
+            b(k + 1) = f2
+            b(k + 2) = f3
+            b(k + 3) = f4
             !$omp simd
             do i = 1, k - 1
-                b(i) = b(i) - a(i, k)*other
+                b(i) = b(i) - ((a(i, k)*f1 + a(i, k + 1)*f2) + (a(i, k + 2)*f3 + a(i, k + 3)*f4))
             end do
+        end do
+        do k = rest, 1, -1
+            other = b(k)/a(k, k)
+            b(k) = other
+            b(:k - 1) = b(:k - 1) - a(:k - 1, k)*other
         end do
     end subroutine lu_solve
 end module faststrip_numerics_lu
