@@ -42,6 +42,7 @@ module faststrip_geometry_gap_curve
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
         real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
         logical :: is_image = .false. !! see `is_mirror_image`
+        logical :: is_even = .false.  !! is it its own mirror image?
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
         real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
@@ -156,6 +157,7 @@ contains
         to%h_lowest = from%h_lowest
         to%least_inv2r = from%least_inv2r
         to%is_image = from%is_image
+        to%is_even = from%is_even
         to%inclination_is_known = from%inclination_is_known
         if (n == 0) return
         to%y(:n) = from%y(:n)
@@ -203,8 +205,7 @@ contains
         real(wp), intent(in) :: y(:), h(:), inv2r(:)
         type(status_t), intent(inout) :: status
 
-        integer :: n
-        logical :: is_image
+        integer :: n, side
 
         n = size(y)
         curve%n = 0
@@ -215,8 +216,9 @@ contains
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
         curve%inclination_is_known = .false.
-        is_image = is_mirror_image(y, h, inv2r)
-        if (is_image) then
+        side = side_of(y, h, inv2r)
+        curve%is_even = side == 0
+        if (side < 0) then
             call reverse_negated(curve%y(:n))
             call reverse(curve%h(:n))
             call reverse(curve%inv2r(:n))
@@ -233,7 +235,7 @@ contains
                              curve%slope_to(:n), curve%y_node, curve%h_node, curve%n_pieces)
         call find_lowest(curve%y_node(:curve%n_pieces + 1), curve%h_node(:curve%n_pieces + 1), &
                          curve%y_lowest, curve%h_lowest)
-        if (is_image) then
+        if (side < 0) then
             call mirror_gap_curve(curve)
         else
             call set_blocks(curve%blocks, curve%h_node(:curve%n_pieces + 1))
@@ -249,23 +251,30 @@ contains
         real(wp), intent(in) :: h(:)     !! heights there, mm
         real(wp), intent(in) :: inv2r(:) !! longitudinal terms there, 1/mm
 
+        is_image = side_of(y, h, inv2r) < 0
+    end function is_mirror_image
+
+    !> -1: the gap counts as a mirror image; 1: its mirror image does; 0: it is its own.
+    pure integer function side_of(y, h, inv2r) result(side)
+        real(wp), intent(in) :: y(:), h(:), inv2r(:)
+
         integer :: i, j
 
-        is_image = .false.
+        side = 0
         do i = 1, size(y)
             j = size(y) + 1 - i
             if (h(i) /= h(j)) then
-                is_image = h(i) < h(j)
+                side = merge(-1, 1, h(i) < h(j))
                 return
             else if (y(i) /= -y(j)) then
-                is_image = y(i) < -y(j)
+                side = merge(-1, 1, y(i) < -y(j))
                 return
             else if (inv2r(i) /= inv2r(j)) then
-                is_image = inv2r(i) < inv2r(j)
+                side = merge(-1, 1, inv2r(i) < inv2r(j))
                 return
             end if
         end do
-    end function is_mirror_image
+    end function side_of
 
     !> Mirror a curve, y to -y; twice gives the same curve to the last digit.
     pure subroutine mirror_gap_curve(curve)

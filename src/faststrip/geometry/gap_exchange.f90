@@ -43,6 +43,7 @@ contains
         call swap_real(one%h_lowest, other%h_lowest)
         call swap_real(one%least_inv2r, other%least_inv2r)
         call swap_logical(one%is_image, other%is_image)
+        call swap_logical(one%is_even, other%is_even)
         call swap_logical(one%has_steps, other%has_steps)
         call swap_logical(one%inclination_is_known, other%inclination_is_known)
         call move_alloc(one%even_to, even_to)

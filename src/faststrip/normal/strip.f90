@@ -13,8 +13,9 @@
 !> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
 !> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
 !>
-!> Of a gap and its mirror image one is solved and mirrored (`is_mirror_image`): what is decided on
-!> the way, rounding included, is the same on a left and on a right wheel.
+!> Of a gap and its mirror image one is solved and mirrored (`is_mirror_image`; in a history of warm
+!> starts the first gap decides): what is decided on the way, rounding included, is the same on a
+!> left and on a right wheel.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -154,9 +155,14 @@ contains
         logical :: all_settled, mirrored
 
         mirrored = workspace%curve%is_image
-        if (workspace%old%n > 0 .and. (workspace%old_is_mirrored .neqv. mirrored)) &
-            call mirror_old(workspace)
+        if (options%warm_start .and. workspace%old%n > 0) then
+            ! A history goes on as it began: its mirror image does so the other way round. Where it
+            ! began with a gap that has no sides this one decides.
+            if (.not. workspace%old_is_even) mirrored = workspace%old_is_mirrored
+            if (workspace%old_is_mirrored .neqv. mirrored) call mirror_old(workspace)
+        end if
         workspace%old_is_mirrored = mirrored
+        workspace%old_is_even = workspace%curve%is_even
         if (mirrored) then
             call take_image(workspace, status)
             if (is_error(status)) return

@@ -25,7 +25,7 @@ module faststrip_normal_strip_carried
     implicit none
     private
 
-    public :: carried_t, reserve_carried, carry, carries, carried_change
+    public :: carried_t, reserve_carried, carry, carries, carried_change, length_changes
     public :: carried_residual, carried_jacobian
 
     ! Tuned [strips]: more are not carried. Origin: chosen for memory; their evaluations are far
@@ -190,6 +190,25 @@ contains
             first = first + carried%n_strips(p)
         end do
     end function carried_change
+
+    !> The relative changes of all lengths, beside the growth of their patches.
+    pure subroutine length_changes(carried, strips, change)
+        type(carried_t), intent(in) :: carried    !! known
+        type(pass_strips_t), intent(in) :: strips !! as many
+        real(wp), intent(inout) :: change(:)      !! (n)
+
+        real(wp) :: sigma
+        integer :: p, first, last
+
+        last = 0
+        do p = 1, carried%n_patches
+            first = last + 1
+            last = last + carried%n_strips(p)
+            sigma = growth(carried, strips, p, first)
+            change(first:last) = strips%half_length(first:last) &
+                                 /(sigma*carried%half_length(first:last)) - 1.0_wp
+        end do
+    end subroutine length_changes
 
     !> As `strip_residual`, by carried numbers.
     pure subroutine carried_residual(carried, strips, compliance, demand, residual)

@@ -15,8 +15,9 @@ module faststrip_normal_strip_coupled
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_cost, strip_residual, strip_jacobian, &
                                                 mark_leaving_strips
-    use faststrip_normal_strip_carried, only: carry, carries, carried_change, carried_residual, &
-                                              carried_jacobian
+    use faststrip_normal_strip_carried, only: carry, carries, carried_change, length_changes, &
+                                              carried_residual, carried_jacobian
+    use faststrip_normal_strip_drift, only: lead, learn
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_ends, only: end_width
@@ -112,9 +113,11 @@ contains
         logical, intent(out) :: settled              !! converged
 
         integer :: evaluation
+        logical :: leads
 
         settled = .false.
         if (.not. carries(workspace%carried, patches)) then
+            workspace%drift%known = .false.
             call evaluate(workspace, patches, cost)
             if (.not. workspace%carried%known) then
                 call settle_coupled(workspace, compliance, demand, tolerance, max_factorings, &
@@ -122,20 +125,45 @@ contains
                 return
             end if
         end if
+        leads = .false.
         do evaluation = 1, max_evaluations
             call converge(workspace, compliance, demand, tolerance, .true., max_factorings, &
                           patches, cost, settled)
-            if (.not. settled) return
+            if (.not. settled) exit
             settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
                       <= tolerance
             if (settled) exit
+            if (.not. leads) call lead_on(workspace, patches)
+            leads = .true.
             call evaluate(workspace, patches, cost)
         end do
         ! What the carried numbers cannot follow is near the solution by now.
-        if (.not. settled) call converge(workspace, compliance, demand, tolerance, .false., &
-                                         max_factorings, patches, cost, settled)
-        if (settled) call meet_load(workspace, demand)
+        if (.not. settled .and. evaluation > max_evaluations) &
+            call converge(workspace, compliance, demand, tolerance, .false., max_factorings, &
+                          patches, cost, settled)
+        if (.not. settled) then
+            workspace%drift%known = .false.
+            return
+        end if
+        if (leads) call learn(workspace%drift, workspace%strips%half_length, patches)
+        call meet_load(workspace, demand)
     end subroutine settle_carried
+
+    !> Lead the strips to where the solution will be, by what the step before has missed.
+    pure subroutine lead_on(workspace, patches)
+        type(strip_workspace_t), intent(inout) :: workspace !! solved by carried numbers
+        type(patches_t), intent(inout) :: patches           !! of its strips
+
+        type(patches_t) :: led
+
+        associate (strips => workspace%strips, change => workspace%newton%history(:, 1))
+            call length_changes(workspace%carried, strips, change)
+            led = patches
+            call lead(workspace%drift, strips%n, change, strips%half_length, led)
+            if (in_order(workspace, led)) patches = led
+            call position_edges(workspace, patches)
+        end associate
+    end subroutine lead_on
 
     !> The same of few strips from the shape of a Hertz contact: the first steps by numbers carried
     !> on from there, the last ones by exact residuals and the factors of carried numbers.
@@ -152,6 +180,7 @@ contains
 
         settled = .false.
         workspace%newton%kept = .false.
+        workspace%drift%known = .false.
         do evaluation = 1, first_evaluations
             call evaluate(workspace, patches, cost)
             if (.not. workspace%carried%known) return
