@@ -21,6 +21,9 @@ module faststrip_normal_strip_ends
 
     ! Tuned [points]. Origin: capacity.
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
+    ! Tuned [steps]: by which an edge of an overlap is sought. Origin: chosen: a few percent of the
+    ! scan's spacing.
+    integer, parameter :: halvings = 5
     ! Tuned [passes]. Origin: chosen against ends that swing.
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
     ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
@@ -268,30 +271,32 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(inout) :: changed
 
-        real(wp) :: y, dy, depth, deepest, h, inv2r
-        integer :: j, m, n, from
+        real(wp) :: dy, depth, deepest, h, inv2r
+        integer :: j, m, from
         type(patch_t) :: seed
 
-        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
         m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
         dy = (high - low)/m
         from = 0
         deepest = 0.0_wp
         do j = 1, m + 1
             depth = 0.0_wp
-            if (j <= m) then
-                y = low + (j - 0.5_wp)*dy
-                depth = overlap_depth(workspace%curve, compliance, penetration, &
-                                      workspace%strips%y_left(:n), workspace%strips%y_right(:n), &
-                                      workspace%strips%p0(:n), workspace%strips%half_length(:n), y)
-            end if
+            if (j <= m) depth = depth_at(workspace, compliance, penetration, &
+                                         low + (j - 0.5_wp)*dy)
             if (depth > overlap_tolerance*penetration) then
                 if (from == 0) from = j
                 deepest = max(deepest, depth)
             else if (from > 0) then
-                call gap_at(workspace%curve, low + 0.5_wp*(from + j - 2)*dy, h, inv2r)
-                inv2r = max(inv2r, flattest)
                 seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
+                ! One that reaches no end of the stretch may become a patch: where is it?
+                if (from > 1 .and. j <= m) then
+                    call find_edge(workspace, compliance, penetration, low + (from - 0.5_wp)*dy, &
+                                   low + (from - 1.5_wp)*dy, deepest, seed%y_from)
+                    call find_edge(workspace, compliance, penetration, low + (j - 1.5_wp)*dy, &
+                                   low + (j - 0.5_wp)*dy, deepest, seed%y_to)
+                end if
+                call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
+                inv2r = max(inv2r, flattest)
                 seed%seed_length = sqrt(deepest/inv2r)
                 seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
                                      /(pi*compliance)
@@ -301,6 +306,45 @@ contains
             end if
         end do
     end subroutine scan
+
+    !> Halve the way between a place that overlaps and one that does not.
+    pure subroutine find_edge(workspace, compliance, penetration, inside, outside, deepest, edge)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, inside, outside
+        real(wp), intent(inout) :: deepest !! overlap found
+        real(wp), intent(inout) :: edge    !! of the overlap
+
+        real(wp) :: overlaps, clear, depth
+        integer :: i
+
+        overlaps = inside
+        clear = outside
+        do i = 1, halvings
+            edge = 0.5_wp*(overlaps + clear)
+            depth = depth_at(workspace, compliance, penetration, edge)
+            deepest = max(deepest, depth)
+            if (depth > overlap_tolerance*penetration) then
+                overlaps = edge
+            else
+                clear = edge
+            end if
+        end do
+        edge = 0.5_wp*(overlaps + clear)
+    end subroutine find_edge
+
+    !> Overlap of the surfaces that the strips of the last pass deform, mm.
+    pure real(wp) function depth_at(workspace, compliance, penetration, y) result(depth)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, y
+
+        integer :: n
+
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        associate (strips => workspace%strips)
+            depth = overlap_depth(workspace%curve, compliance, penetration, strips%y_left(:n), &
+                                  strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
+        end associate
+    end function depth_at
 
     !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
     !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and

@@ -103,6 +103,7 @@ module faststrip_normal_strip_settle
         real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
         logical :: at_rest = .false.      !! did the ends rest in the last pass?
         logical :: changed = .false.      !! have overlaps joined the patches?
+        logical :: appeared = .false.     !! is one of these patches new, beside a solution?
         ! Given: none yet.
         real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
         logical :: at_once = .false.      !! are strips and ends still to be tried together?
@@ -155,6 +156,7 @@ contains
         settling%tolerance = merge(near_tolerance, far_tolerance, level%near)
         settling%at_rest = .false.
         settling%changed = .false.
+        settling%appeared = .false.
         settling%best_move = huge(1.0_wp)
         call share_strips(level%strips_per_patch, settling%patches)
         if (.not. level%near) return
@@ -178,7 +180,7 @@ contains
         integer :: n
 
         settling%state = state_give_up
-        if (settling%pass == most_passes(level)) return
+        if (settling%pass >= most_passes(level) .and. .not. settling%appeared) return
         settling%pass = settling%pass + 1
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call drop_slivers(narrowest, settling%patches)
@@ -189,7 +191,7 @@ contains
             return
         workspace%strips%penetration = settling%penetration
         settling%solved = settling%patches
-        settling%state = merge(state_couple, state_newton, &
+        settling%state = merge(state_couple, state_newton, settling%appeared .or. &
                                settling%pass == 1 .and. (level%near .or. settling%at_once))
     end subroutine position
 
@@ -308,11 +310,16 @@ contains
         type(normal_result_t), intent(inout) :: result
 
         integer :: n
-        logical :: found, changed
+        logical :: found, changed, appeared
 
         settling%state = state_position
         settling%couplings = settling%couplings + 1
-        if (level%near .and. settling%pass == 1) then
+        appeared = settling%appeared
+        settling%appeared = .false.
+        if (appeared) then
+            call settle_carried(workspace, compliance, demand, level%tolerance, settling%solved, &
+                                result%cost, found)
+        else if (level%near .and. settling%pass == 1) then
             call settle_carried(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
             if (.not. found) then
@@ -340,7 +347,9 @@ contains
         call remember(workspace, settling%patches)
         call part_ends(workspace, loose_end_tolerance, settling%patches, changed)
         if (changed) return
+        n = settling%patches%n
         call join_overlaps(workspace, compliance, level, settling, changed)
+        settling%appeared = settling%patches%n > n .and. settling%couplings < max_couplings
         if (changed) return
         call keep(workspace, 0.0_wp, settling, strips, result)
         settling%state = state_done
