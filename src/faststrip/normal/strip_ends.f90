@@ -271,7 +271,7 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(inout) :: changed
 
-        real(wp) :: dy, depth, deepest, h, inv2r
+        real(wp) :: y, dy, depth, deepest, h, inv2r
         integer :: j, m, from
         type(patch_t) :: seed
 
@@ -290,10 +290,12 @@ contains
                 seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
                 ! One that reaches no end of the stretch may become a patch: where is it?
                 if (from > 1 .and. j <= m) then
-                    call find_edge(workspace, compliance, penetration, low + (from - 0.5_wp)*dy, &
-                                   low + (from - 1.5_wp)*dy, deepest, seed%y_from)
-                    call find_edge(workspace, compliance, penetration, low + (j - 1.5_wp)*dy, &
-                                   low + (j - 0.5_wp)*dy, deepest, seed%y_to)
+                    y = low + (from - 0.5_wp)*dy
+                    call find_edge(workspace, compliance, penetration, y, y - dy, deepest, &
+                                   seed%y_from)
+                    y = low + (j - 0.5_wp)*dy
+                    call find_edge(workspace, compliance, penetration, y - dy, y, deepest, &
+                                   seed%y_to)
                 end if
                 call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
                 inv2r = max(inv2r, flattest)
@@ -311,8 +313,8 @@ contains
     pure subroutine find_edge(workspace, compliance, penetration, inside, outside, deepest, edge)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance, penetration, inside, outside
-        real(wp), intent(inout) :: deepest !! overlap found
-        real(wp), intent(inout) :: edge    !! of the overlap
+        real(wp), intent(inout) :: deepest ! overlap found
+        real(wp), intent(inout) :: edge    ! of the overlap
 
         real(wp) :: overlaps, clear, depth
         integer :: i
