@@ -18,6 +18,10 @@
   speed [--quick] [-o FILE]
                 build, then time everything beside FASTSIM and CONTACT, with the tail; table and
                 picture in out/ (--quick: half a minute)
+  scale [--quick] [-o FILE]
+                build, then measure batch on many contacts: rates, threads, parts, memory, CSV and
+                NetCDF; table and picture in out/; some minutes and 20 GB of disk (--quick: half a
+                minute)
   lookup [--quick]
                 build, install below build/, then make a table of creep forces and say what it
                 is worth: errors, size, time, look-ups a second; in out/lookup/
@@ -587,11 +591,19 @@ def report(*words):
 
 
 def speed(*words):
+    measured("tools/speed.py", *words)
+
+
+def scale(*words):
+    measured("tools/scale.py", *words)
+
+
+def measured(tool, *words):
     if not {"-h", "--help"} & set(words):
         build()
     words = [os.path.join(START, word) if before in ("-o", "--output") else word
              for before, word in zip(("", *words), words)]
-    do(sys.executable, "tools/speed.py", *words)
+    do(sys.executable, tool, *words)
 
 
 def lookup(*words):
@@ -695,13 +707,13 @@ FORCE_DATA = (("", 1, 14400), ("mixed", 2, 10000), ("ellipse", 3, 14000), ("zone
 FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 31), (31, 15),
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, lookup,
-    extremes, forces, scenes, stored, report, install, package, release, docs, embed, tables,
-    compilers, clean)}
+    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
+    lookup, extremes, forces, scenes, stored, report, install, package, release, docs, embed,
+    tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None, "speed": None, "lookup": None,
-         "release": None}
+         "hostile": None, "stored": None, "report": None, "speed": None, "scale": None,
+         "lookup": None, "release": None}
 
 
 def main(command="", *words):
