@@ -35,7 +35,8 @@ module faststrip_command_batch
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer, given, given_options
     use faststrip_command_parts, only: part_options, part_choice_t, take_part_options, share_of, &
-                                       part_name, parts_t, start_parts, next_part, mark_part
+                                       part_name, parts_t, start_parts, next_part, mark_part, &
+                                       wait_for_others
     use faststrip_command_result_csv, only: result_columns, put_notes
     use faststrip_command_store, only: store_t, open_store, resume_store, append_to_store, &
                                        finish_store, release_store, is_made, remove_made
@@ -298,8 +299,10 @@ contains
             if (part == 0) then
                 call open_store(store, path, .true., status, is_busy)
                 call fail_on_error(status)
-                if (is_busy) cycle
-                exit
+                if (.not. is_busy) exit
+                ! Another process joins them.
+                call wait_for_others()
+                cycle
             end if
             call make_part(job, names(part)%text, part, size(names), .true., counts, is_busy)
             call mark_part(parts, part, is_busy)

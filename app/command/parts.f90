@@ -11,7 +11,7 @@ module faststrip_command_parts
     private
 
     public :: part_options, part_choice_t, take_part_options, share_of, part_name
-    public :: parts_t, start_parts, next_part, mark_part
+    public :: parts_t, start_parts, next_part, mark_part, wait_for_others
 
     !> Most parts of a work.
     integer, parameter :: most_parts = 100000
@@ -135,11 +135,16 @@ contains
             end do
             part = 0
             if (all(parts%is_made)) return
-            if (parts%is_waiting) call c_nap(nap_ms)
+            if (parts%is_waiting) call wait_for_others()
             parts%is_waiting = .false.
             parts%last = 0
         end do
     end function next_part
+
+    !> Let other processes do what they have in hand.
+    subroutine wait_for_others()
+        call c_nap(nap_ms)
+    end subroutine wait_for_others
 
     !> Say what became of the part that was tried.
     subroutine mark_part(parts, part, is_busy)

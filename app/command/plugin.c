@@ -6,6 +6,19 @@
 #include <string.h>
 #include <unistd.h>
 
+/* HDF5, which a library may rest on, closes at the end of the program what is still open, and
+ * faults where a full disk kept a file from being closed. */
+static void stay_silent(void *loaded)
+{
+    int (*dont_atexit)(void) = NULL;
+    void *found = dlsym(loaded, "H5dont_atexit");
+
+    if (found) {
+        memcpy(&dont_atexit, &found, sizeof dont_atexit);
+        dont_atexit();
+    }
+}
+
 /* A procedure of a library that lies beside the program or, once that is installed, in
  * ../lib/faststrip. Null with a reason if there is none. */
 void (*faststrip_load(const char *library, const char *procedure, char *why, int capacity))(void)
@@ -23,8 +36,10 @@ void (*faststrip_load(const char *library, const char *procedure, char *why, int
     if (access(path, F_OK) != 0)
         snprintf(path, sizeof path, "%s../lib/faststrip/%s", program, library);
     loaded = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (loaded)
+    if (loaded) {
+        stay_silent(loaded);
         found = dlsym(loaded, procedure);
+    }
     if (found)
         memcpy(&called, &found, sizeof called);
     else
