@@ -237,7 +237,7 @@ contains
                           carried%longer(first), carried%center(first, first), &
                           carried%center_l(first, first), carried%tip(first, first), &
                           carried%tip_l(first, first), carried%tip_x(first, first), &
-                          carried%work(first, 1), carried%work(first, 2), carried%work(first, 3))
+                          carried%work(first, 1))
             do k = first, last
                 residual(k) = residual(k) - carried%work(k, 1)
                 residual(n + k) = residual(n + k) &
@@ -259,12 +259,12 @@ contains
     !> lines, at its tips where they were, and what a tip gets for each length that it is longer.
     !> Two sources at a time. The arrays come as arguments, which the compiler knows to be apart.
     pure subroutine displace(n, most, pressure, longer, center_of, center_l, tip_of, tip_l, tip_x, &
-                             center, tip, slope)
+                             displaced)
         integer, intent(in) :: n    ! strips of the patch
         integer, intent(in) :: most ! rows of the numbers
         real(wp), intent(in) :: pressure(n), longer(n)
         real(wp), intent(in), dimension(most, *) :: center_of, center_l, tip_of, tip_l, tip_x
-        real(wp), intent(out), dimension(n) :: center, tip, slope
+        real(wp), intent(inout) :: displaced(most, 3) ! (:n): centre lines, tips, and per length
 
         real(wp) :: p1, p2, q1, q2
         integer :: s, k
@@ -272,13 +272,11 @@ contains
         if (mod(n, 2) == 1) then
             p1 = pressure(n)
             q1 = p1*longer(n)
-            center = p1*center_of(:n, n) + q1*center_l(:n, n)
-            tip = p1*tip_of(:n, n) + q1*tip_l(:n, n)
-            slope = p1*tip_x(:n, n)
+            displaced(:n, 1) = p1*center_of(:n, n) + q1*center_l(:n, n)
+            displaced(:n, 2) = p1*tip_of(:n, n) + q1*tip_l(:n, n)
+            displaced(:n, 3) = p1*tip_x(:n, n)
         else
-            center = 0.0_wp
-            tip = 0.0_wp
-            slope = 0.0_wp
+            displaced(:n, :) = 0.0_wp
         end if
         do s = 1, n - 1, 2
             p1 = pressure(s)
@@ -287,11 +285,11 @@ contains
             q2 = p2*longer(s + 1)
             !$omp simd
             do k = 1, n
-                center(k) = center(k) + ((p1*center_of(k, s) + q1*center_l(k, s)) &
+                displaced(k, 1) = displaced(k, 1) + ((p1*center_of(k, s) + q1*center_l(k, s)) &
                                          + (p2*center_of(k, s + 1) + q2*center_l(k, s + 1)))
-                tip(k) = tip(k) + ((p1*tip_of(k, s) + q1*tip_l(k, s)) &
+                displaced(k, 2) = displaced(k, 2) + ((p1*tip_of(k, s) + q1*tip_l(k, s)) &
                                    + (p2*tip_of(k, s + 1) + q2*tip_l(k, s + 1)))
-                slope(k) = slope(k) + (p1*tip_x(k, s) + p2*tip_x(k, s + 1))
+                displaced(k, 3) = displaced(k, 3) + (p1*tip_x(k, s) + p2*tip_x(k, s + 1))
             end do
         end do
     end subroutine displace

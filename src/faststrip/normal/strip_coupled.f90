@@ -3,25 +3,23 @@
 !> The ends of the patches join the unknowns of `faststrip_normal_strip_equations`, each moving
 !> outwards in units of its end strip's width, and their equations are those of
 !> `faststrip_normal_strip_ends`: the squared strip length, carried on, vanishes at the end. The
-!> Jacobian is analytic for given edges; the columns of the ends are differences of residuals. It
-!> is factored once and serves, with Broyden's updates (C. T. Kelley, Iterative Methods for Linear
-!> and Nonlinear Equations, SIAM 1995, chapter 7), until steps shrink too slowly. In scaled unknowns
-!> it hardly changes from one load to the next: a warm start takes over the last one.
+!> Jacobian of all (`faststrip_normal_strip_coupled_equations`) is factored once and serves, with
+!> Broyden's updates (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995,
+!> chapter 7), until steps shrink too slowly. In scaled unknowns it hardly changes from one load to
+!> the next: a warm start takes over the last one.
 !>
 !> Which strips there are stays fixed: where strips leave or steps do not shrink, the caller goes
 !> back to passes that alternate between strips and ends.
 module faststrip_normal_strip_coupled
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_normal_strip_equations, only: add_cost, strip_residual, strip_jacobian, &
-                                                mark_leaving_strips
-    use faststrip_normal_strip_carried, only: carry, carries, carried_change, length_changes, &
-                                              carried_residual, carried_jacobian
+    use faststrip_numerics_lu, only: lu_solve
+    use faststrip_normal_strip_equations, only: add_cost, mark_leaving_strips
+    use faststrip_normal_strip_carried, only: carry, carries, carried_change, length_changes
+    use faststrip_normal_strip_coupled_equations, only: coupled_residual, coupled_factors
     use faststrip_normal_strip_drift, only: lead, learn
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
-    use faststrip_normal_strip_ends, only: end_width
-    use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, wanted, shift_ends, in_order
+    use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, shift_ends, in_order
     use faststrip_normal_strip_state, only: strip_workspace_t, position_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
@@ -63,10 +61,6 @@ module faststrip_normal_strip_coupled
     ! Tuned [1]: What has changed, for the factors of carried numbers to serve exact residuals; the
     ! tolerance of the steps up to there. Origin: chosen for the time.
     real(wp), parameter :: near_change = 0.1_wp, near_enough = 0.1_wp
-    ! Tuned [strip widths]. Origin: half the digits of what is below tolerance.
-    real(wp), parameter :: difference = 1.0e-3_wp ! of the ends, in widths
-    ! Tuned [1]: Of a length, for its derivative. Origin: half the digits.
-    real(wp), parameter :: length_difference = 1.0e-6_wp
 
     !> What one step hands to the next.
     type :: steps_t
@@ -307,8 +301,8 @@ contains
         else
             call add_cost(cost, n, m, .true., count(.not. ends%fixed))
         end if
-        call factor(workspace, compliance, demand, patches, ends, p_scale, steps%by_carried, &
-                    singular)
+        call coupled_factors(workspace, compliance, demand, patches, ends, p_scale, &
+                             steps%by_carried, singular)
         possible = .not. singular
         if (singular) return
         workspace%newton%kept = .true.
@@ -423,93 +417,4 @@ contains
         newton%n_strips(:n) = patches%at(:n)%n_strips
         newton%fixed(:2*n) = ends%fixed
     end subroutine check_kept
-
-    !> Residuals of all equations for the strips where they are.
-    pure subroutine coupled_residual(workspace, compliance, demand, ends, by_carried, residual)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: demand
-        type(end_t), intent(in) :: ends(:)
-        logical, intent(in) :: by_carried
-        real(wp), intent(inout), contiguous :: residual(:)
-
-        integer :: e
-
-        if (by_carried) then
-            call carried_residual(workspace%carried, workspace%strips, compliance, demand, residual)
-        else
-            call strip_residual(workspace%strips, compliance, demand, residual)
-        end if
-        do e = 1, size(ends)
-            residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
-        end do
-    end subroutine coupled_residual
-
-    !> Residual, into `step`, and the factored Jacobian.
-    pure subroutine factor(workspace, compliance, demand, patches, ends, p_scale, by_carried, &
-                           singular)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: demand
-        type(patches_t), intent(in) :: patches
-        type(end_t), intent(in) :: ends(:)
-        real(wp), intent(in) :: p_scale
-        logical, intent(in) :: by_carried
-        logical, intent(out) :: singular
-
-        type(patches_t) :: moved
-        integer :: e, j, k, m, n
-        real(wp) :: kept_length, away
-
-        n = workspace%strips%n
-        m = 2*n + 1 + size(ends)
-        associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
-                   other => workspace%newton%history(:, 1))
-            if (by_carried) then
-                call carried_jacobian(workspace%carried, workspace%strips, compliance, demand, &
-                                      p_scale, jacobian, residual)
-            else
-                call strip_jacobian(workspace%strips, compliance, demand, p_scale, jacobian, &
-                                    residual)
-            end if
-            jacobian(2*n + 2:m, :m) = 0.0_wp
-            do e = 1, size(ends)
-                residual(2*n + 1 + e) = wanted(workspace, ends(e))
-                jacobian(:m, 2*n + 1 + e) = 0.0_wp
-                if (ends(e)%fixed) then
-                    jacobian(2*n + 1 + e, 2*n + 1 + e) = 1.0_wp
-                    cycle
-                end if
-                do j = 0, 2
-                    k = ends(e)%strip + j*ends(e)%stride*ends(e)%inward
-                    kept_length = workspace%strips%half_length(k)
-                    workspace%strips%half_length(k) = kept_length*(1.0_wp + length_difference)
-                    jacobian(2*n + 1 + e, n + k) = &
-                        (residual(2*n + 1 + e) - wanted(workspace, ends(e)))/length_difference
-                    workspace%strips%half_length(k) = kept_length
-                end do
-            end do
-            do e = 1, size(ends)
-                if (ends(e)%fixed) cycle
-                moved = patches
-                ! Inwards, where the gap has points.
-                away = difference*end_width(workspace, ends(e)%strip, ends(e)%stride)
-                if (ends(e)%inward == 1) then
-                    moved%at(ends(e)%patch)%y_from = moved%at(ends(e)%patch)%y_from + away
-                else
-                    moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
-                end if
-                call position_edges(workspace, moved)
-                if (by_carried) then
-                    call carried_residual(workspace%carried, workspace%strips, compliance, demand, &
-                                          other)
-                else
-                    call strip_residual(workspace%strips, compliance, demand, other)
-                end if
-                jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
-                call position_edges(workspace, patches)
-            end do
-            call lu_factor(m, jacobian, workspace%newton%pivot, singular)
-        end associate
-    end subroutine factor
 end module faststrip_normal_strip_coupled
