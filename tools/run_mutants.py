@@ -49,7 +49,7 @@ import tomllib
 from netcdf_plugin import where_netcdf_is
 
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
-FLAGS = "-Og -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
+FLAGS = "-Og -fopenmp -fPIC -frecursive -fimplicit-none -std=f2018"
 TRAPS = "-ffpe-trap=invalid,zero,overflow"
 C_FLAGS = "-O1 -fPIC"
 # Not copied: what is built, and the lists themselves, which change no result.
@@ -383,14 +383,14 @@ class Job:
             self.linked.add(what)
 
     def link_tests(self):
-        call(["gfortran", "-o", self.folder / "build" / "runner", *self.object_paths(TESTS),
-              *self.base.libraries], self.folder)
+        call(["gfortran", "-fopenmp", "-o", self.folder / "build" / "runner",
+              *self.object_paths(TESTS), *self.base.libraries], self.folder)
 
     def link_programs(self):
         (self.folder / "bin").mkdir(exist_ok=True)
         for name, beginnings in PROGRAMS.items():
-            call(["gfortran", "-o", self.folder / "bin" / name, *self.object_paths(beginnings),
-                  *self.base.libraries], self.folder)
+            call(["gfortran", "-fopenmp", "-o", self.folder / "bin" / name,
+                  *self.object_paths(beginnings), *self.base.libraries], self.folder)
         if self.object_paths((NETCDF_PACKAGE,)):
             call(["gfortran", "-shared", "-o", self.folder / "bin" / "faststrip_netcdf.so",
                   *self.object_paths(NETCDF), *where_netcdf_is()], self.folder)

@@ -46,7 +46,7 @@ import run_mutants
 from run_mutants import Base, Job, Unfit, files_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-FLAGS = "-O2 -fopenmp-simd -fPIC -frecursive -fimplicit-none -std=f2018"
+FLAGS = "-O2 -fopenmp -fPIC -frecursive -fimplicit-none -std=f2018"
 ROOMS = ("normal", "tangential", "contact", "geometry", "kalker", "numerics", "influence")
 FIRST = ("normal/strip", "normal/certificate", "normal/lattice", "normal/sub_patches",
          "normal/limitations", "tangential/faststrip")

@@ -72,7 +72,8 @@ PROGRAMS = ("faststrip", "faststrip-lab")
 
 COMMON = "-frecursive -fimplicit-none -std=f2018"
 RELEASE_FLAGS = f"-O3 -fopenmp-simd -fPIC {COMMON} {os.environ.get('FASTSTRIP_FFLAGS', '')}"
-# Of the programs: rows of a batch are solved by threads. The library that is installed has none.
+# Of the programs: rows of a batch are solved by threads. The library that is installed has no
+# such directives, so that these flags change nothing of it, and it need not be compiled again.
 PROGRAM_FLAGS = f"{RELEASE_FLAGS} -fopenmp"
 # Without the C library's vector functions, which know rounding to nearest only.
 SCALAR_FLAGS = f"-O3 -fno-tree-vectorize -fPIC {COMMON}"
@@ -617,7 +618,7 @@ def lookup(*words):
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
-    fpm("stage", ".", "install", RELEASE_FLAGS, "--c-flag", "-fPIC", "--prefix", "build/stage",
+    fpm("stage", ".", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix", "build/stage",
         trouble="fpm install failed", twin="app")
     if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
                        "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:

@@ -160,6 +160,9 @@ contains
             ! began with a gap that has no sides this one decides.
             if (.not. workspace%old_is_even) mirrored = workspace%old_is_mirrored
             if (workspace%old_is_mirrored .neqv. mirrored) call mirror_old(workspace)
+        else
+            ! No bit of what follows depends on a history before.
+            workspace%drift%known = .false.
         end if
         workspace%old_is_mirrored = mirrored
         workspace%old_is_even = workspace%curve%is_even
