@@ -56,7 +56,7 @@ module faststrip_files_stdio
             import :: c_int, c_long, c_ptr
             type(c_ptr), value :: stream      !! an open one
             integer(c_long), value :: offset  !! bytes
-            integer(c_int), value :: from     !! 0: from the beginning on
+            integer(c_int), value :: from     !! 0 is from the beginning on
             integer(c_int) :: code
         end function c_fseek
 

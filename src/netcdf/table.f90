@@ -32,7 +32,7 @@ module faststrip_netcdf_table
         subroutine progress_told(rows, total) bind(c)
             import :: c_int
             integer(c_int), value :: rows  !! read, or written
-            integer(c_int), value :: total !! 0: not yet known, they are being read
+            integer(c_int), value :: total !! 0 if not yet known
         end subroutine progress_told
     end interface
 

@@ -20,6 +20,8 @@ class Notebooks(HostTest):
         environment["PATH"] = f"{self.installed.prefix / 'bin'}{os.pathsep}{environment['PATH']}"
         environment["PYTHONPATH"] = str(ROOT / "python")
         environment["IPYTHONDIR"] = str(self.folder / "ipython")
+        # Pictures in the notebook, whatever the tests draw with.
+        environment["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
         with mock.patch.dict(os.environ, environment):
             for path in NOTEBOOKS:
                 with self.subTest(path.name):

@@ -162,7 +162,9 @@ contains
             if (workspace%old_is_mirrored .neqv. mirrored) call mirror_old(workspace)
         else
             ! No bit of what follows depends on a history before.
+            workspace%carried%known = .false.
             workspace%drift%known = .false.
+            workspace%newton%kept = .false.
         end if
         workspace%old_is_mirrored = mirrored
         workspace%old_is_even = workspace%curve%is_even

@@ -58,7 +58,7 @@ module faststrip_normal_strip_carried
 
 contains
 
-    !> Allocate for up to `capacity` strips; the only allocation.
+    !> Allocate for up to `capacity` strips; the only allocation. Where there is room, numbers stay.
     subroutine reserve_carried(carried, capacity)
         type(carried_t), intent(inout) :: carried !! sized
         integer, intent(in) :: capacity           !! strips, >= 1
@@ -66,8 +66,8 @@ contains
         integer :: n
 
         n = min(capacity, most_carried)
-        carried%known = .false.
         if (carried%most >= n) return
+        carried%known = .false.
         if (carried%most > 0) &
             deallocate (carried%half_length, carried%y, carried%center, carried%center_l, &
                         carried%tip, carried%tip_l, carried%tip_x, carried%center_y, &

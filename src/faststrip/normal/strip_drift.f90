@@ -32,14 +32,14 @@ module faststrip_normal_strip_drift
 
 contains
 
-    !> Allocate for up to `capacity` strips; the only allocation.
+    !> Allocate for up to `capacity` strips; the only allocation. Where there is room, it is kept.
     subroutine reserve_drift(drift, capacity)
         type(drift_t), intent(inout) :: drift !! sized
         integer, intent(in) :: capacity       !! strips, >= 1
 
-        drift%known = .false.
         if (allocated(drift%change)) then
             if (size(drift%change) >= capacity) return
+            drift%known = .false.
             deallocate (drift%change, drift%half_length, drift%missed)
         end if
         allocate (drift%change(capacity), drift%half_length(capacity), drift%missed(capacity), &

@@ -57,7 +57,7 @@ module faststrip_normal_strip_newton
 
 contains
 
-    !> Allocate for systems of up to `max_strips` strips.
+    !> Allocate for systems of up to `max_strips` strips. Where there is room, what is kept stays.
     subroutine reserve_newton(workspace, max_strips)
         type(newton_workspace_t), intent(inout) :: workspace !! sized
         integer, intent(in) :: max_strips                    !! >= 1
@@ -65,9 +65,9 @@ contains
         integer :: n
 
         n = 2*max_strips + 1 + 2*max_patches
-        workspace%kept = .false.
         if (allocated(workspace%pivot)) then
             if (size(workspace%pivot) >= n) return
+            workspace%kept = .false.
             deallocate (workspace%jacobian, workspace%step, workspace%pivot, workspace%history)
         end if
         allocate (workspace%jacobian(n, n), workspace%step(n), &
