@@ -288,7 +288,9 @@ def compiler():
 def fpm(name, package, command, flags, *words, trouble, twin=""):
     """Let fpm build; what the package `twin` has already compiled the same is taken from there.
     After a build that was not finished fpm takes what it had not yet come to for finished too: it
-    is made to forget."""
+    is made to forget. Where it first looks for the packages they have other paths than once they
+    are known, and paths are words of the compiler: they are looked for before, or the next command
+    of fpm would compile everything again."""
     place = pathlib.Path(package, "build")
     place.mkdir(exist_ok=True)
     unfinished = place / "unfinished"
@@ -299,6 +301,7 @@ def fpm(name, package, command, flags, *words, trouble, twin=""):
             for path in place.rglob("*.digest"):
                 path.unlink()
         unfinished.touch()
+        quietly(name, [FPM, "update", "-C", package], trouble, compiler())
         quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags,
                        *words], trouble,
                 compiler() | ({"FASTSTRIP_TWIN": str(ROOT / twin / "build")} if twin else {}))
