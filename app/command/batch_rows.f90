@@ -86,14 +86,14 @@ contains
         associate (table => worker%table, writer => worker%writer, outcome => worker%outcome)
             call read_row(table, columns, case, status)
             if (.not. is_error(status)) then
-                call find_gap(cache, worker%gap, worker%solver%numerics, &
+                call find_gap(cache, worker%gap, worker%own%solver%numerics, &
                               beside(table%file, cell_text(table, 1, columns%of(gap_column))), &
                               ready, status, trouble)
                 if (trouble%code /= 0) return
             end if
             if (.not. is_error(status)) then
                 case%warm_start = worker%can_go_on
-                call solve(worker%solver, case, outcome, status, ready)
+                call solve(worker%own%solver, case, outcome, status, ready)
                 worker%can_go_on = .not. is_error(status)
             end if
             do i = 1, table%n_columns

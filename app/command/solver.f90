@@ -26,7 +26,14 @@ module faststrip_command_solver
     private
 
     public :: solver_t, release_solver, outcome_t, make_solver, solve, name_yield
+    public :: own_solver_t, new_solver, free_solver
     public :: ready_gap_t, make_ready
+
+    !> A solver in memory of its own. An array of these takes a moment to compile; where an array of
+    !> solvers is made gfortran 12 writes out how each part of them begins, for a minute.
+    type :: own_solver_t
+        type(solver_t), pointer :: solver => null() !! of `new_solver`, for `free_solver`
+    end type own_solver_t
 
     !> A gap that is ready for many contacts.
     type :: ready_gap_t
@@ -58,7 +65,26 @@ contains
         if (numerics%wear%law%n > 0) solver%with_strip_forces = .true.
     end subroutine make_solver
 
-    !> Give back what the compiler does not, of solvers in an array.
+    !> Allocate and make one. Arguments as those of `make_solver`.
+    subroutine new_solver(numerics, own, status)
+        type(numerics_t), intent(in) :: numerics !! checked
+        type(own_solver_t), intent(inout) :: own !! had none
+        type(status_t), intent(out) :: status    !! from the library
+
+        allocate (own%solver)
+        call make_solver(numerics, .false., own%solver, status)
+    end subroutine new_solver
+
+    !> Give one back with all it has.
+    subroutine free_solver(own)
+        type(own_solver_t), intent(inout) :: own !! has none afterwards
+
+        if (.not. associated(own%solver)) return
+        call release_solver(own%solver)
+        deallocate (own%solver)
+    end subroutine free_solver
+
+    !> Give back what the compiler does not.
     subroutine release_solver(solver)
         type(solver_t), intent(inout) :: solver !! serves again
 

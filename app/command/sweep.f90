@@ -13,7 +13,7 @@ module faststrip_command_sweep
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_solver, only: own_solver_t, outcome_t, new_solver, free_solver, solve
     use faststrip_command_result_csv, only: note_wear
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -33,7 +33,7 @@ contains
         type(command_t) :: command
         type(case_t) :: case
         type(prepared_case_t) :: prepared
-        type(solver_t) :: solver(size(pairs, 2) + 1)
+        type(own_solver_t) :: own(size(pairs, 2) + 1)
         type(numerics_t) :: numerics
         type(outcome_t) :: outcome
         type(point_spacing_t) :: spacing
@@ -75,7 +75,7 @@ contains
                 numerics%normal = pairs(1, m)
                 numerics%tangential = pairs(2, m)
             end if
-            call make_solver(numerics, .false., solver(m), status)
+            call new_solver(numerics, own(m), status)
             call fail_on_error(status)
         end do
         call open_csv(writer, option_text(command, '-o', '-'), written)
@@ -90,22 +90,24 @@ contains
             do m = 1, n_solvers
                 status = placed
                 if (.not. is_error(placed)) &
-                    call solve(solver(m), prepared, outcome, status)
+                    call solve(own(m)%solver, prepared, outcome, status)
                 if (.not. is_error(status)) call name_spacing(spacing, status)
-                call put_sweep_row(writer, case, solver(m)%numerics, prepared, outcome, status)
+                call put_sweep_row(writer, case, own(m)%solver%numerics, prepared, outcome, status)
                 if (.not. is_error(status)) &
                     call note_wear(outcome, 'shift ' // trim(number_text(case%shifts(i))) &
                                    // ' mm: ')
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &
-                          // trim(normal_method_name(solver(m)%numerics%normal)) // ' and ' &
-                          // trim(tangential_method_name(solver(m)%numerics%tangential)) // ': ' &
+                          // trim(normal_method_name(own(m)%solver%numerics%normal)) &
+                          // ' and ' &
+                          // trim(tangential_method_name(own(m)%solver%numerics%tangential)) &
+                          // ': ' &
                           // trim(status%message))
             end do
         end do
         do m = 1, n_solvers
-            call release_solver(solver(m))
+            call free_solver(own(m))
         end do
         call close_csv(writer, written)
         call fail_on_error(written)

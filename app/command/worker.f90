@@ -1,11 +1,10 @@
-!> Who solves rows of a batch: one for each thread, with all that must not be shared. In a module of
-!> its own, for the compiler takes long to make and to give back so much.
+!> Who solves rows of a batch: one for each thread, with all that must not be shared.
 module faststrip_command_worker
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, collect_csv
     use faststrip_command_gap_cache, only: own_gap_t
     use faststrip_command_methods, only: numerics_t
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver
+    use faststrip_command_solver, only: own_solver_t, outcome_t, new_solver, free_solver
     implicit none
     private
 
@@ -13,7 +12,7 @@ module faststrip_command_worker
 
     !> Who solves rows: one for each thread.
     type :: worker_t
-        type(solver_t) :: solver        !! made beforehand
+        type(own_solver_t) :: own       !! its solver
         type(csv_table_t) :: table      !! with the names of the columns
         type(csv_writer_t) :: writer    !! collects rows
         type(own_gap_t) :: gap          !! that the cache had no room for
@@ -31,16 +30,16 @@ contains
         type(csv_table_t), intent(in) :: table            !! with names
         logical, intent(in) :: tells_times                !! are times written?
         type(worker_t), pointer, intent(out) :: workers(:) !! for `release_workers`
-        type(status_t), intent(out) :: status             !! those of `make_solver`
+        type(status_t), intent(out) :: status             !! those of `new_solver`
 
         integer :: i
 
         allocate (workers(n))
         do i = 1, n
-            call make_solver(numerics, .false., workers(i)%solver, status)
+            call new_solver(numerics, workers(i)%own, status)
             if (is_error(status)) return
             workers(i)%tells_times = tells_times
-            workers(i)%solver%tells_times = tells_times
+            workers(i)%own%solver%tells_times = tells_times
             workers(i)%table = table
             call collect_csv(workers(i)%writer)
         end do
@@ -53,7 +52,7 @@ contains
         integer :: i
 
         do i = 1, size(workers)
-            call release_solver(workers(i)%solver)
+            call free_solver(workers(i)%own)
         end do
         deallocate (workers)
     end subroutine release_workers

@@ -24,7 +24,7 @@ module faststrip_lab_bench_speed
     use faststrip_command_clock, only: cpu_microseconds
     use faststrip_command_console, only: fail_on_error, put_origin, progress
     use faststrip_command_machine, only: cpu_name
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_command_solver, only: solver_t, own_solver_t, outcome_t, new_solver, solve
     use faststrip_command_stages, only: solve_pressures, solve_forces
     implicit none
     private
@@ -69,7 +69,7 @@ contains
         type(method_entry_t), allocatable :: entries(:)
         type(bench_case_t), allocatable :: cases(:)
         type(timing_t), allocatable :: timings(:)
-        type(solver_t), allocatable :: solvers(:)
+        type(own_solver_t), allocatable :: solvers(:)
         type(states_t) :: states
         real(wp), allocatable :: ns(:, :), gap_us(:)
         type(csv_writer_t) :: writer
@@ -89,7 +89,7 @@ contains
         call read_states(quick, states)
         allocate (timings(size(entries)), solvers(size(entries)))
         do k = 1, size(entries)
-            call make_solver(entries(k)%numerics, .false., solvers(k), status)
+            call new_solver(entries(k)%numerics, solvers(k), status)
             call fail_on_error(status)
             allocate (timings(k)%us(size(cases)), source=huge(1.0_wp))
             allocate (timings(k)%spent(size(cases)), source=0.0_wp)
@@ -106,7 +106,8 @@ contains
             call progress('rounds', round, rounds)
             do i = 1, size(cases)
                 do k = 1, size(entries)
-                    call time_method(entries(k)%stage, solvers(k), cases(i), i, timings(k))
+                    call time_method(entries(k)%stage, solvers(k)%solver, cases(i), i, &
+                                     timings(k))
                 end do
                 call time_gap(cases(i), gap_us(i))
                 call time_columns(cases(i), ns(:, i))
