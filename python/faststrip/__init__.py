@@ -13,24 +13,14 @@ forces act on the rail.
 (0.108, -12.1)
 """
 
-from ._contact import (
-    Contact,
-    Elements,
-    Material,
-    Result,
-    Step,
-    Strips,
-    fastsim,
-    hertz,
-    kalker,
-    library_version,
-)
+from ._contact import Contact, Material, fastsim, hertz, kalker, library_version
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
 from ._lookup import LookedUp, Lookup
 from ._many import ManyResult, solve_many
 from ._plot import plot_profiles
 from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
+from ._results import Elements, Result, Step, Strips
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import WheelContact, Wheelset, WheelsetResult
 

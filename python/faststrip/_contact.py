@@ -6,8 +6,8 @@ import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_void_p
-from dataclasses import dataclass, field, fields
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from dataclasses import dataclass, fields
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -38,7 +38,7 @@ from ._library import (
     library,
     word_of,
 )
-from ._tables import dataset, frame
+from ._results import Elements, Result, Step, Strips
 from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
@@ -98,7 +98,15 @@ BY_GRID = 2, 5, 6
 
 @dataclass(frozen=True)
 class Material:
-    """Elastic constants, MPa; steel on steel unless told otherwise."""
+    """Elastic constants of both bodies; steel on steel unless told otherwise.
+
+    Parameters
+    ----------
+    e_wheel, e_rail : float
+        Young's moduli, MPa.
+    nu_wheel, nu_rail : float
+        Poisson's ratios.
+    """
 
     e_wheel: float = 209920.0
     e_rail: float = 209920.0
@@ -113,98 +121,6 @@ class Material:
         return 2.0 / (1.0 / wheel + 1.0 / rail)
 
 
-class Step(NamedTuple):
-    """One step of ``normal="auto"``."""
-
-    normal: str
-    tangential: str
-    strips: int
-    """strips across the widest patch"""
-    points_per_strip: int
-    estimate: Optional[float]
-    """estimated error of the target; None: not known"""
-    normal_us: float
-    """time of the pressures and their estimates, us"""
-    tangential_us: float
-    """time of the forces and their estimates, us"""
-    is_best: bool
-    """is its solution the result?"""
-
-
-@dataclass(frozen=True)
-class Result:
-    """Figures of one contact; lengths in mm, forces on the rail in N."""
-
-    status: int
-    """0, or the number of a named limitation"""
-    word: str
-    """``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``, ``fewer_strips``,
-    ``overlap_left``, ``flat_along_x``, ``conformal``, ``target_missed``, ``under_resolved``,
-    ``more_strips``"""
-    load: float
-    penetration: float
-    area: float
-    pmax: float
-    """largest pressure, MPa"""
-    y_min: float
-    y_max: float
-    x_max: float
-    """largest half-length along x"""
-    fx: float
-    fy: float
-    mz: float
-    """moment about the reference point, N mm"""
-    friction_power: float
-    """frictional work per distance rolled (T gamma), N"""
-    stick_fraction: float
-    n_patches: int
-    n_strips: int
-    n_elements: int
-    iterations: int
-    strips_across: int
-    """strips across the patch that has most; 0: no strips"""
-    est_err_penetration: Optional[float]
-    """estimated error over the depth, penetration less the gap's lowest height; like the four below
-    None where it is not known: of ellipses in the strips' place, or with ``estimate=False``"""
-    est_err_pmax: Optional[float]
-    """estimated relative error of pmax"""
-    est_err_area: Optional[float]
-    """estimated relative error of the area"""
-    residual_inside: Optional[float]
-    """largest gap that is left inside the patches, over the depth"""
-    overlap_outside: Optional[float]
-    """largest overlap outside of them, over the depth"""
-    est_err_fx: Optional[float]
-    """estimated error of fx over mu times the load; like the two below None where it is not known:
-    of some methods, and where est_err_pmax is None"""
-    est_err_fy: Optional[float]
-    """estimated error of fy over mu times the load"""
-    est_err_mz: Optional[float]
-    """estimated error of mz over mu times the load times sqrt(area/pi)"""
-    est_err_target: Optional[float] = None
-    """estimated error of what ``normal="auto"`` was to know; None where it is not known, and by
-    other methods"""
-    target_is_met: Optional[bool] = None
-    """is it within the tolerance? None without a tolerance, and by other methods"""
-    steps: Tuple[Step, ...] = field(default=(), compare=False)
-    """what ``normal="auto"`` did; results are compared without, as it has times"""
-
-    def _columns(self) -> Dict[str, Any]:
-        """The figures; what is not known is nan."""
-        columns = {one.name: getattr(self, one.name) for one in fields(self)[:-1]}
-        columns["target_is_met"] = bool(self.target_is_met)
-        return {name: float("nan") if value is None else value for name, value in columns.items()}
-
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame of one row; ``attrs["units"]`` has the units. What is not known is
-        nan."""
-        return frame({name: [value] for name, value in self._columns().items()})
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset of numbers, with ``units`` and ``long_name``; not known is nan."""
-        return dataset(self._columns(), ())
-
-
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
 OF_FORCES = 3
@@ -215,49 +131,6 @@ _estimates_of = operator.attrgetter(*_names[-ESTIMATES - OF_FORCES:-OF_FORCES])
 _force_errors_of = operator.attrgetter(*_names[-OF_FORCES:])
 _NO_ESTIMATES = (None,) * ESTIMATES
 _NO_FORCE_ERRORS = (None,) * OF_FORCES
-
-
-class Strips(NamedTuple):
-    """The strips of a contact: edges and half-lengths in mm, pressure in MPa, patch number."""
-
-    y_left: Array
-    y_right: Array
-    half_length: Array
-    p0: Array
-    patch: npt.NDArray[np.int32]
-
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each strip; ``attrs["units"]`` has the units."""
-        return frame(self._asdict())
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``strip``, with ``units`` and ``long_name``."""
-        return dataset(self._asdict(), ("strip",))
-
-
-class Elements(NamedTuple):
-    """The elements of a contact: middle in mm, area in mm^2, pressure and traction on the rail in
-    MPa, slip over rolling speed, state (1 adhesion, 2 slip)."""
-
-    x: Array
-    y: Array
-    area: Array
-    pn: Array
-    px: Array
-    py: Array
-    sx: Array
-    sy: Array
-    state: npt.NDArray[np.int32]
-
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each element; ``attrs["units"]`` has the units."""
-        return frame(self._asdict())
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``element``, with ``units`` and ``long_name``."""
-        return dataset(self._asdict(), ("element",))
-
-
 _NAMES_OF_NORMAL = {number: name for name, number in NORMAL.items()}
 _NAMES_OF_TANGENTIAL = {number: name for name, number in TANGENTIAL.items()}
 
@@ -605,25 +478,63 @@ class Contact:
         return estimate, is_met, steps
 
     def strips(self) -> Strips:
-        """The strips of the last contact."""
+        """The strips of the last contact.
+
+        Returns
+        -------
+        Strips
+            Edges, half-lengths and pressures, patch by patch; empty before the first solution.
+        """
         return Strips(*self._fetch(library.faststrip_get_strips, 4))
 
     def elements(self) -> Elements:
-        """The elements of the last contact; none unless the Contact was made with_elements."""
+        """The elements of the last contact.
+
+        Returns
+        -------
+        Elements
+            Pressures, tractions, slip and states; empty unless the Contact was made with_elements.
+        """
         return Elements(*self._fetch(library.faststrip_get_elements, 8))
 
     def wear(self, law: Optional[WearLaw] = None, *,
              yield_shear: Optional[float] = None) -> Wear:
-        """T gamma of the last contact, wear by a law, its fatigue index with the yield stress in
-        cyclic shear, MPa. A law needs tangential ``faststrip`` or ``faststrip-plain``."""
+        """T gamma of the last contact, wear by a law, its fatigue index.
+
+        Parameters
+        ----------
+        law : WearLaw, optional
+            It needs tangential ``faststrip`` or ``faststrip-plain``.
+        yield_shear : float, optional
+            Yield stress in cyclic shear, MPa, for the fatigue index.
+
+        Returns
+        -------
+        Wear
+        """
         question = WearQuestion(law, yield_shear)
         self._call(library.faststrip_get_wear, question.law, question.yield_shear,
                    question.figures)
         return question.answer()
 
     def strip_wear(self, law: Optional[WearLaw] = None) -> StripWear:
-        """Forces and wear of the strips of the last contact, of tangential ``faststrip`` or
-        ``faststrip-plain``."""
+        """Forces and wear of the strips of the last contact.
+
+        Parameters
+        ----------
+        law : WearLaw, optional
+            Without one there are forces alone.
+
+        Returns
+        -------
+        StripWear
+            In the order of `strips`.
+
+        Raises
+        ------
+        FaststripError
+            Where tangential is not ``faststrip`` or ``faststrip-plain``.
+        """
         question = WearQuestion(law, None)
         n, arrays = c_int(), np.empty((6, len(self.strips().p0)))
         self._call(library.faststrip_get_strip_wear, question.law, arrays.shape[1],
@@ -662,7 +573,13 @@ class Contact:
         return plot_contact(self, figure)
 
     def copy_from(self, other: "Contact") -> None:
-        """Take over gap, solution and capacity of another contact, for a step taken back."""
+        """Take over gap, solution and capacity of another contact, for a step taken back.
+
+        Parameters
+        ----------
+        other : Contact
+            It stays as it is.
+        """
         if not isinstance(other, Contact):
             raise refused("other", "a Contact", other)
         if other is self:
@@ -676,8 +593,30 @@ def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
             creepage: Tuple[float, float, float], mu: float, load: float, *,
             shear_modulus: float = Material().shear_modulus,
             grid: Tuple[int, int] = (50, 50)) -> Tuple[float, float, float]:
-    """FASTSIM on an ellipse with semi-axes a along x and b along y (mm) and Kalker's C11, C22, C23:
-    Fx, Fy (N) and Mz (N mm) on the rail."""
+    """FASTSIM on a Hertz ellipse.
+
+    Parameters
+    ----------
+    a, b : float
+        Semi-axes along x and along y, mm.
+    coefficients : three floats
+        Kalker's C11, C22, C23; a fourth is passed over.
+    creepage : three floats
+        Longitudinal, lateral and spin (rad/mm) creepage.
+    mu : float
+        Coefficient of friction.
+    load : float
+        Normal force, N.
+    shear_modulus : float
+        Of both bodies together, MPa.
+    grid : two ints
+        Points along a row, and rows.
+
+    Returns
+    -------
+    fx, fy, mz : float
+        Forces, N, and moment, N mm, on the rail.
+    """
     forces = (c_double * 3)()
     c = several("coefficients", coefficients, "C11, C22, C23", (3, 4))
     nx, ny = grid_of("grid", grid)
@@ -694,8 +633,26 @@ def fastsim(a: float, b: float, coefficients: Tuple[float, float, float],
 
 def hertz(inv2r_x: float, inv2r_y: float, load: float,
           material: Material = Material()) -> Tuple[float, float, float, float]:
-    """Hertz's contact of the gap ``inv2r_x x**2 + inv2r_y y**2``: semi-axes a along x, b along y,
-    penetration (mm), largest pressure (MPa)."""
+    """Hertz's contact of the gap ``inv2r_x x**2 + inv2r_y y**2``.
+
+    Parameters
+    ----------
+    inv2r_x, inv2r_y : float
+        1/(2 R) along x and along y, 1/mm.
+    load : float
+        Normal force, N.
+    material : Material
+        Elastic constants of both bodies.
+
+    Returns
+    -------
+    a, b : float
+        Semi-axes along x and along y, mm.
+    penetration : float
+        mm.
+    pmax : float
+        Largest pressure, MPa.
+    """
     figures = (c_double * 4)()
     check(library.faststrip_hertz(*_material_of(material), number("inv2r_x", inv2r_x),
                                   number("inv2r_y", inv2r_y), number("load", load), figures),
@@ -704,7 +661,19 @@ def hertz(inv2r_x: float, inv2r_y: float, load: float,
 
 
 def kalker(a_over_b: float, nu: float = 0.28) -> Tuple[float, float, float, float]:
-    """Kalker's creepage coefficients C11, C22, C23, C33 for any a/b."""
+    """Kalker's creepage coefficients of an ellipse.
+
+    Parameters
+    ----------
+    a_over_b : float
+        Semi-axis along x over that along y, any above 0.
+    nu : float
+        Poisson's ratio.
+
+    Returns
+    -------
+    c11, c22, c23, c33 : float
+    """
     coefficients = (c_double * 4)()
     check(library.faststrip_kalker(number("a_over_b", a_over_b), number("nu", nu), coefficients),
           None, a_over_b=a_over_b, nu=nu)

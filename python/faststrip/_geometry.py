@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from dataclasses import dataclass
+from typing import Any, ClassVar, Dict, Mapping, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from ._arguments import array, as_long_as, flag, refused
 from ._library import FIRST_ERROR, TEXT, FaststripError, library, word_of
 from ._profile import Profile
-from ._tables import dataset, frame
+from ._record import Table
 from ._wheelset import setup_of
 
 Array = npt.NDArray[np.float64]
@@ -19,58 +20,121 @@ N_FUNCTIONS = 10
 N_CONICITIES = 6
 
 
-class ContactFunctions(NamedTuple):
-    """Where both wheels touch, over the lateral shift."""
+@dataclass(frozen=True)
+class ContactFunctions(Table):
+    """Where both wheels touch, over the lateral shift.
 
-    y: Array  #: shifts to the right at which both wheels touch, mm
-    delta_r: Array  #: rolling radius difference, right less left, mm
-    radius_right: Array  #: rolling radius, mm
-    radius_left: Array  #: mm
-    angle_right: Array  #: contact angle, rad
-    angle_left: Array  #: rad, of the left side in its mirror, as the two below
-    roll: Array  #: right wheel down, rad
-    y_wheel_right: Array  #: place of the contact on the wheel, mm
-    y_rail_right: Array  #: and on the rail, mm
-    y_wheel_left: Array  #: mm
-    y_rail_left: Array  #: mm
+    Attributes
+    ----------
+    y : ndarray of float, shape (n,)
+        Shifts to the right at which both wheels touch, mm.
+    delta_r : ndarray of float, shape (n,)
+        Rolling radius difference, right less left, mm.
+    radius_right, radius_left : ndarray of float, shape (n,)
+        Rolling radii, mm.
+    angle_right, angle_left : ndarray of float, shape (n,)
+        Contact angles, rad; what is of the left side is told in its mirror, here and below.
+    roll : ndarray of float, shape (n,)
+        Right wheel down, rad.
+    y_wheel_right, y_rail_right, y_wheel_left, y_rail_left : ndarray of float, shape (n,)
+        Places of the contacts on wheel and rail, mm.
+    """
 
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each shift; ``attrs["units"]`` has the units."""
-        return frame(self._asdict())
+    y: Array
+    delta_r: Array
+    radius_right: Array
+    radius_left: Array
+    angle_right: Array
+    angle_left: Array
+    roll: Array
+    y_wheel_right: Array
+    y_rail_right: Array
+    y_wheel_left: Array
+    y_rail_left: Array
+    _rows: ClassVar[str] = "y"
 
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``y``, with ``units`` and ``long_name``."""
-        return dataset(self._asdict(), ("y",))
+    def plot(self, axes: Any = None) -> Any:
+        """Draw the rolling radius difference over the shift.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            To draw on; new ones unless given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from ._plot import plot_lines
+
+        return plot_lines(axes, self.y, {"": self.delta_r}, "lateral shift $y$, mm",
+                          "rolling radius difference, mm")
 
 
-class Conicity(NamedTuple):
-    """Equivalent conicity over the amplitude; nan where it is not known."""
+@dataclass(frozen=True)
+class Conicity(Table):
+    """Equivalent conicity over the amplitude; nan where it is not known.
 
-    amplitude: Array  #: half of the way between the turning points, mm
-    tan_gamma_e: Array  #: by Klingel's equation, Annex B
-    regression: Array  #: by linear regression, Annex C
-    y_min: Array  #: turning point, mm
-    y_max: Array  #: turning point, mm
-    nonlinearity: Array  #: half of what tan_gamma_e rises from 1 mm less to 1 mm more, 1/mm
-    nonlinearity_regression: Array  #: the same by regression
-    words: Tuple[str, ...]  #: ``ok``, or ``out_of_range``: beyond the table, or no motion turns
-    y_equilibrium: float  #: where delta_r rises through zero, mm
-    largest_amplitude: float  #: that the table holds, mm
+    Attributes
+    ----------
+    amplitude : ndarray of float, shape (n,)
+        Half of the way between the turning points, mm.
+    tan_gamma_e : ndarray of float, shape (n,)
+        By Klingel's equation, Annex B.
+    regression : ndarray of float, shape (n,)
+        By linear regression, Annex C.
+    y_min, y_max : ndarray of float, shape (n,)
+        Turning points, mm.
+    nonlinearity : ndarray of float, shape (n,)
+        Half of what tan_gamma_e rises from 1 mm less to 1 mm more, 1/mm.
+    nonlinearity_regression : ndarray of float, shape (n,)
+        The same by regression, 1/mm.
+    words : tuple of str
+        For each amplitude ``ok``, or ``out_of_range``: beyond the table, or no motion turns.
+    y_equilibrium : float
+        Where delta_r rises through zero, mm.
+    largest_amplitude : float
+        That the table holds, mm.
+    """
 
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each amplitude; ``attrs["units"]`` has the units."""
-        return frame(self._columns())
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``amplitude``, with ``units`` and ``long_name``."""
-        return dataset(self._columns(), ("amplitude",), attributes={
-            "y_equilibrium_mm": self.y_equilibrium,
-            "largest_amplitude_mm": self.largest_amplitude})
+    amplitude: Array
+    tan_gamma_e: Array
+    regression: Array
+    y_min: Array
+    y_max: Array
+    nonlinearity: Array
+    nonlinearity_regression: Array
+    words: Tuple[str, ...]
+    y_equilibrium: float
+    largest_amplitude: float
+    _rows: ClassVar[str] = "amplitude"
 
     def _columns(self) -> Dict[str, Any]:
-        columns = self._asdict()
+        columns = super()._columns()
         del columns["y_equilibrium"], columns["largest_amplitude"]
         return {name: list(values) for name, values in columns.items()}
+
+    def _attributes(self) -> Mapping[str, Any]:
+        return {"y_equilibrium_mm": self.y_equilibrium,
+                "largest_amplitude_mm": self.largest_amplitude}
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draw both conicities over the amplitude.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            To draw on; new ones unless given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from ._plot import plot_lines
+
+        return plot_lines(axes, self.amplitude, {"Klingel": self.tan_gamma_e,
+                                                 "regression": self.regression},
+                          "amplitude, mm", r"equivalent conicity $\tan\gamma_e$")
 
 
 def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: npt.ArrayLike, *,
@@ -80,11 +144,28 @@ def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: 
                       tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                       rail_distance: Optional[float] = None, cant: float = 0.025,
                       roll: bool = False) -> ContactFunctions:
-    """The rolling radius difference, radii, contact angles and roll at lateral shifts y, mm.
+    """The rolling radius difference, radii, contact angles and roll over the lateral shift.
 
-    Profiles and dimensions are those of a `Wheelset`. Each wheel comes down on its rail by itself,
-    as the standard has it, or with roll the wheelset rolls until both touch. Shifts at which a
-    wheel leaves its rail are left out; raises FaststripError if these are all.
+    Parameters
+    ----------
+    wheel, rail, wheel_left, rail_left, radius, radius_left, back_spacing, tread_line, gauge, \
+gauge_depth, rail_distance, cant
+        As of a `Wheelset`.
+    y : array_like, shape (n,)
+        Shifts to the right, mm.
+    roll : bool
+        Does the wheelset roll until both wheels touch? Unless told so each wheel comes down on its
+        rail by itself, as the standard has it.
+
+    Returns
+    -------
+    ContactFunctions
+        Shifts at which a wheel leaves its rail are left out.
+
+    Raises
+    ------
+    FaststripError
+        Where these are all.
     """
     shifts = _row("y", y)
     setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
@@ -100,9 +181,23 @@ def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: 
 
 
 def conicity(y: npt.ArrayLike, delta_r: npt.ArrayLike, amplitudes: npt.ArrayLike) -> Conicity:
-    """Equivalent conicity at amplitudes, mm, from a rolling radius difference delta_r, mm, over
-    rising lateral shifts y, mm: of the side to which y points less that of the other side.
+    """Equivalent conicity at some amplitudes.
 
+    Parameters
+    ----------
+    y : array_like, shape (n,)
+        Lateral shifts, rising, mm.
+    delta_r : array_like, shape (n,)
+        Rolling radius difference, of the side to which y points less that of the other, mm.
+    amplitudes : array_like, shape (m,)
+        mm.
+
+    Returns
+    -------
+    Conicity
+
+    Examples
+    --------
     >>> conicity([-10.0, 10.0], [-1.0, 1.0], [3.0]).tan_gamma_e.round(12).tolist()
     [0.05]
     """
@@ -115,8 +210,9 @@ def conicity(y: npt.ArrayLike, delta_r: npt.ArrayLike, amplitudes: npt.ArrayLike
           states.ctypes.data)
     found[states[:, 0] != 0] = np.nan
     found[states[:, 1] == 0, 4:] = np.nan
-    return Conicity._make((wanted, *found.T.copy(), tuple(map(word_of, states[:, 0].tolist())),
-                           *equilibrium.tolist()))
+    figures: Tuple[Any, ...] = (*found.T.copy(), tuple(map(word_of, states[:, 0].tolist())),
+                                *equilibrium.tolist())
+    return Conicity(wanted, *figures)
 
 
 def _row(name: str, value: Any) -> Array:

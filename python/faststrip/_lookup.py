@@ -5,13 +5,16 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import c_void_p
-from typing import Any, NamedTuple, Tuple, Union
+from dataclasses import dataclass
+from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import array, flag, refused
 from ._library import FIRST_ERROR, TEXT, FaststripError, library, word_of
+from ._record import Record
+from ._tables import dataset, frame
 
 Array = npt.NDArray[np.float64]
 ORDERS = {"linear": 1, "cubic": 3}
@@ -19,18 +22,81 @@ STATE = ("a", "b", "load", "mu", "g", "cksi", "ceta", "cphi")
 N_FORCES, N_STATE, N_ABOUT = 3, 8, 23
 
 
-class LookedUp(NamedTuple):
-    """Forces on the rail of a row of states; nan where there are none."""
+@dataclass(frozen=True)
+class LookedUp(Record):
+    """Forces on the rail of an array of states; nan where there are none.
 
-    forces: Array  #: Fx, Fy, N, and Mz about the middle of the ellipse, N mm: shape (..., 3)
-    jacobian: Array  #: their derivatives by a, b, load, mu, g, cksi, ceta, cphi: (..., 3, 8); empty
-    status: npt.NDArray[np.int32]  #: 0, or the error of each state: shape (...)
+    Attributes
+    ----------
+    forces : ndarray of float, shape (..., 3)
+        Fx, Fy, N, and Mz about the middle of the ellipse, N mm.
+    jacobian : ndarray of float, shape (..., 3, 8)
+        Their derivatives by a, b, load, mu, g, cksi, ceta, cphi; empty unless asked for.
+    status : ndarray of int32, shape (...)
+        0, or the error of each state.
+    """
+
+    forces: Array
+    jacobian: Array
+    status: npt.NDArray[np.int32]
+
+    def _columns(self) -> Dict[str, Any]:
+        columns = {name: self.forces[..., k] for k, name in enumerate(("fx", "fy", "mz"))}
+        return {**columns, "status": self.status}
+
+    def to_pandas(self) -> Any:
+        """The forces as a table of pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each state, the last axis fastest; ``attrs["units"]`` has the units.
+        """
+        return frame({name: np.ravel(values) for name, values in self._columns().items()})
+
+    def to_xarray(self, dims: Optional[Sequence[str]] = None) -> Any:
+        """The forces as a dataset of xarray.
+
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the dimensions: ``state``, or ``state_0``, ``state_1`` and so on.
+
+        Returns
+        -------
+        xarray.Dataset
+            With ``units`` and ``long_name``.
+        """
+        n = self.status.ndim
+        if dims is None:
+            dims = ["state"] if n == 1 else [f"state_{k}" for k in range(n)]
+        elif isinstance(dims, str) or len(dims) != n:
+            raise refused("dims", f"{n} names", dims)
+        return dataset(self._columns(), dims)
 
 
 class Lookup:
-    """A table that `faststrip lookup make` made, from the path of its file or from its bytes.
+    """A table that ``faststrip lookup make`` made.
 
     All threads may share one. It is for Coulomb friction and like materials of one Poisson's ratio.
+
+    Parameters
+    ----------
+    table : str, path or bytes
+        The path of its file, or its bytes.
+
+    Attributes
+    ----------
+    nu : float
+        Poisson's ratio.
+    promised : float
+        99th percentile of the errors that it was made for.
+    tested : int
+        Fresh contacts that it was judged by.
+    least_ab, most_ab : float
+        Range of a/b, a along x.
+    errors : ndarray of float, shape (2, 3, 3)
+        Errors of Fx, Fy, Mz: linear, cubic; mean, 99th percentile, worst; force.
     """
 
     def __init__(self, table: Union[str, os.PathLike[str], bytes]) -> None:
@@ -46,11 +112,10 @@ class Lookup:
             raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
         numbers = (ctypes.c_double * N_ABOUT)()
         library.faststrip_lookup_about(self._handle, numbers)
-        self.nu = numbers[0]  #: Poisson's ratio
-        self.promised = numbers[1]  #: 99th percentile of the errors that it was made for
-        self.tested = int(numbers[2])  #: fresh contacts that it was judged by
-        self.least_ab, self.most_ab = numbers[3], numbers[4]  #: a/b, a along x
-        #: errors of Fx, Fy, Mz: (linear, cubic; mean, 99th percentile, worst; force)
+        self.nu = numbers[0]
+        self.promised = numbers[1]
+        self.tested = int(numbers[2])
+        self.least_ab, self.most_ab = numbers[3], numbers[4]
         self.errors = np.array(numbers[5:]).reshape(2, 3, 3)
 
     def __del__(self) -> None:
@@ -60,9 +125,34 @@ class Lookup:
     def __call__(self, a: npt.ArrayLike, b: npt.ArrayLike, load: npt.ArrayLike,
                  mu: npt.ArrayLike, g: npt.ArrayLike, creepage: Tuple[Any, Any, Any], *,
                  order: str = "linear", jacobian: bool = False) -> LookedUp:
-        """Forces of states: semi-axes a (along the rolling direction) and b, mm, load, N, mu, shear
-        modulus g, MPa, creepage (cksi, ceta, cphi in rad/mm). Each is a number or an array; they
-        are broadcast. A state that fails has nan and its status; raises FaststripError if all do.
+        """Forces of states, each a number or an array; they are broadcast.
+
+        Parameters
+        ----------
+        a, b : array_like
+            Semi-axes along the rolling direction and across, mm.
+        load : array_like
+            Normal force, N.
+        mu : array_like
+            Coefficient of friction.
+        g : array_like
+            Shear modulus, MPa.
+        creepage : three array_like
+            Longitudinal, lateral and spin (rad/mm) creepage.
+        order : str
+            ``linear`` or ``cubic``.
+        jacobian : bool
+            Are derivatives wanted?
+
+        Returns
+        -------
+        LookedUp
+            A state that fails has nan and its status.
+
+        Raises
+        ------
+        FaststripError
+            If all fail.
         """
         if order not in ORDERS:
             raise refused("order", "linear or cubic", order)

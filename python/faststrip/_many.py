@@ -33,6 +33,7 @@ from ._library import (
     library,
     word_of,
 )
+from ._profile import Gap
 from ._tables import dataset, extra, frame
 from ._wear import CONSTANT, Friction, take_friction
 
@@ -149,8 +150,14 @@ class ManyResult:
         return {one.name: getattr(self, one.name) for one in fields(self)[:-1]}
 
     def to_pandas(self) -> Any:
-        """A pandas DataFrame with a row for each contact, indexed by its place where the arrays
-        have several dimensions; ``attrs["units"]`` has the units."""
+        """The figures as a table of pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each contact, indexed by its place where the arrays have several dimensions;
+            ``attrs["units"]`` has the units.
+        """
         index = None
         if len(self.shape) > 1:
             places = [range(n) for n in self.shape]
@@ -160,10 +167,20 @@ class ManyResult:
 
     def to_xarray(self, dims: Optional[Sequence[str]] = None,
                   coords: Optional[Mapping[str, Any]] = None) -> Any:
-        """An xarray Dataset with the arrays, their ``units`` and ``long_name``.
+        """The figures as a dataset of xarray.
 
-        dims are names of the dimensions, ``contact``, or ``contact_0``, ``contact_1`` and so on
-        unless told otherwise; coords are passed on.
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the dimensions: ``contact``, or ``contact_0``, ``contact_1`` and so on unless
+            told otherwise.
+        coords : mapping, optional
+            Coordinates, for xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            The arrays, with ``units`` and ``long_name``.
         """
         n = len(self.shape)
         if dims is None:
@@ -186,14 +203,14 @@ class _Gaps:
 
     def __init__(self, gaps: Any) -> None:
         self.kept: List[Any] = []
-        if isinstance(gaps, tuple):
+        if isinstance(gaps, (tuple, Gap)):
             self._take_arrays(gaps)
         elif isinstance(gaps, list):
             self._take_list(gaps)
         else:
             raise refused("gaps", "a tuple (y, h, inv2r) of arrays, or a list of such", gaps)
 
-    def _take_arrays(self, gaps: Tuple[Any, ...]) -> None:
+    def _take_arrays(self, gaps: Union[Tuple[Any, ...], Gap]) -> None:
         values = _parts("gaps", gaps)
         names = GAP_NAMES[:len(values)]
         arrays = [array(name, value) for name, value in zip(names, values)]
@@ -227,7 +244,7 @@ class _Gaps:
         self.shape = (len(gaps),)
         self.table = np.zeros(self.shape, dtype=_GAP)
         for i, gap in enumerate(gaps):
-            if not isinstance(gap, tuple):
+            if not isinstance(gap, (tuple, Gap)):
                 raise refused(f"gaps[{i}]", "a tuple (y, h, inv2r) of arrays", gap)
             values = _parts(f"gaps[{i}]", gap)
             names = [f"gaps[{i}] {name}" for name in GAP_NAMES]
@@ -248,9 +265,9 @@ def _bad(message: str) -> FaststripError:
     return FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), message)
 
 
-def _parts(name: str, gap: Tuple[Any, ...]) -> List[Any]:
+def _parts(name: str, gap: Union[Tuple[Any, ...], Gap]) -> List[Any]:
     """y, h, inv2r and, if there is one, the inclination; a `Gap` has more."""
-    if not (len(gap) in (3, 4) or hasattr(gap, "inv2r")):
+    if not (isinstance(gap, Gap) or len(gap) in (3, 4)):
         raise refused(name, "a tuple (y, h, inv2r) or (y, h, inv2r, inclination)", gap)
     parts = list(gap[:4])
     return parts[:3] if len(parts) == 4 and parts[3] is None else parts

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, List, Optional, Tuple, Union
+import pathlib
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +15,8 @@ from ._profile import Gap, Profile, draw_profile
 from ._tables import extra
 
 if TYPE_CHECKING:
-    from ._contact import Contact, Elements, Strips
+    from ._contact import Contact
+    from ._results import Elements, Strips
 
 Array = npt.NDArray[np.float64]
 ADHESION = 1
@@ -36,6 +38,11 @@ def _styled() -> Any:
     return extra("matplotlib", "plot").rc_context(style.PARAMETERS)
 
 
+def _axes_or_new(axes: Any, width: float = 4.6, height: float = 3.9) -> Any:
+    """The axes of the caller, or new ones."""
+    return _new_figure(width, height).subplots() if axes is None else axes
+
+
 def plot_contact(contact: Contact, figure: Any = None) -> Any:
     """The last contact: patch with pressures, pressures on the centre line, and tractions with the
     border of adhesion if there are elements."""
@@ -53,6 +60,59 @@ def plot_contact(contact: Contact, figure: Any = None) -> Any:
         if has_tractions:
             draw_tractions(panels[2], elements, strips)
     return figure
+
+
+def _refuse_nothing(n: int, what: str) -> None:
+    if n == 0:
+        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), f"there are no {what} to draw")
+
+
+def plot_strips(strips: Strips, axes: Any = None) -> Any:
+    """The patch from above; the axes are given back."""
+    _refuse_nothing(len(strips.p0), "strips")
+    with _styled():
+        axes = _axes_or_new(axes)
+        draw_pressure(axes, strips)
+    return axes
+
+
+def plot_elements(elements: Elements, axes: Any = None) -> Any:
+    """Tractions on the rail; the axes are given back."""
+    _refuse_nothing(len(elements.x), "elements")
+    with _styled():
+        axes = _axes_or_new(axes)
+        draw_tractions(axes, elements)
+    return axes
+
+
+def plot_lines(axes: Any, x: Array, lines: Mapping[str, Array], x_label: str,
+               y_label: str) -> Any:
+    """Lines over x, told apart also in grey; the axes are given back."""
+    looks = list(style.METHOD.values())
+    with _styled():
+        axes = _axes_or_new(axes, 5.6, 3.4)
+        for look, (label, values) in zip(looks, lines.items()):
+            axes.plot(x, values, color=look.colour, linestyle=look.line, linewidth=look.width,
+                      label=label or None)
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        if any(lines):
+            axes.legend()
+    return axes
+
+
+def plot_profile(profile: Profile, axes: Any, options: Dict[str, Any]) -> Any:
+    """The points of one profile, z down; the axes are given back."""
+    with _styled():
+        axes = _axes_or_new(axes, 7.0, 3.4)
+        axes.plot(profile.y, profile.z, **{
+            "label": pathlib.Path(profile.path).name or profile.kind, **options})
+        axes.set_aspect("equal", adjustable="datalim")
+        if not axes.yaxis_inverted():
+            axes.invert_yaxis()
+        axes.set_xlabel("$y$ to the field side, mm")
+        axes.set_ylabel("$z$ (down), mm")
+    return axes
 
 
 def draw_pressure(axes: Any, strips: Strips) -> Any:

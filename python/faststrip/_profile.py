@@ -10,14 +10,14 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import number, numbers, refused, whole
 from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, library, word_of
-from ._tables import dataset, extra, frame
+from ._record import Table
 
 Array = npt.NDArray[np.float64]
 Path = Union[str, "os.PathLike[str]"]
@@ -39,29 +39,60 @@ class ProgramNotFound(ImportError):
     """There is no program faststrip where it was looked for; it reads the files."""
 
 
-class Gap(NamedTuple):
-    """The gap of two profiles about their contact, for ``Contact.set_gap(*gap[:4])``."""
+@dataclasses.dataclass(frozen=True)
+class Gap(Table):
+    """The gap of two profiles about their contact, for ``Contact.set_gap(*gap[:4])``.
 
-    y: Array  #: mm
-    h: Array  #: mm
-    inv2r: Array  #: 1/mm
-    inclination: Array  #: rad
-    angle: float  #: contact angle, rad
-    radius: float  #: rolling radius at the contact, mm
-    y_wheel: float  #: place of the contact on the wheel, mm
-    y_rail: float  #: place of the contact on the rail, mm
-    n_clipped: Tuple[int, int]  #: points left out of the wheel and of the rail
+    Attributes
+    ----------
+    y : ndarray of float, shape (n,)
+        Lateral coordinate from the contact, mm.
+    h : ndarray of float, shape (n,)
+        Gap on the line x = 0, mm.
+    inv2r : ndarray of float, shape (n,)
+        1/(2 R) with the local radius R along x, 1/mm.
+    inclination : ndarray of float, shape (n,)
+        How far the surfaces have turned from the tangent plane at y = 0, rad.
+    angle : float
+        Contact angle, rad.
+    radius : float
+        Rolling radius at the contact, mm.
+    y_wheel, y_rail : float
+        Place of the contact on the wheel and on the rail, mm.
+    n_clipped : two ints
+        Points left out of the wheel and of the rail.
+    """
 
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each point; ``attrs["units"]`` has the units."""
-        return frame(self._columns())
+    y: Array
+    h: Array
+    inv2r: Array
+    inclination: Array
+    angle: float
+    radius: float
+    y_wheel: float
+    y_rail: float
+    n_clipped: Tuple[int, int]
+    _rows: ClassVar[str] = "y"
 
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``y``, with ``units`` and ``long_name``."""
-        return dataset(self._columns(), ("y",))
-
-    def _columns(self) -> Dict[str, Array]:
+    def _columns(self) -> Dict[str, Any]:
         return {"y": self.y, "h": self.h, "inv2r": self.inv2r, "inclination": self.inclination}
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draw the gap on the line x = 0.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            To draw on; new ones unless given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from ._plot import plot_lines
+
+        return plot_lines(axes, self.y, {"": self.h}, "lateral $y$ from the contact, mm",
+                          "gap at $x$ = 0, mm")
 
 
 def _candidates() -> Iterator[str]:
@@ -100,10 +131,21 @@ def _words(options: "dict[str, Any]") -> List[str]:
 
 @dataclasses.dataclass
 class Profile:
-    """A profile: points along the curve, y to the field side, z down, mm.
+    """A profile: points along its curve.
 
-    A wheel's y is counted from its tape circle. What a file's header says of a flange is not
-    taken over; ``sd``, ``sh`` and ``qr`` are measured on the points.
+    Parameters
+    ----------
+    y, z : array_like, shape (n,)
+        To the field side, of a wheel from its tape circle, and down, mm.
+    kind : str
+        ``wheel``, ``rail`` or ``unknown``.
+    path, format : str
+        The file that they were read from, and what it is.
+    message : str
+        What was left out or mended when it was read; empty if nothing.
+    sd, sh, qr : float, optional
+        Thickness, height and steepness of a wheel's flange, mm, measured on the points: what a
+        file's header says of them is not taken over.
     """
 
     y: Array
@@ -124,11 +166,27 @@ class Profile:
 
     @classmethod
     def read(cls, path: Path, **options: Any) -> "Profile":
-        """Read a file of any format that ``faststrip profile`` knows.
+        """Read a file of any format that ``faststrip profile`` knows, by the program.
 
-        The options are those of the command line with underscores: ``kind="wheel"``,
-        ``section=2``, ``unit="m"``, ``tape_circle=73``, ``any_count=True``,
-        ``smooth_wavelength=2``, ``keep=(-30, 40)``...
+        Parameters
+        ----------
+        path : str or path
+            The file.
+        **options
+            Those of the command line with underscores: ``kind="wheel"``, ``section=2``,
+            ``unit="m"``, ``tape_circle=73``, ``any_count=True``, ``smooth_wavelength=2``,
+            ``keep=(-30, 40)``...
+
+        Returns
+        -------
+        Profile
+
+        Raises
+        ------
+        FaststripError
+            With the program's words for what is wrong with the file.
+        ProgramNotFound
+            Where there is no program.
         """
         with tempfile.TemporaryDirectory() as folder:
             points = pathlib.Path(folder) / "points.csv"
@@ -148,17 +206,22 @@ class Profile:
         return cls(y, z, row["kind"], os.fspath(path), row["format"], row["message"], *measures)
 
     def plot(self, axes: Any = None, **style: Any) -> Any:
-        """Draw the points with matplotlib, z down; the axes are given back."""
-        if axes is None:
-            axes = extra("matplotlib.pyplot", "plot").subplots()[1]
-        style.setdefault("label", pathlib.Path(self.path).name or self.kind)
-        axes.plot(self.y, self.z, **style)
-        axes.set_aspect("equal", adjustable="datalim")
-        if not axes.yaxis_inverted():
-            axes.invert_yaxis()
-        axes.set_xlabel("y to the field side, mm")
-        axes.set_ylabel("z (down), mm")
-        return axes
+        """Draw the points, z down.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            To draw on; new ones unless given.
+        **style
+            For ``axes.plot``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from ._plot import plot_profile
+
+        return plot_profile(self, axes, style)
 
 
 def _data_lines(lines: Sequence[str]) -> List[str]:
@@ -190,11 +253,38 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
                 cant: Optional[float] = None, radius: float = 460.0, back_spacing: float = 1360.0,
                 tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                 step: float = 0.05, height: float = 0.6) -> Gap:
-    """The gap of a right wheel on the right rail, shifted to the right; lengths in mm.
+    """The gap of a right wheel on the right rail about their contact.
 
-    wheel and rail are a `Profile` or a name, as of a `Wheelset`. ``cant`` is the tangent by which
-    the rail is turned: unless told otherwise 0.025 (1:40) for a name, and 0 for a Profile, which is
-    taken as it was measured in the track.
+    Parameters
+    ----------
+    wheel, rail : str or Profile
+        A name or a profile, as of a `Wheelset`.
+    shift : float
+        Of the wheelset to the right, mm.
+    cant : float, optional
+        Tangent by which the rail is turned: unless told otherwise 0.025 (1:40) for a name, and 0
+        for a Profile, which is taken as it was measured in the track.
+    radius : float
+        Rolling radius at the tape circle, mm.
+    back_spacing : float
+        Distance of the flange backs, mm.
+    tread_line : float
+        From the flange back to the tape circle, mm.
+    gauge, gauge_depth : float
+        Gauge, and how far below the crown it is measured, mm.
+    step : float
+        Between points of the gap, mm.
+    height : float
+        Up to which the gap is given, mm.
+
+    Returns
+    -------
+    Gap
+
+    Raises
+    ------
+    FaststripError
+        Where they do not touch, or a profile is none.
     """
     sources = points_of("wheel", wheel, "wheel"), points_of("rail", rail, "rail")
     setup = np.array(numbers(
@@ -212,15 +302,34 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
             break
         capacity = n.value
     _raise(status, text)
-    return Gap._make((*(row[:n.value].copy() for row in arrays), *map(float, contact[:4]),
-                      (int(contact[4]), int(contact[5]))))
+    y, h, inv2r, inclination = arrays[:, :n.value].copy()
+    angle, rolling_radius, y_wheel, y_rail, *clipped = contact.tolist()
+    return Gap(y, h, inv2r, inclination, angle, rolling_radius, y_wheel, y_rail,
+               (int(clipped[0]), int(clipped[1])))
 
 
 def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[float] = None,
                  n: int = 401) -> Tuple[Array, Array]:
-    """y and z, mm, of n points of what can be touched of a profile, a `Profile` or a name, at equal
-    distances of y. kind is ``wheel`` or ``rail``; cant turns a rail, as in `profile_gap`.
+    """Points of what can be touched of a profile, at equal distances of y.
 
+    Parameters
+    ----------
+    profile : str or Profile
+        A name or a profile, as of a `Wheelset`.
+    kind : str
+        ``wheel`` or ``rail``.
+    cant : float, optional
+        Tangent by which a rail is turned, as of `profile_gap`.
+    n : int
+        How many points, from 2 on.
+
+    Returns
+    -------
+    y, z : ndarray of float, shape (n,)
+        To the field side and down, mm.
+
+    Examples
+    --------
     >>> y, z = draw_profile("60e1", "rail", cant=0.0, n=3)
     >>> y.round(3).tolist()
     [-37.15, 0.0, 37.15]

@@ -5,14 +5,14 @@ from __future__ import annotations
 import ctypes
 from ctypes import c_double, c_int, c_void_p
 from dataclasses import dataclass
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, ClassVar, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, array, number, numbers, refused
 from ._library import Case
-from ._tables import dataset, frame
+from ._record import Row, Table
 
 Array = npt.NDArray[np.float64]
 KINDS = {"constant": 0, "linear": 2, "rational": 3, "exponential": 4}
@@ -28,15 +28,30 @@ class Friction:
     f is 1 - s/(2 h), not below 0, by ``linear``, 1/(1 + s/h) by ``rational``, 2**(-s/h) by
     ``exponential``. Methods but ``faststrip``, ``faststrip-plain`` and ``fastsim`` with its
     variants refuse it.
+
+    Parameters
+    ----------
+    kind : str
+        How it falls with slip: ``constant``, ``linear``, ``rational``, ``exponential``.
+    kinetic_share : float
+        Kinetic over static friction, 1e-6 to 1.
+    half_slip_speed : float
+        Slip speed of half of the fall, mm/s.
+    slope_factor : float
+        Of the initial slope, above 0 to 1.
+    flange_share : float
+        mu on the flange over that on the tread.
+    tread_angle, flange_angle : float
+        Contact angle up to which the tread's mu counts, and from which the flange's counts, rad.
     """
 
-    kind: str = "constant"  #: how it falls with slip
-    kinetic_share: float = 1.0  #: kinetic over static friction, 1e-6 to 1
-    half_slip_speed: float = 0.0  #: slip speed of half of the fall, mm/s
-    slope_factor: float = 1.0  #: of the initial slope, above 0 to 1
-    flange_share: float = 1.0  #: mu on the flange over that on the tread
-    tread_angle: float = 0.0  #: contact angle up to which the tread's mu counts, rad
-    flange_angle: float = 0.0  #: from which the flange's counts, rad
+    kind: str = "constant"
+    kinetic_share: float = 1.0
+    half_slip_speed: float = 0.0
+    slope_factor: float = 1.0
+    flange_share: float = 1.0
+    tread_angle: float = 0.0
+    flange_angle: float = 0.0
 
 
 CONSTANT = Friction()
@@ -65,45 +80,74 @@ class _Law(ctypes.Structure):
 
 @dataclass(frozen=True)
 class WearLaw:
-    """Wear by coefficients. Each regime is where its T gamma/A begins, as the one before ends, the
-    first at 0, and where it ends, N/mm^2, then constant, ug/(m mm^2), and slope, ug/(m N), of its
-    wear rate; density in kg/m^3."""
+    """Wear by coefficients.
+
+    Parameters
+    ----------
+    regimes : sequence of four floats each
+        Where T gamma/A begins, as the regime before ends, the first at 0, and where it ends,
+        N/mm^2; then constant, ug/(m mm^2), and slope, ug/(m N), of its wear rate.
+    density : float
+        kg/m^3.
+    """
 
     regimes: Sequence[Tuple[float, float, float, float]]
     density: float
 
 
-class Wear(NamedTuple):
-    """T gamma, wear and fatigue of one contact."""
+@dataclass(frozen=True)
+class Wear(Row):
+    """T gamma, wear and fatigue of one contact.
 
-    t_gamma: float  #: |fx cksi| + |fy ceta|, N
-    t_gamma_spin: float  #: the same and |mz cphi|, N
-    t_gamma_per_area: float  #: without spin, N/mm^2
-    fatigue_index: Optional[float]  #: of the surface; None without a yield stress
-    mass: Optional[float]  #: ug per metre rolled; None without a law
-    volume: Optional[float]  #: mm^3 per metre rolled; None without a law
+    Attributes
+    ----------
+    t_gamma : float
+        ``|fx cksi| + |fy ceta|``, N.
+    t_gamma_spin : float
+        The same and ``|mz cphi|``, N.
+    t_gamma_per_area : float
+        Without spin, N/mm^2.
+    fatigue_index : float or None
+        Of the surface; None without a yield stress.
+    mass : float or None
+        Worn off, ug per metre rolled; None without a law.
+    volume : float or None
+        The same in mm^3 per metre rolled; None without a law.
+    """
+
+    t_gamma: float
+    t_gamma_spin: float
+    t_gamma_per_area: float
+    fatigue_index: Optional[float]
+    mass: Optional[float]
+    volume: Optional[float]
 
 
-class StripWear(NamedTuple):
-    """Forces and wear of the strips of a contact, in the order of ``Contact.strips``."""
+@dataclass(frozen=True)
+class StripWear(Table):
+    """Forces and wear of the strips of a contact, in the order of ``Contact.strips``.
 
-    fx: Array  #: on the rail, N
-    fy: Array  #: N
-    friction_power: Array  #: over rolling speed, N
-    t_gamma_per_area: Array  #: friction power over the strip's area, N/mm^2
-    mass: Optional[Array]  #: ug per metre rolled; None without a law
-    pass_depth: Optional[Array]  #: depth when rolled over once, mm; None without a law
+    Attributes
+    ----------
+    fx, fy : ndarray of float, shape (n,)
+        Longitudinal and lateral force on the rail, N.
+    friction_power : ndarray of float, shape (n,)
+        Frictional work per distance rolled, N.
+    t_gamma_per_area : ndarray of float, shape (n,)
+        That over the strip's area, N/mm^2.
+    mass : ndarray of float, shape (n,), or None
+        Worn off, ug per metre rolled; None without a law.
+    pass_depth : ndarray of float, shape (n,), or None
+        Depth when rolled over once, mm; None without a law.
+    """
 
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each strip; ``attrs["units"]`` has the units."""
-        return frame(self._columns())
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``strip``, with ``units`` and ``long_name``."""
-        return dataset(self._columns(), ("strip",))
-
-    def _columns(self) -> Dict[str, Array]:
-        return {name: values for name, values in self._asdict().items() if values is not None}
+    fx: Array
+    fy: Array
+    friction_power: Array
+    t_gamma_per_area: Array
+    mass: Optional[Array]
+    pass_depth: Optional[Array]
+    _rows: ClassVar[str] = "strip"
 
 
 class WearQuestion:

@@ -6,7 +6,8 @@ import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_size_t, c_void_p
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Dict, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +24,7 @@ from ._library import (
     word_of,
 )
 from ._profile import FIRST_CAPACITY, Points, Profile, points_of
-from ._tables import dataset, frame
+from ._record import Record, Table
 from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
@@ -89,23 +90,63 @@ class Totals(ctypes.Structure):
                 *((name, THREE * 2) for name in ("force", "force_wheelset", "moment"))]
 
 
-class WheelContact(NamedTuple):
-    """One contact of a wheel; forces and moments act on the rail."""
+@dataclass(frozen=True)
+class WheelContact(Record):
+    """One contact of a wheel; forces and moments act on the rail.
 
-    side: str  #: ``right`` or ``left``
-    word: str  #: ``ok``, or the name of a limitation
+    Attributes
+    ----------
+    side : str
+        ``right`` or ``left``.
+    word : str
+        ``ok``, or the name of a limitation.
+    n_patches, strips_across : int
+        Number of patches; strips across the one that has most.
+    place : three floats
+        x, y, z of the reference point in the track, mm.
+    contact_angle : float
+        rad.
+    rail : two floats
+        y, z of it on the rail's profile, mm.
+    wheel : three floats
+        x, y, z of it in the frame of the wheel's profile, mm.
+    radius : float
+        Rolling radius, mm.
+    speed : float
+        Rolling speed, mm/s.
+    cksi, ceta : float
+        Longitudinal and lateral creepage.
+    cphi : float
+        Spin creepage, rad/mm.
+    load : float
+        Normal force, N.
+    penetration, y_min, y_max, x_max, area, pmax, fx, fy, mz, friction_power, stick_fraction : float
+        As of a `Result`: mm, mm^2, MPa, N, N mm.
+    force : three floats
+        In the track, N.
+    force_wheelset : three floats
+        The same in the wheelset's frame, N.
+    moment : three floats
+        About the wheelset's centre, in the track, N mm.
+    est_err_penetration, est_err_pmax, est_err_area, est_err_fx, est_err_fy, est_err_mz : float or \
+None
+        As of a `Result`.
+    """
+
+    side: str
+    word: str
     n_patches: int
     strips_across: int
-    place: Tuple[float, ...]  #: x, y, z of the reference point in the track, mm
-    contact_angle: float  #: rad
-    rail: Tuple[float, ...]  #: y, z of it on the rail's profile, mm
-    wheel: Tuple[float, ...]  #: x, y, z of it in the frame of the wheel's profile, mm
-    radius: float  #: rolling radius, mm
-    speed: float  #: rolling speed, mm/s
+    place: Tuple[float, ...]
+    contact_angle: float
+    rail: Tuple[float, ...]
+    wheel: Tuple[float, ...]
+    radius: float
+    speed: float
     cksi: float
     ceta: float
-    cphi: float  #: rad/mm
-    load: float  #: normal force, N
+    cphi: float
+    load: float
     penetration: float
     area: float
     pmax: float
@@ -117,9 +158,9 @@ class WheelContact(NamedTuple):
     mz: float
     friction_power: float
     stick_fraction: float
-    force: Tuple[float, ...]  #: in the track, N
-    force_wheelset: Tuple[float, ...]  #: the same in the wheelset's frame, N
-    moment: Tuple[float, ...]  #: about the wheelset's centre, in the track, N mm
+    force: Tuple[float, ...]
+    force_wheelset: Tuple[float, ...]
+    moment: Tuple[float, ...]
     est_err_penetration: Optional[float]
     est_err_pmax: Optional[float]
     est_err_area: Optional[float]
@@ -135,12 +176,13 @@ _NONE = (None,) * 3
 
 
 def _contact_of(row: Row) -> WheelContact:
-    return WheelContact._make((
+    figures: Tuple[Any, ...] = (
         SIDES[row.side - 1], word_of(row.status), row.n_patches, row.strips_across,
         tuple(row.place), row.angle, tuple(row.rail), tuple(row.wheel), *_MOTION(row),
         tuple(row.force), tuple(row.force_wheelset), tuple(row.moment),
         *(_ESTIMATES(row) if row.is_estimated else _NONE),
-        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE)))
+        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE))
+    return WheelContact(*figures)
 
 
 def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any, radius_left: Any,
@@ -160,31 +202,47 @@ def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any
     return setup, wheels, rails
 
 
-class WheelsetResult(NamedTuple):
-    """What came of both wheels, right and left; zero for one that was not asked for."""
+@dataclass(frozen=True)
+class WheelsetResult(Table):
+    """What came of both wheels, right and left; zero for one that was not asked for.
+
+    Attributes
+    ----------
+    status : int
+        0, or the number of a named limitation.
+    word : str
+        ``ok``, or the name of the limitation.
+    contacts : tuple of WheelContact
+        Those of the right wheel first.
+    z : two floats
+        Height of the wheelset's centre, down, mm, as each wheel has it.
+    roll : float
+        Right wheel down, rad.
+    force : ndarray of float, shape (2, 3)
+        Of each wheel on its rail, in the track, N.
+    force_wheelset : ndarray of float, shape (2, 3)
+        The same in the wheelset's frame, N.
+    moment : ndarray of float, shape (2, 3)
+        About the wheelset's centre, in the track, N mm.
+    n_solutions : two ints
+        Contact problems that were solved for each wheel.
+    """
 
     status: int
     word: str
-    contacts: Tuple[WheelContact, ...]  #: those of the right wheel first
-    z: Tuple[float, ...]  #: of the wheelset's centre, mm
-    roll: float  #: rad
-    force: Array  #: of each wheel on its rail in the track, 2 x 3, N
-    force_wheelset: Array  #: the same in the wheelset's frame
-    moment: Array  #: about the wheelset's centre in the track, 2 x 3, N mm
-    n_solutions: Tuple[int, ...]  #: contact problems that were solved
-
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each contact; vectors have a column for each component,
-        ``force_x`` and so on. ``attrs["units"]`` has the units."""
-        return frame(self._columns())
-
-    def to_xarray(self) -> Any:
-        """An xarray Dataset over ``contact``, with ``units`` and ``long_name``."""
-        return dataset(self._columns(), ("contact",))
+    contacts: Tuple[WheelContact, ...]
+    z: Tuple[float, ...]
+    roll: float
+    force: Array
+    force_wheelset: Array
+    moment: Array
+    n_solutions: Tuple[int, ...]
+    _rows: ClassVar[str] = "contact"
 
     def _columns(self) -> Dict[str, Any]:
+        """Those of the contacts; vectors have one for each component, ``force_x`` and so on."""
         columns: Dict[str, Any] = {}
-        for name in WheelContact._fields:
+        for name in (one.name for one in fields(WheelContact)):
             values = [getattr(contact, name) for contact in self.contacts]
             axes = AXES.get(name)
             if axes is not None:
@@ -212,12 +270,35 @@ class _Handle:
 class Wheelset:
     """A wheelset on its track: profiles, dimensions, methods, the last solution.
 
-    wheel and rail are a `Profile` or a name (``s1002``, ``cone20``, ``cone40``; ``uic60``,
-    ``60e1``, ``54e1``), both sides as one of the right side; the left ones are alike unless told
-    otherwise, radius_left too. Lengths in mm; rail_distance, of the origins of the rails' profiles,
-    counts in the gauge's place; cant is the tangent by which both rails are turned. Methods and
-    estimates are those of a `Contact`. Use one Wheelset per thread.
+    Use one Wheelset per thread.
 
+    Parameters
+    ----------
+    wheel, rail : str or Profile
+        A `Profile` or a name (``s1002``, ``cone20``, ``cone40``; ``uic60``, ``60e1``, ``54e1``),
+        for both sides as one of the right side.
+    wheel_left, rail_left : str or Profile, optional
+        Of the left side; alike unless told otherwise.
+    radius, radius_left : float
+        Rolling radii at the tape circle, mm; alike unless told otherwise.
+    back_spacing : float
+        Distance of the flange backs, mm.
+    tread_line : float
+        From the flange back to the tape circle, mm.
+    gauge, gauge_depth : float
+        Gauge, and how far below the crown it is measured, mm.
+    rail_distance : float, optional
+        Of the origins of the rails' profiles, mm, in the gauge's place.
+    cant : float
+        Tangent by which both rails are turned.
+    mu : float
+        Coefficient of friction.
+    friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
+estimate, resolution_limit, force_limit
+        As of `Contact` and `Contact.solve`.
+
+    Examples
+    --------
     >>> result = Wheelset(mu=0.4).solve(y=3.0, yaw=2e-3, speed=2e4, pitch_rate=-2e4 / 460.0,
     ...                                 axle_load=1.2e5)
     >>> [contact.side for contact in result.contacts], round(result.force[:, 2].sum())
@@ -273,15 +354,47 @@ class Wheelset:
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
               axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
               warm_start: bool = False) -> WheelsetResult:
-        """Solve for a position z (mm), a load of each wheel (N; one, or right and left) or an
-        axle_load (N): one of the three.
+        """Solve for a position z, a load of each wheel or an axle_load: one of the three.
 
-        y in mm to the right, roll (right wheel down) and yaw (nose to the right) in rad, speed in
-        mm/s, rates per s, pitch_rate negative for rolling ahead, curvature of the track in 1/mm,
-        positive to the right. A roll that is not given is found, of both wheels and their loads;
-        else it is 0. roll_moment, N mm, is what the frame exerts about the wheelset's centre.
-        wheels is ``both``, ``right`` or ``left``. warm_start begins with the last solution, if
-        there is one. Raises FaststripError where there is no result.
+        Parameters
+        ----------
+        y : float
+            To the right, mm.
+        z : float
+            Height of the wheelset's centre, down, mm; 0 where the tread lines are as high as the
+            crowns.
+        roll : float
+            Right wheel down, rad. Not given it is found, of both wheels and their loads; else it
+            is 0.
+        yaw : float
+            Nose to the right, rad.
+        speed : float
+            mm/s.
+        y_rate, z_rate : float
+            mm/s.
+        roll_rate, yaw_rate, pitch_rate : float
+            rad/s; pitch_rate is negative for rolling ahead.
+        curvature : float
+            Of the track, positive to the right, 1/mm.
+        load : float, or two floats
+            Of each wheel, or of the right and of the left one, N.
+        axle_load : float
+            N.
+        roll_moment : float
+            What the frame exerts about the wheelset's centre, N mm.
+        wheels : str
+            ``both``, ``right`` or ``left``.
+        warm_start : bool
+            Begin with the last solution, if there is one.
+
+        Returns
+        -------
+        WheelsetResult
+
+        Raises
+        ------
+        FaststripError
+            Where there is no result.
         """
         if sum(value is not None for value in (z, load, axle_load)) != 1:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
@@ -313,8 +426,18 @@ class Wheelset:
 
     def wear(self, law: Optional[WearLaw] = None, *,
              yield_shear: Optional[float] = None) -> Tuple[Wear, ...]:
-        """T gamma, wear and fatigue of the contacts of the last solution, in their order; see
-        `Contact.wear`."""
+        """T gamma, wear and fatigue of the contacts of the last solution.
+
+        Parameters
+        ----------
+        law, yield_shear
+            As of `Contact.wear`.
+
+        Returns
+        -------
+        tuple of Wear
+            In the order of the contacts.
+        """
         found = []
         for i in range(self._n_contacts):
             question = WearQuestion(law, yield_shear)
@@ -324,9 +447,18 @@ class Wheelset:
         return tuple(found)
 
     def gap(self, contact: int) -> Tuple[Array, Array, Array, Array]:
-        """The gap of a contact of the last solution about its place, for `Contact.set_gap`: y, h in
-        mm, inv2r in 1/mm, inclination in rad. contact counts from 0, those of the right wheel
-        first."""
+        """The gap of a contact of the last solution about its place, for `Contact.set_gap`.
+
+        Parameters
+        ----------
+        contact : int
+            Counted from 0, those of the right wheel first.
+
+        Returns
+        -------
+        y, h, inv2r, inclination : ndarray of float, shape (n,)
+            mm, mm, 1/mm, rad.
+        """
         n, capacity = c_int(), FIRST_CAPACITY
         while True:
             arrays = np.zeros((4, capacity))

@@ -102,6 +102,12 @@ class Faces(HostTest):
                           (np.full(4, 1e-3), 0.0, 0.0), jacobian=True)
         self.assertEqual((grid.forces.shape, grid.jacobian.shape), ((3, 4, 3), (3, 4, 3, 8)))
         self.assertTrue((grid.forces == alone.forces).all())
+        frame, dataset = grid.to_pandas(), grid.to_xarray()
+        self.assertEqual((len(frame), dict(dataset.sizes)), (12, {"state_0": 3, "state_1": 4}))
+        self.assertEqual((frame["fx"][5], float(dataset.mz[1, 2])),
+                         (grid.forces[1, 1, 0], grid.forces[1, 2, 2]))
+        self.assertEqual((dataset.fy.units, frame.attrs["units"]["mz"]), ("N", "N mm"))
+        self.assertEqual(dict(grid.to_xarray(["a", "b"]).sizes), {"a": 3, "b": 4})
         found = []
 
         def work():

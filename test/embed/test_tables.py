@@ -109,6 +109,12 @@ class Tables(HostTest):
         self.assertEqual((dataset.mz.units, dataset.area.units, dataset.pmax.units),
                          ("N mm", "mm2", "MPa"))
         self.assertTrue(self.np.isnan(frame["est_err_target"][0]))
+        wear = self.contact.wear()
+        frame, dataset = wear.to_pandas(), wear.to_xarray()
+        self.assertEqual((frame["t_gamma"][0], float(dataset.t_gamma)), (wear.t_gamma,) * 2)
+        self.assertTrue(self.np.isnan(frame["mass"][0]))
+        self.assertEqual((dataset.t_gamma_per_area.units, dataset.volume.units),
+                         ("N mm-2", "mm3 m-1"))
 
     def test_contacts_of_a_wheelset_are_rows(self):
         found = self.faststrip.Wheelset().solve(axle_load=1e5, y=1.0, speed=2e4,
@@ -181,6 +187,41 @@ class Pictures(HostTest):
             lines, = panels[1].lines
             self.assertEqual(max(lines.get_ydata()), strips.p0.max())
             figure.canvas.draw()
+
+    def test_results_draw_themselves(self):
+        np, pyplot = self.np, importlib.import_module("matplotlib.pyplot")
+        contact = self.contact(with_elements=True)
+        for empty, what in ((contact.strips(), "strips"), (contact.elements(), "elements")):
+            with self.assertRaisesRegex(self.faststrip.FaststripError, f"no {what} to draw"):
+                empty.plot()
+        contact.solve(load=1e5, creepage=(1.5e-3, 8e-4, 2e-4))
+        strips, elements = contact.strips(), contact.elements()
+        axes = strips.plot()
+        self.assertAlmostEqual(axes.dataLim.intervalx[1], strips.y_right.max(), places=9)
+        axes.figure.canvas.draw()
+        axes = elements.plot()
+        sticks = int((elements.state == 1).sum())
+        self.assertEqual([len(each.get_paths()) for each in axes.collections][:2],
+                         [sticks, len(elements.x) - sticks])
+        axes.figure.canvas.draw()
+        gap = self.faststrip.profile_gap("s1002", "60e1", shift=2.0)
+        functions = self.faststrip.contact_functions("s1002", "60e1", np.linspace(-5.0, 5.0, 21))
+        conicity = self.faststrip.conicity(functions.y, functions.delta_r, [1.0, 2.0, 3.0])
+        profile = self.faststrip.Profile(gap.y, gap.h, "wheel", "folder/worn.whl")
+        for found, lines in ((gap, [(gap.y, gap.h)]), (functions, [(functions.y,
+                                                                    functions.delta_r)]),
+                             (conicity, [(conicity.amplitude, conicity.tan_gamma_e),
+                                         (conicity.amplitude, conicity.regression)]),
+                             (profile, [(profile.y, profile.z)])):
+            mine = pyplot.figure().subplots()
+            self.assertIs(found.plot(mine), mine)
+            for line, (x, y) in zip(mine.lines, lines, strict=True):
+                np.testing.assert_array_equal(line.get_xdata(), x)
+                np.testing.assert_array_equal(line.get_ydata(), y)
+            self.assertTrue(mine.get_xlabel().endswith("mm"))
+            found.plot().figure.canvas.draw()
+            pyplot.close("all")
+        self.assertEqual(profile.plot(label="mine").lines[0].get_label(), "mine")
 
     def test_without_elements_and_on_a_figure_of_the_caller(self):
         pyplot = importlib.import_module("matplotlib.pyplot")

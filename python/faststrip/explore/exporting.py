@@ -14,8 +14,9 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from .._contact import Result, library_version
+from .._contact import library_version
 from .._profile import _data_lines, _program
+from .._results import Result
 from .case import RADIUS, STANDARD, Shape
 from .solving import METHODS, Answer, Outcome
 

@@ -8,7 +8,7 @@ from typing import Dict, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from .._contact import Elements, Result, Strips
+from .._results import Elements, Result, Strips
 
 Array = npt.NDArray[np.float64]
 Columns = Dict[str, Array]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import functools
 import math
 import time
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
@@ -11,9 +12,10 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from .._contact import Contact, Elements, Result, Strips
+from .._contact import Contact
 from .._library import FaststripError
 from .._profile import draw_profile, profile_gap
+from .._results import Elements, Result, Strips
 from .._wheelset import Wheelset
 from .case import RADIUS, Case
 
@@ -79,6 +81,16 @@ class Outcome:
     rows: Optional[Any] = None  #: of elements, of NORM + TANG
     times: Dict[str, float] = dataclasses.field(default_factory=dict)
 
+    def result(self, name: str) -> Optional[Result]:
+        """The figures of a method, if it has some."""
+        answer = self.answers.get(name)
+        return None if answer is None else answer.result
+
+    def strips(self, name: str) -> Optional[Strips]:
+        """The strips of a method, if it has some."""
+        answer = self.answers.get(name)
+        return None if answer is None else answer.strips
+
 
 METHODS = {"strips": ("strip", "faststrip"), "hertz": ("hertz", "fastsim")}
 
@@ -125,8 +137,8 @@ class Solver:
                 geometry = loaded(geometry, case)
             outcome.geometry = geometry
             for name in METHODS:
-                outcome.answers[name] = self._once(
-                    name, motion, lambda name=name: self._answer(name, geometry, case))
+                make = functools.partial(self._answer, name, geometry, case)
+                outcome.answers[name] = self._once(name, motion, make)
             half = half_width(axis, getattr(case, axis))
             others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
             outcome.curve = self._once("curve", (*where, case.mu, axis, half, others),
@@ -186,9 +198,9 @@ class Solver:
             try:
                 contact.set_gap(*geometry.gap)
                 for value in values.tolist():
-                    creepage = list(case.creepage)
-                    creepage[AXES[axis]] = value
-                    result = contact.solve(load=geometry.load, creepage=tuple(creepage),
+                    cksi, ceta, cphi = (value if k == AXES[axis] else one
+                                        for k, one in enumerate(case.creepage))
+                    result = contact.solve(load=geometry.load, creepage=(cksi, ceta, cphi),
                                            mu=case.mu, warm_start=bool(rows))
                     rows.append((result.fx / bound, result.fy / bound))
             except FaststripError:

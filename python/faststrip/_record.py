@@ -1,0 +1,97 @@
+"""What results have in common: dataclasses that unpack in the order of their fields."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, ClassVar, Dict, Iterator, Mapping, TypeVar
+
+from ._tables import dataset, frame
+
+Self = TypeVar("Self", bound="Record")
+
+
+class Record:
+    """A frozen dataclass that can be unpacked, and asked by a place, as a tuple."""
+
+    __dataclass_fields__: ClassVar[Dict[str, Any]]
+
+    def __iter__(self) -> Iterator[Any]:
+        return (getattr(self, one.name) for one in dataclasses.fields(self))
+
+    def __len__(self) -> int:
+        return len(dataclasses.fields(self))
+
+    def __getitem__(self, place: Any) -> Any:
+        return tuple(self)[place]
+
+    def _asdict(self) -> Dict[str, Any]:
+        """Old: results were named tuples. `dataclasses.fields` has the names."""
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+
+    def _replace(self: Self, **changes: Any) -> Self:
+        """Old name of `dataclasses.replace`."""
+        return dataclasses.replace(self, **changes)
+
+
+class Row(Record):
+    """A record of figures, which is one row of a table."""
+
+    def _columns(self) -> Dict[str, Any]:
+        """The figures; what is not known is nan."""
+        return {one.name: float("nan") if getattr(self, one.name) is None
+                else getattr(self, one.name) for one in dataclasses.fields(self)}
+
+    def to_pandas(self) -> Any:
+        """The figures as a table of pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row; ``attrs["units"]`` has the units. What is not known is nan.
+        """
+        return frame({name: [value] for name, value in self._columns().items()})
+
+    def to_xarray(self) -> Any:
+        """The figures as a dataset of xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            Numbers, with ``units`` and ``long_name``. What is not known is nan.
+        """
+        return dataset(self._columns(), ())
+
+
+class Table(Record):
+    """A record of arrays of one length, which are the columns of a table."""
+
+    _rows: ClassVar[str]  # what a row stands for: the dimension of a dataset
+
+    def _columns(self) -> Dict[str, Any]:
+        """The arrays that are there."""
+        found = {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        return {name: values for name, values in found.items() if values is not None}
+
+    def _attributes(self) -> Mapping[str, Any]:
+        """What the dataset says of all rows."""
+        return {}
+
+    def to_pandas(self) -> Any:
+        """The arrays as a table of pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each place of the arrays; ``attrs["units"]`` has the units.
+        """
+        return frame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """The arrays as a dataset of xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over one dimension, with ``units`` and ``long_name``.
+        """
+        return dataset(self._columns(), (self._rows,), attributes=self._attributes())
