@@ -161,7 +161,8 @@ class Profiles(Picture):
             for patch in np.unique(strips.patch):
                 of = strips.patch == patch
                 ends = np.array([strips.y_left[of].min(), strips.y_right[of].max()])
-                across = np.linspace(*(place.y_rail + ends * math.cos(place.angle)), 9)
+                first, last = place.y_rail + ends * math.cos(place.angle)
+                across = np.linspace(first, last, 9)
                 y += [*across, math.nan]
                 z += [*np.interp(across, y_rail, z_rail), math.nan]
         self.put("bearing", {"y": y, "z": z})
@@ -196,16 +197,15 @@ class Patch(Picture):
         self.draw_norm("x")
 
     def show(self, outcome: Outcome) -> None:
-        strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")
-        there = strips is not None and strips.strips is not None
-        self.put("strips", fields.bars(strips.strips) if there else None)
-        known = hertz is not None and hertz.result is not None
-        self.put("ellipse", fields.ellipse(hertz.result)[0] if known else None)
+        strips, hertz = outcome.strips("strips"), outcome.result("hertz")
+        self.put("strips", None if strips is None else fields.bars(strips))
+        self.put("ellipse", None if hertz is None else fields.ellipse(hertz)[0])
         rows = outcome.rows
         self.put("norm", None if rows is None else {
             "y": np.concatenate([rows.y, rows.y]),
             "x": np.concatenate([rows.x_first, rows.x_last])})
-        high = first_above(PRESSURES, strips.result.pmax) if there else 1000.0
+        result = outcome.result("strips")
+        high = 1000.0 if result is None else first_above(PRESSURES, result.pmax)
         if self.high != high:
             self.high = high
             self.out.set(self.mapper, high=high)
@@ -231,8 +231,8 @@ class Window(NamedTuple):
 def window(outcome: Outcome) -> Window:
     """In steps, so that pictures do not tremble; with one scale along both sides, but for patches
     that are so narrow that nothing could be seen of them."""
-    results = [outcome.answers[name].result for name in ("strips", "hertz")
-               if name in outcome.answers and outcome.answers[name].result is not None]
+    results = [result for name in ("strips", "hertz")
+               if (result := outcome.result(name)) is not None]
     if not results:
         return Window(0.0, LENGTHS[-1], LENGTHS[-1] * HEIGHT / WIDTH)
     low, high = min(one.y_min for one in results), max(one.y_max for one in results)
@@ -259,12 +259,10 @@ class Pressure(Picture):
         self.draw_norm("p")
 
     def show(self, outcome: Outcome) -> None:
-        strips, hertz = outcome.answers.get("strips"), outcome.answers.get("hertz")
+        strips, hertz = outcome.strips("strips"), outcome.result("hertz")
         highest = 0.0
-        there = strips is not None and strips.result is not None
-        self.put("strips", fields.pressure_line(strips.strips) if there else None)
-        known = hertz is not None and hertz.result is not None
-        self.put("hertz", fields.ellipse(hertz.result)[1] if known else None)
+        self.put("strips", None if strips is None else fields.pressure_line(strips))
+        self.put("hertz", None if hertz is None else fields.ellipse(hertz)[1])
         rows = outcome.rows
         self.put("norm", None if rows is None else {"y": rows.y, "p": rows.pressure})
         for answer in outcome.answers.values():
@@ -298,7 +296,7 @@ class Tractions(Picture):
 
     def show(self, outcome: Outcome) -> None:
         answer = outcome.answers.get(self.method)
-        if answer is None or answer.elements is None:
+        if answer is None or answer.elements is None or answer.result is None:
             for name in self.sources:
                 self.put(name, None)
             self.tell("no result")
@@ -364,7 +362,7 @@ class Creep(Picture):
             self.put(name, {"creepage": outcome.curve.creepage / control.scale, "force": forces})
 
     def _points(self, outcome: Outcome, value: float) -> None:
-        rows = {"creepage": [], "force": [], "marker": [], "colour": []}
+        rows: Dict[str, List[Any]] = {"creepage": [], "force": [], "marker": [], "colour": []}
         for name, marker in (("hertz", "square"), ("strips", "circle"), ("norm", "diamond")):
             answer = outcome.answers.get(name)
             if answer is None or answer.result is None:

@@ -51,10 +51,10 @@ def main(words: Optional[List[str]] = None) -> int:
         return 1
     try:
         case = casefile.read_case(options.case) if options.case else Case()
-        for kind in ("wheel", "rail"):
-            name = getattr(options, kind)
-            if name is not None:
-                case = dataclasses.replace(case, **{kind: find_shape(kind, name)})
+        if options.wheel is not None:
+            case = dataclasses.replace(case, wheel=find_shape("wheel", options.wheel))
+        if options.rail is not None:
+            case = dataclasses.replace(case, rail=find_shape("rail", options.rail))
         checked(case)
     except (CaseError, FaststripError) as problem:
         print(f"faststrip-explore: {problem}", file=sys.stderr)
