@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import blocks  # noqa: E402
+import page_in_browser  # noqa: E402, F401
 
 HOSTS = ROOT / "example" / "hosts"
 

@@ -43,7 +43,7 @@ from .exporting import Program, Reference, case_files, numbers_csv, packed
 from .figures import Pictures, time_text
 from .look import HERTZ, NORM, SMALL, STRIPS, Look
 from .solving import AXES, Outcome, Solver
-from .wire import Direct, Wire
+from .wire import Direct, sender
 
 LEFT = 258  # width of the controls, px
 HALF = LEFT // 2 - 8
@@ -101,7 +101,7 @@ class Page:
     def __init__(self, document: Document, case: Case) -> None:
         self.document = document
         self.solver = Solver()
-        self.wire = Wire()
+        self.wire = sender()
         self.pictures = Pictures(self.wire)
         self.shapes: Dict[str, Dict[str, Shape]] = {
             kind: {**STANDARD[kind], getattr(case, kind).label: getattr(case, kind)}
@@ -115,7 +115,8 @@ class Page:
         self._make_texts()
         document.add_root(self._layout())
         document.title = "faststrip explore"
-        document.js_on_event(DocumentReady, self.wire.on_ready)
+        if self.wire.on_ready is not None:
+            document.js_on_event(DocumentReady, self.wire.on_ready)
         document.on_session_destroyed(self._leave)
         self.update()
 
@@ -201,12 +202,13 @@ class Page:
 
     def case(self) -> Case:
         """The case that the controls tell."""
-        numbers = {name: to_case(CONTROL[name], slider.value)
-                   for name, slider in self.sliders.items()}
-        shapes = {kind: self.shapes[kind][select.value] for kind, select in self.selects.items()}
+        told: Dict[str, Any] = {name: to_case(CONTROL[name], slider.value)
+                                for name, slider in self.sliders.items()}
+        told.update((kind, self.shapes[kind][select.value])
+                    for kind, select in self.selects.items())
         # The cant of a case file is that of its rail.
-        cant = self.begun.given_cant if shapes["rail"] is self.begun.rail else None
-        return Case(**shapes, **numbers, is_vertical=self.begun.is_vertical, given_cant=cant)
+        cant = self.begun.given_cant if told["rail"] is self.begun.rail else None
+        return Case(**told, is_vertical=self.begun.is_vertical, given_cant=cant)
 
     def changed(self, attr: str, old: Any, new: Any) -> None:
         """Solve when what has come with this is in too."""

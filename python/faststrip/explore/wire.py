@@ -2,18 +2,21 @@
 
 Bokeh sends a message for each property of a model, and one more for each array, which takes longer
 than to solve the contact. Here everything is collected into one text, and a few lines in the
-browser hand it on to the models there. They tell the server nothing of it.
+browser hand it on to the models there. They tell the server nothing of it. These lines know the
+insides of one version of Bokeh; with any other one changes go the way that it has for them.
 """
 
 from __future__ import annotations
 
 import base64
 import json
-from typing import Any, Dict, List, Protocol
+from typing import Any, Dict, List, Optional, Protocol
 
+import bokeh
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Div, Model
 
+KNOWN = "3.9."  # how the versions begin whose insides HAND_ON knows
 # First what Bokeh does needlessly at each painting, for half of its time: it writes the same style
 # sheets again, asks for colours that a style sheet may set, which those of this page do not, and
 # for the size of letters, which stays.
@@ -77,6 +80,44 @@ class Direct:
         source.data = data
 
 
+class Sender(Out, Protocol):
+    """What the page tells its changes to."""
+
+    text: Div
+    on_ready: Optional[CustomJS]
+
+    def write(self, place: Div, text: str) -> None: ...
+
+    def send(self) -> None: ...
+
+
+def sender() -> Sender:
+    """The fast way, where this version of Bokeh is known, or else Bokeh's own."""
+    return Wire() if bokeh.__version__.startswith(KNOWN) else Plain()
+
+
+class Plain(Direct):
+    """Changes that go straight to the models of a page."""
+
+    backend = "canvas"
+
+    def __init__(self) -> None:
+        self.text = Div(text="", name="wire")
+        self.on_ready: Optional[CustomJS] = None
+        self._frames: Dict[str, str] = {}
+        self._count = 0
+
+    def write(self, place: Div, text: str) -> None:
+        """What stands in an element of class ``put``."""
+        frame = self._frames.setdefault(place.id, str(place.text))
+        place.text = frame.replace("></div>", f">{text}</div>", 1)
+
+    def send(self) -> None:
+        """Let the browser know that all has come."""
+        self._count += 1
+        self.text.text = str(self._count)
+
+
 class Wire:
     """Changes that are collected, and sent together."""
 
@@ -86,7 +127,7 @@ class Wire:
         self.text = Div(text="", name="wire")
         code = CustomJS(args={"wire": self.text}, code=HAND_ON)
         self.text.js_on_change("text", code)
-        self.on_ready = code
+        self.on_ready: Optional[CustomJS] = code
         self._known: Dict[str, Dict[str, Any]] = {}
         self._clear()
 
