@@ -25,6 +25,9 @@
   lookup [--quick]
                 build, install below build/, then make a table of creep forces and say what it
                 is worth: errors, size, time, look-ups a second; in out/lookup/
+  page [-o FILE] [--moves N]
+                build, install below build/, then time faststrip-explore in a browser: from the
+                move of a slider to the picture; table in out/; some minutes
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
                 precision and in all rounding modes; in out/extremes/
   forces        build, then judge, time and draw the tangential methods; in out/forces/
@@ -409,20 +412,28 @@ def page_packages(text):
     test = pathlib.Path("test/embed/test_explore.py")
     if not test.exists() or text and test.stem.removeprefix("test_") not in text:
         return
-    import debian  # which nothing else here needs
-
     try:
         python_packages("explore", "Bokeh and selenium")
     except Trouble as trouble:
         print(f"the page is not tested: {trouble}", flush=True)
         return
+    why = install_browser()
+    if why:
+        print(f"the page is not tested in a browser: {why}", flush=True)
+
+
+def install_browser():
+    """Chromium and what drives it, if they are not there; why they are not in one line, or
+    nothing."""
+    import debian  # which nothing else here needs
+
     for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):
         if not shutil.which(program):
             heading(f"installing {package}")
             why = debian.install(package)
             if why:
-                print(f"the page is not tested in a browser: {why}", flush=True)
-                return
+                return why
+    return ""
 
 
 def python_tests(text):
@@ -602,12 +613,26 @@ def scale(*words):
     measured("tools/scale.py", *words)
 
 
+def page(*words):
+    if not {"-h", "--help"} & set(words):
+        python_packages("explore", "Bokeh and selenium")
+        why = install_browser()
+        if why:
+            raise Trouble(f"no browser to measure in: {why}")
+        install_below(ROOT / "build" / "embed")
+    do(sys.executable, "tools/bench_page.py", "--prefix", "build/embed", *from_start(words))
+
+
+def from_start(words):
+    """Words with the file of the output as seen from where ./run was called."""
+    return [os.path.join(START, word) if before in ("-o", "--output") else word
+            for before, word in zip(("", *words), words)]
+
+
 def measured(tool, *words):
     if not {"-h", "--help"} & set(words):
         build()
-    words = [os.path.join(START, word) if before in ("-o", "--output") else word
-             for before, word in zip(("", *words), words)]
-    do(sys.executable, tool, *words)
+    do(sys.executable, tool, *from_start(words))
 
 
 def lookup(*words):
@@ -712,12 +737,12 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lookup, extremes, forces, scenes, stored, report, install, package, release, docs, embed,
+    lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs, embed,
     tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
          "hostile": None, "stored": None, "report": None, "speed": None, "scale": None,
-         "lookup": None, "release": None}
+         "lookup": None, "page": None, "release": None}
 
 
 def main(command="", *words):

@@ -38,6 +38,7 @@ MANIFEST = "reference/comparisons.csv"
 PROMISES = "reference/promises/promises.csv"
 ESTIMATED = "reference/promises/estimates.csv"
 SPEED = "reference/speed.csv"
+PAINTED = "reference/page.csv"
 SPREAD = ("median", "p95", "worst")
 # What the README tells of it.
 TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
@@ -68,6 +69,8 @@ CONTACTS = {
 }
 ESTIMATES = {"certificate": "strips", "richardson": "strips, from two numbers of them",
              "norm": "kalker_normal"}
+SLIDERS = {"shift": "lateral displacement", "yaw": "yaw", "load": "wheel load",
+           "cksi": "longitudinal creepage", "cphi": "spin", "mu": "friction"}
 INFLUENCE = {
     "published": "published polynomial, degree 6", "refit 6": "fresh fit, degree 6",
     "refit 9": "fresh fit, degree 9", "refit 12": "fresh fit, degree 12",
@@ -363,6 +366,20 @@ def tails(figures):
                    for key in TAILS]])
 
 
+def page_table(figures):
+    """What `./run page` has measured."""
+    steps = ("arrived", "drawn", "painted")
+    given = read_table(str(figures.root / PAINTED),
+                       ("slider", *(f"{step}_ms_{word}" for step in steps
+                                    for word in ("median", "p95"))))
+    numbers = {step: [given.numbers(f"{step}_ms_{word}") for word in ("median", "p95")]
+               for step in steps}
+    return table(["median / 95th percentile, ms", "changes in the browser", "drawn", "seen"],
+                 [[SLIDERS[slider], *(" / ".join(f"{both[k]:.0f}" for both in numbers[step])
+                                      for step in steps)]
+                  for k, slider in enumerate(given.words("slider"))])
+
+
 def statements_table(figures):
     return table(["verdict", "statements"],
                  [[row, figures.measured.word("statements", row, "count")]
@@ -402,6 +419,7 @@ TABLES = {
     "times": times_table,
     "speed": speed_table,
     "tails": tails,
+    "page": page_table,
     "extremes": extremes_table,
     "certificate": certificate_table,
     "promises": promises_table,
