@@ -2,9 +2,9 @@
 !>
 !> Given pressures on a grid of rectangles, friction and creepages, tractions are sought that are
 !> nowhere above mu times the pressure, oppose the slip where they reach it, and have no slip where
-!> they do not (Kalker 1990): in steady rolling (T = 3) or in a single shift (T = 1). How slip is
-!> discretised says `variational_problem`, how the equations are solved `variational_newton`, where
-!> that starts `tangential_nested`.
+!> they do not (Kalker 1990): in steady rolling (T = 3) or in shifts (T = 1), each from what the one
+!> before has left (`tangential_history`). How slip is discretised says `variational_problem`, how
+!> the equations are solved `variational_newton`, where that starts `tangential_nested`.
 !>
 !> In steady rolling bodies store nothing: the friction power is what the forces do on the
 !> creepages, and is taken from these. The sum of tractions on slips lacks more the less slides, for
@@ -22,15 +22,17 @@ module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_bad_material, st_no_contact, &
-                                     st_no_convergence, st_not_finite, st_out_of_range
-    use faststrip_base_material, only: material_t, check_material, combined_shear_modulus
+                                     st_bad_argument, st_no_convergence, st_not_finite
+    use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, state_adhesion, state_slip
+    use faststrip_kalker_tangential_checks, only: check_bodies, check_grid, smallest
+    use faststrip_kalker_tangential_history, only: tang_history_t, size_history, check_history, &
+                                                   place_history
     use faststrip_kalker_tangential_nested, only: nested_t, choice_t, start_from_coarse, &
                                                   release_nested
     use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
@@ -42,19 +44,18 @@ module faststrip_kalker_tangential
 
     public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
     public :: take_tractions, are_alike
+    public :: tang_history_t, keep_history
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
     public :: motion_rolling, motion_shift
 
-    !> Steady rolling, or a shift of bodies that were not displaced before.
+    !> Steady rolling, or a shift: of bodies that were not displaced before, unless there is a
+    !> history.
     !> Given: CONTACT's numbers.
     integer, parameter :: motion_rolling = 3, motion_shift = 1
     !> Most elements in contact unless the options say otherwise.
     !> Tuned [elements]. Origin: capacity.
     integer, parameter :: tang_most_elements = 300000
 
-    ! Sizes beyond which nothing is promised.
-    ! Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
     ! r of `variational_newton` times the own compliance, tried one after the other.
     ! Tuned [1]. Origin: chosen for the number of Newton's steps.
     real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
@@ -68,8 +69,6 @@ module faststrip_kalker_tangential
     ! Tuned [passes]: Passes that take all of the new bound; later ones the mean with the last.
     ! Origin: chosen against elements that swing between adhesion and slip.
     integer, parameter :: free_passes = 6
-    ! Tuned [1]: sides of elements beyond this proportion are refused. Origin: safeguard.
-    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
     !> What the user chooses.
     type :: tang_options_t
@@ -108,11 +107,11 @@ contains
     !> Solve the tangential problem of a grid of pressures.
     !>
     !> Errors: `st_bad_argument` (options, a grid without elements or sides, negative pressures or
-    !> mu), `st_not_finite`, `st_bad_material`, `st_no_contact`, `st_out_of_range` (more elements in
-    !> contact than allowed; sizes beyond all proportion), `st_workspace_too_small` (the field, no
-    !> memory), `st_no_convergence`.
+    !> mu; a history in rolling, or on another lattice), `st_not_finite`, `st_bad_material`,
+    !> `st_no_contact`, `st_out_of_range` (more elements in contact than allowed; sizes beyond all
+    !> proportion), `st_workspace_too_small` (the field, no memory), `st_no_convergence`.
     subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, &
-                          field, friction)
+                          field, friction, history)
         type(tang_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid        !! pressures in MPa; heights do not count
         type(material_t), intent(in) :: material        !! moduli in MPa
@@ -127,6 +126,9 @@ contains
             !! filled when present; needs capacity for the elements in contact
         type(friction_t), intent(in), optional :: friction
             !! how mu falls with slip, in rolling; its other parts do not count here
+        type(tang_history_t), intent(in), optional :: history
+            !! of a shift: the step before, of the same materials; creepage and friction work are
+            !! those since then
 
         type(friction_t) :: law
 
@@ -145,10 +147,16 @@ contains
                             'rolling, not for a shift')
         if (.not. is_error(status)) call check_bodies(material, status)
         if (.not. is_error(status)) call check_grid(grid, status)
+        if (.not. is_error(status) .and. present(history)) then
+            call check_history(history, grid, status)
+            if (.not. is_error(status) .and. options%motion /= motion_shift) &
+                call set_status(status, st_bad_argument, 'a step before is for a shift, not for ' &
+                                // 'steady rolling')
+        end if
         if (is_error(status)) return
         call make_problem(workspace%problem, grid, material, creepage, &
                           options%motion == motion_rolling, options%scheme, options%edges, &
-                          options%most_elements, status)
+                          options%most_elements, status, history)
         if (is_error(status)) return
         if (present(field)) then
             call empty_field(field, workspace%problem%n, status)
@@ -168,6 +176,8 @@ contains
             call slide_freely(workspace%newton, workspace%problem)
             workspace%is_solved = .false.
         else
+            if (present(history) .and. .not. workspace%is_solved) &
+                call start_from_history(workspace, grid, history)
             if (.not. (workspace%is_solved .or. options%sticks_everywhere)) &
                 call start_from_coarse(workspace%nested, workspace%newton, workspace%problem, &
                                        grid, material, creepage, mu, &
@@ -279,12 +289,56 @@ contains
         px = 0.0_wp
         py = 0.0_wp
         do i = 1, workspace%problem%n
-            k = 1 + nint([(workspace%problem%x(i) - grid%x_first)/grid%dx, &
-                          (workspace%problem%y(i) - grid%y_first)/grid%dy])
+            k = element_of(workspace%problem, grid, i)
             px(k(1), k(2)) = workspace%newton%p(1, i)
             py(k(1), k(2)) = workspace%newton%p(2, i)
         end do
     end subroutine take_tractions
+
+    !> Keep pressures and tractions of a solution for the next step.
+    subroutine keep_history(workspace, grid, history)
+        type(tang_workspace_t), intent(in) :: workspace !! with a solution
+        type(contact_grid_t), intent(in) :: grid        !! the places of its elements
+        type(tang_history_t), intent(inout) :: history  !! needs no preparation
+
+        integer :: i, k(2)
+
+        call size_history(history, grid)
+        call take_tractions(workspace, grid, history%px, history%py)
+        do i = 1, workspace%problem%n
+            k = element_of(workspace%problem, grid, i)
+            history%pressure(k(1), k(2)) = workspace%problem%pn(i)
+        end do
+    end subroutine keep_history
+
+    !> Start at the tractions of the step before.
+    pure subroutine start_from_history(workspace, grid, history)
+        type(tang_workspace_t), intent(inout) :: workspace
+        type(contact_grid_t), intent(in) :: grid
+        type(tang_history_t), intent(in) :: history
+
+        integer :: i, k(2)
+
+        if (.not. allocated(history%px)) return
+        do i = 1, workspace%problem%n
+            k = element_of(workspace%problem, grid, i) - place_history(history, grid)
+            workspace%newton%p(:, i) = 0.0_wp
+            if (any(k < 1) .or. any(k > [history%nx, history%ny])) cycle
+            workspace%newton%p(:, i) = [history%px(k(1), k(2)), history%py(k(1), k(2))]
+        end do
+        workspace%is_solved = .true.
+    end subroutine start_from_history
+
+    !> Column and row of an element of the problem.
+    pure function element_of(problem, grid, i) result(k)
+        type(problem_t), intent(in) :: problem
+        type(contact_grid_t), intent(in) :: grid
+        integer, intent(in) :: i
+        integer :: k(2)
+
+        k = 1 + nint([(problem%x(i) - grid%x_first)/grid%dx, &
+                      (problem%y(i) - grid%y_first)/grid%dy])
+    end function element_of
 
     !> Give back what the compiler does not: plans of workspaces in an array.
     subroutine release_tang(workspace)
@@ -317,70 +371,6 @@ contains
             call set_status(status, st_bad_argument, 'no steps or no elements are allowed')
         end if
     end subroutine check_options
-
-    subroutine check_bodies(material, status)
-        type(material_t), intent(in) :: material
-        type(status_t), intent(out) :: status
-
-        real(wp) :: g
-
-        call check_material(material, status)
-        if (is_error(status)) return
-        if (max(material%e_wheel, material%e_rail) > largest .or. &
-            min(material%e_wheel, material%e_rail) < smallest) then
-            call set_status(status, st_out_of_range, "Young's moduli beyond 1e-30 to 1e30 MPa")
-            return
-        end if
-        g = combined_shear_modulus(material)
-        if (g > largest .or. g < smallest) then
-            call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
-        end if
-    end subroutine check_bodies
-
-    subroutine check_grid(grid, status)
-        type(contact_grid_t), intent(in) :: grid
-        type(status_t), intent(out) :: status
-
-        integer :: j
-
-        call clear_status(status)
-        if (.not. allocated(grid%pressure)) then
-            call set_status(status, st_bad_argument, 'a grid without pressures')
-            return
-        else if (min(grid%nx, grid%ny) < 1) then
-            call set_status(status, st_bad_argument, 'a grid without elements')
-            return
-        else if (any(shape(grid%pressure) /= [grid%nx, grid%ny])) then
-            call set_status(status, st_bad_argument, 'pressures of another shape than the grid')
-            return
-        else if (.not. all(ieee_is_finite([grid%dx, grid%dy, grid%x_first, grid%y_first]))) then
-            call set_status(status, st_not_finite, 'a side or a place of the grid is not finite')
-            return
-        else if (min(grid%dx, grid%dy) <= 0.0_wp) then
-            call set_status(status, st_bad_argument, 'elements without sides')
-            return
-        else if (max(grid%dx, grid%dy, abs(grid%x_first), abs(grid%y_first)) > largest .or. &
-                 min(grid%dx, grid%dy) < smallest .or. &
-                 max(grid%dx/grid%dy, grid%dy/grid%dx) > largest_ratio) then
-            call set_status(status, st_out_of_range, 'elements or places beyond all proportion')
-            return
-        end if
-        do j = 1, grid%ny
-            if (.not. all(ieee_is_finite(grid%pressure(:, j)))) then
-                call set_status(status, st_not_finite, 'a pressure is not a finite number')
-                return
-            else if (any(grid%pressure(:, j) < 0.0_wp)) then
-                call set_status(status, st_bad_argument, 'pressures must not be negative, got ' // &
-                                number_text(minval(grid%pressure(:, j))))
-                return
-            end if
-        end do
-        if (maxval(grid%pressure) > largest) then
-            call set_status(status, st_out_of_range, 'a pressure is above 1e30 MPa')
-        else if (maxval(grid%pressure) < smallest) then
-            call set_status(status, st_no_contact, 'no element is in contact')
-        end if
-    end subroutine check_grid
 
     !> Without friction all elements slide, those without rigid slip stick.
     pure subroutine slide_freely(newton, problem)

@@ -29,9 +29,11 @@
 !> `faststrip_influence_rectangle`). With pressures given that is rigid slip: at the nodes the same
 !> differences of u, in a shift u itself.
 !>
-!> **Shift.** s = w + u, the rigid shift and the displacement: symmetric, no nodes, no edges.
+!> **Shift.** s = w + u, the rigid shift and the displacement: symmetric, no nodes, no edges. Of
+!> bodies that were displaced before (`faststrip_kalker_tangential_history`) s = w + u - u'; u', by
+!> tractions and by pressures, is known and counts as rigid slip.
 module faststrip_kalker_tangential_problem
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_no_contact, &
                                      st_out_of_range
@@ -39,11 +41,12 @@ module faststrip_kalker_tangential_problem
     use faststrip_base_creepage, only: creepage_t
     use faststrip_influence_rectangle, only: rectangle_influence_t, rectangle_influence, &
                                              coupling_constant
-    use faststrip_kalker_border, only: lattice_edge, lone_edge
     use faststrip_kalker_convolution, only: convolution_t, reserve_convolution, set_kernel, &
                                             release_convolution, transform_source, collect, even, &
                                             odd
     use faststrip_kalker_grid, only: contact_grid_t, element_x, element_y
+    use faststrip_kalker_tangential_edges, only: treat_edges, edges_sampled, edges_of_norm
+    use faststrip_kalker_tangential_history, only: tang_history_t, enclose_history
     implicit none
     private
 
@@ -53,17 +56,7 @@ module faststrip_kalker_tangential_problem
     !> How slip is made of displacements.
     !> Given: numbers of kinds.
     integer, parameter :: scheme_second_order = 2, scheme_first_order = 1
-    !> What the pressures are: values at the middles of the elements, or NORM's on this grid.
-    !> Given: numbers of kinds.
-    integer, parameter :: edges_sampled = 1, edges_of_norm = 2
 
-    ! Given: fitted, the plane contact of cylinders.
-    real(wp), parameter :: edge_strength = 2.7046_wp
-    ! Given: fitted, the plane contact of cylinders.
-    real(wp), parameter :: edge_reach = 0.174_wp
-    ! Smallest position of an edge, just short of where the element carries nothing.
-    ! Given: fitted, see lattice_edge.
-    real(wp), parameter :: nearest_edge = -0.17_wp
     ! CONTACT's rigid slip is that of dx/6 ahead of the middle.
     ! Given: as CONTACT.
     real(wp), parameter :: contact_lead = 1.0_wp/6.0_wp
@@ -82,7 +75,7 @@ module faststrip_kalker_tangential_problem
         integer :: n = 0                   !! elements that carry traction
         integer :: n_rows = 0              !! rows that have some
         integer :: nx = 0                  !! columns of the convolution, one ahead of the contact
-        integer :: ny = 0                  !! rows of the convolution
+        integer :: ny = 0                  !! rows of the convolution; both hold the step before
         real(wp) :: dx = 0.0_wp            !! sides, mm
         real(wp) :: dy = 0.0_wp
         logical :: is_rolling = .true.     !! or a shift?
@@ -102,6 +95,7 @@ module faststrip_kalker_tangential_problem
             !! node, 1/MPa, shape (2, -nx:nx)
         type(convolution_t), private :: convolution
         real(wp), allocatable, private :: field_x(:, :), field_y(:, :) ! tractions, then u
+        integer, private :: before(2) = 0  ! element of the convolution ahead of the history's
         ! What the kernels were made for.
         real(wp), private :: made_for(5) = 0.0_wp
         integer, private :: made_size(2) = 0
@@ -111,7 +105,7 @@ contains
 
     !> Set a problem up: everything that does not change in the iteration.
     subroutine make_problem(problem, grid, material, creepage, is_rolling, scheme, edges, &
-                            most_elements, status)
+                            most_elements, status, history)
         type(problem_t), intent(inout) :: problem    !! ready; arrays of its last use serve again
         type(contact_grid_t), intent(in) :: grid     !! with finite pressures >= 0
         type(material_t), intent(in) :: material     !! checked, MPa
@@ -122,8 +116,9 @@ contains
         integer, intent(in) :: most_elements         !! allowed
         type(status_t), intent(out) :: status        !! `st_no_contact`, `st_out_of_range`,
                                                      !! `st_workspace_too_small`
-        integer :: first(2), last(2), i, j, n
-        real(wp) :: floor, lead
+        type(tang_history_t), intent(in), optional :: history !! checked; for a shift
+        integer :: first(2), last(2), corner(2), rim(2), i, j, n
+        real(wp) :: floor
 
         call clear_status(status)
         floor = least_pressure*maxval(grid%pressure)
@@ -145,19 +140,44 @@ contains
                 last = max(last, [i, j])
             end do
         end do
+        corner = first
+        rim = last
+        if (present(history)) call enclose_history(history, grid, corner, rim, problem%before)
         problem%is_rolling = is_rolling
         problem%is_second_order = is_rolling .and. scheme == scheme_second_order
         problem%dx = grid%dx
         problem%dy = grid%dy
-        problem%nx = last(1) - first(1) + 2
-        problem%ny = last(2) - first(2) + 1
+        problem%nx = rim(1) - corner(1) + 2
+        problem%ny = rim(2) - corner(2) + 1
         problem%n = n
         call reserve_arrays(problem)
         call make_kernels(problem, material, status)
         if (is_error(status)) return
+        call list_elements(problem, grid, creepage, floor, first, last, corner)
+        problem%pressed(:, :n) = 0.0_wp
+        if (.not. are_alike(material)) call add_pressures(problem, history)
+        if (present(history)) call take_off_tractions(problem, history)
+        problem%edge(:, :n) = 0.0_wp
+        if (problem%is_second_order) &
+            call treat_edges(problem%pn(:n), problem%is_leading(:n), material, edges, &
+                             problem%edge(:, :n))
+    end subroutine make_problem
+
+    !> The elements in contact and their rigid slip.
+    pure subroutine list_elements(problem, grid, creepage, floor, first, last, corner)
+        type(problem_t), intent(inout) :: problem
+        type(contact_grid_t), intent(in) :: grid
+        type(creepage_t), intent(in) :: creepage
+        real(wp), intent(in) :: floor             ! pressure in contact is above
+        integer, intent(in) :: first(2), last(2)  ! of the grid's elements in contact
+        integer, intent(in) :: corner(2)          ! of those in the convolution
+
+        integer :: i, j, n
+        real(wp) :: lead
 
         lead = 0.0_wp
-        if (is_rolling) lead = merge(0.5_wp, contact_lead, problem%is_second_order)*grid%dx
+        if (problem%is_rolling) &
+            lead = merge(0.5_wp, contact_lead, problem%is_second_order)*grid%dx
         n = 0
         problem%n_rows = 0
         do j = first(2), last(2)
@@ -167,8 +187,8 @@ contains
             do i = last(1), first(1), -1
                 if (grid%pressure(i, j) <= floor) cycle
                 n = n + 1
-                problem%column(n) = i - first(1) + 1
-                problem%row(n) = j - first(2) + 1
+                problem%column(n) = i - corner(1) + 1
+                problem%row(n) = j - corner(2) + 1
                 problem%x(n) = element_x(grid, i)
                 problem%y(n) = element_y(grid, j)
                 problem%pn(n) = grid%pressure(i, j)
@@ -179,11 +199,7 @@ contains
             end do
         end do
         problem%row_start(problem%n_rows + 1) = n + 1
-        problem%pressed(:, :n) = 0.0_wp
-        if (.not. are_alike(material)) call add_pressures(problem)
-        problem%edge(:, :n) = 0.0_wp
-        if (problem%is_second_order) call treat_edges(problem, material, edges)
-    end subroutine make_problem
+    end subroutine list_elements
 
     !> Give plans and kernels back.
     subroutine release_problem(problem)
@@ -288,9 +304,10 @@ contains
         are_alike = abs(coupling_constant(material)) <= no_coupling
     end function are_alike
 
-    !> Add to the rigid slip what the pressures of unlike materials do.
-    subroutine add_pressures(problem)
+    !> Add to the rigid slip what the pressures of unlike materials do, less what they did before.
+    subroutine add_pressures(problem, history)
         type(problem_t), intent(inout) :: problem ! with elements and kernels
+        type(tang_history_t), intent(in), optional :: history
 
         integer :: i
 
@@ -300,6 +317,10 @@ contains
             do i = 1, problem%n
                 fx(c(i), r(i)) = problem%pn(i)
             end do
+            if (present(history)) then
+                if (allocated(history%pressure)) &
+                    call take_off(history%pressure, problem%before, fx)
+            end if
             call transform_source(problem%convolution, 1, fx)
             ! Tractions move points down as pressures move them ahead, with the other sign.
             call collect(problem%convolution, [kernel_zx], [1], [-1.0_wp], fx)
@@ -314,56 +335,55 @@ contains
                                        + problem%pressed(:, :problem%n)
     end subroutine add_pressures
 
-    !> The compliances of the leading elements.
-    pure subroutine treat_edges(problem, material, edges)
-        type(problem_t), intent(inout) :: problem
-        type(material_t), intent(in) :: material
-        integer, intent(in) :: edges
+    !> Take off the rigid slip what the tractions of the step before do.
+    subroutine take_off_tractions(problem, history)
+        type(problem_t), intent(inout) :: problem ! with elements and kernels
+        type(tang_history_t), intent(in) :: history
 
-        real(wp) :: position, c, factor
-        integer :: i, behind
+        integer :: i
 
-        factor = 2.0_wp/(pi*combined_shear_modulus(material))
-        do i = 1, problem%n
-            if (.not. problem%is_leading(i)) cycle
-            ! Elements behind the leading one without a gap.
-            do behind = 0, 1
-                if (i + behind >= problem%n) exit
-                if (problem%is_leading(i + behind + 1)) exit
+        if (.not. allocated(history%px)) return
+        associate (fx => problem%field_x, fy => problem%field_y, c => problem%column, &
+                   r => problem%row)
+            fx = 0.0_wp
+            fy = 0.0_wp
+            call take_off(history%px, problem%before, fx)
+            call take_off(history%py, problem%before, fy)
+            call move_by_tractions(problem)
+            do i = 1, problem%n
+                problem%rigid(:, i) = problem%rigid(:, i) + [fx(c(i), r(i)), fy(c(i), r(i))]
             end do
-            position = edge_position(problem%pn(i:i + behind), edges)
-            c = edge_strength*(1.0_wp/(max(position, nearest_edge) + edge_reach) - 1.0_wp)
-            ! A negative one might make the element's own compliance negative at oblique edges.
-            problem%edge(:, i) = max(c, 0.0_wp)*factor &
-                                 *[1.0_wp - combined_poisson_ratio(material), 1.0_wp]
+        end associate
+    end subroutine take_off_tractions
+
+    !> Take the loaded elements of the step before off a field.
+    pure subroutine take_off(values, before, field)
+        real(wp), intent(in) :: values(:, :)
+        integer, intent(in) :: before(2)
+        real(wp), intent(inout) :: field(:, :)
+
+        integer :: i, j
+
+        do j = max(1, 1 - before(2)), min(size(values, 2), size(field, 2) - before(2))
+            do i = max(1, 1 - before(1)), min(size(values, 1), size(field, 1) - before(1))
+                associate (f => field(i + before(1), j + before(2)))
+                    f = f - values(i, j)
+                end associate
+            end do
         end do
-    end subroutine treat_edges
+    end subroutine take_off
 
-    !> Way from the first middle to the edge over dx, from the pressures of the first elements.
-    pure real(wp) function edge_position(p, edges) result(position)
-        real(wp), intent(in) :: p(:)  !! up to three, leading one first
-        integer, intent(in) :: edges
+    !> Displacement differences by tractions, in their fields.
+    subroutine move_by_tractions(problem)
+        type(problem_t), intent(inout) :: problem
 
-        real(wp) :: slope, bend, root, q(3)
-
-        if (edges == edges_of_norm) then
-            position = lone_edge
-            if (size(p) > 1) position = lattice_edge(p(1), p(2))
-            return
-        end if
-        position = 0.5_wp
-        if (size(p) < 2) return
-        if (p(2) <= p(1)) return
-        q(:2) = (p(:2)/p(2))**2
-        position = min(q(1)/(q(2) - q(1)), 1.0_wp)
-        if (size(p) < 3) return
-        q(3) = (p(3)/p(2))**2
-        bend = 0.5_wp*(q(3) - 2.0_wp*q(2) + q(1))
-        slope = q(2) - q(1) - bend
-        root = slope**2 - 4.0_wp*bend*q(1)
-        if (slope <= 0.0_wp .or. root <= 0.0_wp) return
-        position = min(2.0_wp*q(1)/(slope + sqrt(root)), 1.0_wp)
-    end function edge_position
+        associate (fx => problem%field_x, fy => problem%field_y)
+            call transform_source(problem%convolution, 1, fx)
+            call transform_source(problem%convolution, 2, fy)
+            call collect(problem%convolution, [kernel_xx, kernel_xy], [1, 2], [1.0_wp, 1.0_wp], fx)
+            call collect(problem%convolution, [kernel_xy, kernel_yy], [1, 2], [1.0_wp, 1.0_wp], fy)
+        end associate
+    end subroutine move_by_tractions
 
     !> Elastic part of the slip at the nodes by tractions on the elements.
     subroutine apply_influence(problem, p, slip)
@@ -381,10 +401,7 @@ contains
                 fx(c(i), r(i)) = p(1, i)
                 fy(c(i), r(i)) = p(2, i)
             end do
-            call transform_source(problem%convolution, 1, fx)
-            call transform_source(problem%convolution, 2, fy)
-            call collect(problem%convolution, [kernel_xx, kernel_xy], [1, 2], [1.0_wp, 1.0_wp], fx)
-            call collect(problem%convolution, [kernel_xy, kernel_yy], [1, 2], [1.0_wp, 1.0_wp], fy)
+            call move_by_tractions(problem)
             if (problem%is_rolling) then
                 do i = 1, problem%n
                     slip(1, i) = (fx(c(i), r(i)) - fx(c(i) + 1, r(i)))/problem%dx

@@ -24,7 +24,7 @@ module faststrip_kalker_unlike
     use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, norm_solve_heights, &
                                        release_norm
     use faststrip_kalker_tangential, only: tang_workspace_t, tang_options_t, tang_solve, &
-                                           release_tang, take_tractions
+                                           release_tang, take_tractions, tang_history_t
     implicit none
     private
 
@@ -75,7 +75,7 @@ contains
     !> Errors: those of `tang_solve` and `norm_solve_heights`; `st_out_of_range` also where
     !> tractions widen the contact to the rim of the grid; `st_no_convergence`: the pressures do
     !> not stay.
-    subroutine solve_unlike(workspace, grid, problem, normal, tangential, status, field)
+    subroutine solve_unlike(workspace, grid, problem, normal, tangential, status, field, history)
         type(unlike_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid             !! heights, and NORM's pressures
         type(unlike_problem_t), intent(in) :: problem        !! materials, friction, ...
@@ -83,19 +83,22 @@ contains
         type(tangential_result_t), intent(out) :: tangential !! forces
         type(status_t), intent(out) :: status                !! how it ended
         type(tangential_field_t), intent(inout), optional :: field !! as of `tang_solve`
+        type(tang_history_t), intent(in), optional :: history      !! as of `tang_solve`
 
         type(norm_options_t) :: options
+        type(tang_options_t) :: tang_options
         real(wp) :: change
 
         options%warm_start = .true.
+        tang_options = problem%options
         workspace%norm%grid = grid
         workspace%height = grid%height
         change = huge(change)
         workspace%turns = 0
         do
             call tang_solve(workspace%tang, workspace%norm%grid, problem%material, problem%mu, &
-                            problem%creepage, problem%options, tangential, status, field, &
-                            problem%friction)
+                            problem%creepage, tang_options, tangential, status, field, &
+                            problem%friction, history)
             if (is_error(status) .or. change <= settled) return
             if (workspace%turns >= most_turns) then
                 call set_status(status, st_no_convergence, 'pressures and tractions of unlike ' // &
@@ -104,6 +107,8 @@ contains
                 return
             end if
             workspace%turns = workspace%turns + 1
+            ! The tractions of the last turn are nearer than those of the step before.
+            if (present(history)) tang_options%warm_start = .true.
             call lift(workspace, grid, problem%material, status)
             if (is_error(status)) return
             workspace%px = workspace%norm%grid%pressure
