@@ -128,6 +128,18 @@ class Behind(ExploreTest):
         with self.assertRaisesRegex(ImportError, "no program faststrip: .*FASTSTRIP_PROGRAM"):
             exporting.Program().reference(exporting.case_files(outcome))
 
+    def test_marks_do_not_cover_each_other(self):
+        figures = self.part("figures")
+        angle = np.linspace(0.0, np.pi, 500)
+        x, y = np.cos(angle), np.sin(angle)
+        few = figures.marked(x, y)
+        self.assertEqual(few[0], 0)
+        apart = np.hypot(0.5 * figures.WIDTH * np.diff(x[few]),
+                         0.5 * figures.HEIGHT * np.diff(y[few]))
+        self.assertGreaterEqual(apart.min(), figures.APART)
+        self.assertLess(apart.max(), 1.3 * figures.APART)
+        self.assertEqual(figures.marked(x[:0], y[:0]), [])
+
     def test_only_what_has_changed_is_solved(self):
         case = self.part("case").Case()
         solver = self.part("solving").Solver()

@@ -7,6 +7,7 @@ import math
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
+import numpy.typing as npt
 from bokeh.models import (
     ColorBar,
     ColumnDataSource,
@@ -29,15 +30,18 @@ from .look import AXIS, BODY, FONT, GRID, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIP
 from .solving import Curve, Outcome
 from .wire import Out
 
+Array = npt.NDArray[np.float64]
 WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
 BORDERS = {"min_border_left": 52, "min_border_right": 8, "min_border_top": 4,
            "min_border_bottom": 6}
 # Around a patch, to its sides, and above, where words stand; part of the width below which it is
 # narrow, and how much of the width is left to it then.
 BESIDE, ABOVE, NARROW, STRETCHED = 1.08, 1.3, 0.3, 2.0
-LENGTHS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 30.0, 50.0)
+LENGTHS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 25.0, 30.0, 40.0,
+           50.0)
 PRESSURES = (200.0, 500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 10000.0, 20000.0)
 ARROW = 22.0  # pixels: the longest arrow
+APART = 7.0  # pixels: marks of NORM
 LATERAL = "y to the field side, mm"
 ROLLING = "x ahead, mm"
 TIMES = (("gap", "gap of the profiles", GREY), ("strips", STRIPS.label, STRIPS.colour),
@@ -200,17 +204,20 @@ class Patch(Picture):
         strips, hertz = outcome.strips("strips"), outcome.result("hertz")
         self.put("strips", None if strips is None else fields.bars(strips))
         self.put("ellipse", None if hertz is None else fields.ellipse(hertz)[0])
+        shown = window(outcome)
         rows = outcome.rows
-        self.put("norm", None if rows is None else {
-            "y": np.concatenate([rows.y, rows.y]),
-            "x": np.concatenate([rows.x_first, rows.x_last])})
+        if rows is None:
+            self.put("norm", None)
+        else:
+            few = marked(rows.y / shown.half_y, rows.x_last / shown.half_x)
+            self.put("norm", {"y": np.concatenate([rows.y[few], rows.y[few]]),
+                              "x": np.concatenate([rows.x_first[few], rows.x_last[few]])})
         result = outcome.result("strips")
         high = 1000.0 if result is None else first_above(PRESSURES, result.pmax)
         if self.high != high:
             self.high = high
             self.out.set(self.mapper, high=high)
             self.out.set(self.ticks, ticks=[0.0, 0.5 * high, high])
-        shown = window(outcome)
         self.set_range(self.x_range, shown.middle - shown.half_y, shown.middle + shown.half_y)
         self.set_range(self.y_range, -shown.half_x, shown.half_x)
         self.tell("y is stretched" if shown.is_stretched else "")
@@ -245,6 +252,17 @@ def window(outcome: Outcome) -> Window:
     return Window(middle, half, half * HEIGHT / WIDTH)
 
 
+def marked(across: Array, up: Array) -> List[int]:
+    """Points of a curve that get a mark, so that marks do not cover each other; both over half of
+    what a picture shows."""
+    found: List[int] = []
+    x, y = 0.5 * WIDTH * across, 0.5 * HEIGHT * up
+    for k in range(len(x)):
+        if not found or math.hypot(x[k] - x[found[-1]], y[k] - y[found[-1]]) >= APART:
+            found.append(k)
+    return found
+
+
 class Pressure(Picture):
     """Pressure across the patch, at x = 0."""
 
@@ -263,13 +281,18 @@ class Pressure(Picture):
         highest = 0.0
         self.put("strips", None if strips is None else fields.pressure_line(strips))
         self.put("hertz", None if hertz is None else fields.ellipse(hertz)[1])
-        rows = outcome.rows
-        self.put("norm", None if rows is None else {"y": rows.y, "p": rows.pressure})
         for answer in outcome.answers.values():
             if answer.result is not None:
                 highest = max(highest, answer.result.pmax)
+        top = first_above(PRESSURES, 1.05 * highest)
+        rows = outcome.rows
+        if rows is None:
+            self.put("norm", None)
+        else:
+            few = marked(rows.y / window(outcome).half_y, 2.0 * rows.pressure / top)
+            self.put("norm", {"y": rows.y[few], "p": rows.pressure[few]})
         if highest > 0.0:
-            self.set_range(self.y_range, 0.0, first_above(PRESSURES, 1.05 * highest))
+            self.set_range(self.y_range, 0.0, top)
 
 
 class Tractions(Picture):

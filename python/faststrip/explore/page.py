@@ -405,8 +405,11 @@ def percent(part: float) -> str:
 
 
 def sample(look: Look) -> str:
-    """A piece of the line of a method."""
-    dashes = {"solid": "", "dashed": "6 3", "dotted": "2 2"}[look.dash]
+    """A piece of the line of a method, or its mark."""
+    if look is NORM:
+        return (f'<svg width="10" height="8"><circle cx="5" cy="4" r="3" fill="white" '
+                f'stroke="{look.colour}" stroke-width="1.4"/></svg>')
+    dashes = {"solid": "", "dashed": "6 3"}[look.dash]
     return (f'<svg width="24" height="8"><line x1="0" x2="24" y1="4" y2="4" stroke="{look.colour}"'
             f' stroke-width="{look.width:g}" stroke-dasharray="{dashes}"/></svg>')
 

@@ -17,25 +17,90 @@ import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Div, Model
 
 KNOWN = "3.9."  # how the versions begin whose insides HAND_ON knows
-# First what Bokeh does needlessly at each painting, for half of its time: it writes the same style
-# sheets again, asks for colours that a style sheet may set, which those of this page do not, and
-# for the size of letters, which stays.
-# `text`: models and their properties; sources and their columns, places in `numbers` or lists;
-# elements of pages and what stands in them.
-HAND_ON = """
+# What Bokeh does needlessly at each painting, for more than half of its time. It writes the same
+# style sheets again; it asks for colours that a style sheet may set, which those of this page do
+# not, and for the size of letters, which stays; it takes the columns of a source for five looks of
+# a glyph, of which the page has one, as nothing is selected; it places empty elements where it has
+# drawn, and asks where the legend stands; and it draws axes letter by letter, which are the same
+# until a range is another one: these are kept as images.
+SPARE = """
 if (!Bokeh.is_spared) {
   Bokeh.is_spared = true
-  const sheet = Bokeh.require('core/dom').InlineStyleSheet?.prototype
-  if (sheet?._update) sheet._update = function(css) {
-    if (this.el.textContent !== css) this.el.textContent = css
+  const sheet = Bokeh.require('core/dom').InlineStyleSheet.prototype
+  sheet._update = function(css) {
+    if (this.written !== css) this.el.textContent = this.written = css
   }
-  const visual = Bokeh.require('core/visuals/visual').VisualProperties?.prototype
-  if (visual?._get_css_value) visual._get_css_value = () => ''
-  const plot = Bokeh.require('models/plots/plot_canvas').PlotView?.prototype
-  const size = plot && Object.getOwnPropertyDescriptor(plot, 'base_font_size')
-  if (size?.get) Object.defineProperty(plot, 'base_font_size', {
-    get() { return this.font_size_found ??= size.get.call(this) }})
+  const visual = Bokeh.require('core/visuals/visual').VisualProperties.prototype
+  visual._get_css_value = () => ''
+  const replace = (prototype, name, get) => {
+    const old = Object.getOwnPropertyDescriptor(prototype, name).get
+    Object.defineProperty(prototype, name, {get() { return get(this, old) }})
+  }
+  const plot = Bokeh.require('models/plots/plot_canvas').PlotView.prototype
+  replace(plot, 'base_font_size', (view, old) => view.size_found ??= old.call(view))
+  const glyphs = Bokeh.require('models/renderers/glyph_renderer').GlyphRendererView.prototype
+  glyphs.map_data = function() { this.glyph.map_data() }
+  glyphs.set_visuals = async function() {
+    this.glyph.set_visuals(this.model.data_source, this.all_indices)
+    this.glyph.after_visuals()
+    await this.glyph.after_lazy_visuals()
+  }
+  glyphs.set_data = async function(indices) {
+    const {view, data_source} = this.model
+    this.all_indices = view.indices
+    await this.glyph.set_data(data_source, this.all_indices, indices)
+    await this.set_visuals()
+    this._update_masked_indices()
+    this.plot_view.invalidate_dataranges = true
+  }
+  const renderer = Bokeh.require('models/renderers/renderer').RendererView.prototype
+  renderer.update_position = () => {}
+  const legend = Bokeh.require('models/annotations/legend').LegendView.prototype
+  const place = legend.update_position
+  legend.update_position = function() {
+    const {x, y, width, height} = this.plot_view.frame.bbox
+    const key = [x, y, width, height].join()
+    if (this.placed_in === key && this._bbox.width > 0) return
+    this.placed_in = key
+    place.call(this)
+  }
+  const axis = Bokeh.require('models/axes/axis').AxisView.prototype
+  const shown = ({ranges, model}) =>
+    [...ranges.flatMap(({start, end}) => [start, end]), model.axis_label].join()
+  replace(axis, 'extents', (view, old) => {
+    const key = shown(view)
+    if (view.extents_of !== key) {
+      view.extents_found = old.call(view)
+      view.extents_of = key
+    }
+    return view.extents_found
+  })
+  const paint = axis._paint
+  axis._paint = function(ctx) {
+    const {canvas, layer} = ctx
+    if (layer?.backend !== 'canvas') { paint.call(this, ctx); return }
+    const {x, y, width, height} = this.bbox
+    const key = [shown(this), x, y, width, height, canvas.width, canvas.height].join()
+    if (this.image_of !== key) {
+      const image = this.image ??= window.document.createElement('canvas')
+      image.width = canvas.width
+      image.height = canvas.height
+      const own = image.getContext('2d')
+      own.layer = layer
+      own.setTransform(ctx.getTransform())
+      paint.call(this, own)
+      this.image_of = key
+    }
+    ctx.save()
+    ctx.resetTransform()
+    ctx.drawImage(this.image, 0, 0)
+    ctx.restore()
+  }
 }
+"""
+# `text`: models and their properties; sources and their columns, places in `numbers` or lists;
+# elements of pages and what stands in them.
+HAND_ON = SPARE + """
 // Bokeh gives documents that are made for export the callbacks of the page.
 if (wire.document == null) return
 const {set, data, html, numbers} = JSON.parse(wire.text)
