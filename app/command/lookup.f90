@@ -6,13 +6,14 @@ module faststrip_command_lookup
     use faststrip_command_lookup_join, only: run_lookup_join
     use faststrip_command_lookup_make, only: run_lookup_make
     use faststrip_command_lookup_test, only: run_lookup_test
+    use faststrip_command_lookup_wheel_make, only: run_lookup_wheel
     use faststrip_command_options, only: command_argument
     implicit none
     private
 
     public :: run_lookup
 
-    character(len=*), parameter :: actions = 'make, join, info, test or eval'
+    character(len=*), parameter :: actions = 'make, wheel, join, info, test or eval'
 
 contains
 
@@ -24,6 +25,7 @@ contains
         if (command_argument_count() > 1) action = command_argument(2)
         select case (action)
         case ('make'); call run_lookup_make()
+        case ('wheel'); call run_lookup_wheel()
         case ('join'); call run_lookup_join()
         case ('info'); call run_lookup_info()
         case ('test'); call run_lookup_test()
@@ -38,14 +40,16 @@ contains
     subroutine print_help()
         call say('usage: faststrip lookup ACTION [arguments] [options]')
         call say('')
-        call say('Tables of creep forces on Hertz ellipses, over a/b and three normalised')
-        call say('creepages, for vehicle codes that look forces up: see docs/embedding.md.')
+        call say('Tables for vehicle codes that look forces up: creep forces on Hertz ellipses,')
+        call say('over a/b and three normalised creepages; contacts of a wheel on a rail and their')
+        call say('creep forces, over displacement, yaw, load, creepages. See docs/embedding.md.')
         call say('')
-        call say('  make -o TABLE.fslt      solve the nodes of a table and judge it')
-        call say('  join PART.fslt...       a table from parts that several processes made')
-        call say('  info TABLE.fslt         what a table holds, and its errors')
-        call say('  test TABLE.fslt         errors on fresh contacts, and look-ups per second')
-        call say('  eval TABLE.fslt CSV     forces of the states of a CSV file')
+        call say('  make -o TABLE.fslt            a table of Hertz ellipses, and its errors')
+        call say('  wheel CASE.nml -o TABLE.fslt  a table of a wheel on a rail, and its errors')
+        call say('  join PART.fslt...             a table from parts that several processes made')
+        call say('  info TABLE.fslt               what a table holds, and its errors')
+        call say('  test TABLE.fslt               errors on fresh states, and look-ups per second')
+        call say('  eval TABLE.fslt CSV           forces of the states of a CSV file')
         call say('')
         call say('options:')
         call say('  --help                            this text')

@@ -1,15 +1,15 @@
-!> Forces on a Hertz ellipse solved directly, for lookup tables and for judging them.
+!> Forces on a Hertz ellipse, or on strips, solved directly, for lookup tables and for judging them.
 module faststrip_command_lookup_direct
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, number_text, &
-                                     st_no_convergence
+                                     st_no_convergence, st_bad_argument
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_sampled
     use faststrip_kalker_tangential_estimate, only: estimate_tang
-    use faststrip_kalker_tangential_pressures, only: sample_ellipse
+    use faststrip_kalker_tangential_pressures, only: sample_ellipse, sample_strips
     use faststrip_lookup_faces, only: n_forces
     use faststrip_lookup_hertz, only: n_lookup_state
     use faststrip_normal_certificate, only: certificate_t
@@ -23,7 +23,8 @@ module faststrip_command_lookup_direct
     implicit none
     private
 
-    public :: direct_choice_t, direct_t, make_workers, release_workers, solve_direct, note_failure
+    public :: direct_choice_t, direct_t, make_workers, release_workers, note_failure
+    public :: solve_direct, solve_strips
     public :: direct_methods, direct_faststrip, direct_fastsim, direct_tang, direct_auto
 
     !> Methods, by their numbers.
@@ -127,22 +128,49 @@ contains
                 call fastsim_solve(hertz, material, state(4), creepage, choice%points, &
                                    choice%strips, result, status)
             case (direct_tang)
-                call solve_by_tang(direct, hertz, material, state(4), creepage, choice%across, &
-                                   result, status)
+                call solve_by_tang(direct, material, state(4), creepage, choice%across, result, &
+                                   status, hertz)
             case default
-                call solve_by_strips(direct, hertz, material, state(4), creepage, result, is_good, &
-                                     status)
+                call hertz_strips(hertz, choice%strips, direct%strips, status)
+                if (.not. is_error(status)) &
+                    call solve_by_strips(direct, material, state(4), creepage, result, is_good, &
+                                         status)
                 if (.not. is_error(status) .and. choice%method == direct_auto .and. .not. is_good) &
-                    call refine_tang(direct, hertz, material, state(4), creepage, result, status)
+                    call refine_tang(direct, material, state(4), creepage, result, status, hertz)
             end select
         end associate
         forces = [result%fx, result%fy, result%mz]
     end subroutine solve_direct
 
+    !> Forces on the rail of the strips in `direct%strips`; not by FASTSIM, which is for ellipses.
+    subroutine solve_strips(direct, material, mu, creepage, forces, status)
+        type(direct_t), intent(inout) :: direct     !! made; its strips are a normal solution
+        type(material_t), intent(in) :: material    !! MPa
+        real(wp), intent(in) :: mu                  !! friction, above 0
+        type(creepage_t), intent(in) :: creepage    !! about the reference point; -, -, rad/mm
+        real(wp), intent(out) :: forces(n_forces)   !! Fx, Fy, N; Mz, N mm
+        type(status_t), intent(out) :: status       !! of the method; `st_bad_argument`: FASTSIM
+
+        type(tangential_result_t) :: result
+        logical :: is_good
+
+        forces = 0.0_wp
+        select case (direct%choice%method)
+        case (direct_fastsim)
+            call set_status(status, st_bad_argument, 'fastsim is for ellipses only')
+        case (direct_tang)
+            call solve_by_tang(direct, material, mu, creepage, direct%choice%across, result, status)
+        case default
+            call solve_by_strips(direct, material, mu, creepage, result, is_good, status)
+            if (.not. is_error(status) .and. direct%choice%method == direct_auto .and. &
+                .not. is_good) call refine_tang(direct, material, mu, creepage, result, status)
+        end select
+        if (.not. is_error(status)) forces = [result%fx, result%fy, result%mz]
+    end subroutine solve_strips
+
     !> By FASTSTRIP; is its error, as estimated, within the tolerance?
-    subroutine solve_by_strips(direct, hertz, material, mu, creepage, result, is_good, status)
-        type(direct_t), intent(inout) :: direct
-        type(hertz_t), intent(in) :: hertz
+    subroutine solve_by_strips(direct, material, mu, creepage, result, is_good, status)
+        type(direct_t), intent(inout) :: direct ! with strips
         type(material_t), intent(in) :: material
         real(wp), intent(in) :: mu
         type(creepage_t), intent(in) :: creepage
@@ -153,10 +181,8 @@ contains
         type(force_errors_t) :: errors
 
         is_good = .true.
-        call hertz_strips(hertz, direct%choice%strips, direct%strips, status)
-        if (.not. is_error(status)) &
-            call faststrip_tangential_solve(direct%strips, material, mu, creepage, &
-                                            direct%choice%points, result, status)
+        call faststrip_tangential_solve(direct%strips, material, mu, creepage, &
+                                        direct%choice%points, result, status)
         if (is_error(status) .or. direct%choice%method /= direct_auto) return
         call estimate_force_errors(direct%strips, material, mu, creepage, errors_of_fitted, &
                                    direct%choice%points, certificate_t(), errors, status)
@@ -164,24 +190,24 @@ contains
     end subroutine solve_by_strips
 
     !> By TANG with more and more elements, until its error, as estimated, is within the tolerance.
-    subroutine refine_tang(direct, hertz, material, mu, creepage, result, status)
+    subroutine refine_tang(direct, material, mu, creepage, result, status, hertz)
         type(direct_t), intent(inout) :: direct
-        type(hertz_t), intent(in) :: hertz
         type(material_t), intent(in) :: material
         real(wp), intent(in) :: mu
         type(creepage_t), intent(in) :: creepage
         type(tangential_result_t), intent(out) :: result
         type(status_t), intent(out) :: status
+        type(hertz_t), intent(in), optional :: hertz ! else on the strips
 
         type(tangential_result_t) :: coarse
         type(force_errors_t) :: errors
         integer :: across
 
         across = max(direct%choice%across, 8)
-        call solve_by_tang(direct, hertz, material, mu, creepage, across/2, coarse, status)
+        call solve_by_tang(direct, material, mu, creepage, across/2, coarse, status, hertz)
         do
             if (is_error(status)) return
-            call solve_by_tang(direct, hertz, material, mu, creepage, across, result, status)
+            call solve_by_tang(direct, material, mu, creepage, across, result, status, hertz)
             if (is_error(status)) return
             errors = estimate_tang(direct%grid, mu, result, coarse, spread(0.0_wp, 1, 3))
             if (max(errors%fx, errors%fy, errors%mz) <= direct%choice%tolerance) return
@@ -194,21 +220,29 @@ contains
                         number_text(max(errors%fx, errors%fy, errors%mz)))
     end subroutine refine_tang
 
-    subroutine solve_by_tang(direct, hertz, material, mu, creepage, across, result, status)
+    subroutine solve_by_tang(direct, material, mu, creepage, across, result, status, hertz)
         type(direct_t), intent(inout) :: direct
-        type(hertz_t), intent(in) :: hertz
         type(material_t), intent(in) :: material
         real(wp), intent(in) :: mu
         type(creepage_t), intent(in) :: creepage
         integer, intent(in) :: across
         type(tangential_result_t), intent(out) :: result
         type(status_t), intent(out) :: status
+        type(hertz_t), intent(in), optional :: hertz ! else on the strips
 
         type(tang_options_t) :: options
 
         options%edges = edges_sampled
-        call sample_ellipse(hertz%a, hertz%b, 0.0_wp, hertz%load, 2.0_wp*hertz%a/across, &
-                            2.0_wp*hertz%b/across, 4*across**2, direct%grid, status)
+        if (present(hertz)) then
+            call sample_ellipse(hertz%a, hertz%b, 0.0_wp, hertz%load, 2.0_wp*hertz%a/across, &
+                                2.0_wp*hertz%b/across, 4*across**2, direct%grid, status)
+        else
+            associate (strips => direct%strips)
+                call sample_strips(strips, 2.0_wp*maxval(strips%half_length(:strips%n))/across, &
+                                   (strips%y_right(strips%n) - strips%y_left(1))/across, &
+                                   4*across**2, direct%grid, status)
+            end associate
+        end if
         if (.not. is_error(status)) &
             call tang_solve(direct%tang, direct%grid, material, mu, creepage, options, result, &
                             status)

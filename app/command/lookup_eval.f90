@@ -6,6 +6,7 @@ module faststrip_command_lookup_eval
     use faststrip_command_console, only: fail, fail_on_error, note, put_origin, exit_bad_input, &
                                          progress
     use faststrip_command_lookup_file, only: read_table
+    use faststrip_command_lookup_wheel_eval, only: eval_wheel
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_word
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
@@ -13,7 +14,7 @@ module faststrip_command_lookup_eval
                                    end_row, close_csv
     use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
     implicit none
     private
 
@@ -50,7 +51,9 @@ contains
             // 'a_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,cphi_rad_per_mm; others are carried through.' &
             // new_line('a') // 'Adds Fx_N,Fy_N,Mz_Nmm,status. A row that fails gets its status' &
             // ' word and empty' // new_line('a') // 'figures; the exit code is then 1.' &
-            // new_line('a')
+            // ' With the table of a wheel: y_mm,yaw_rad,' // new_line('a') &
+            // 'load_N,mu,cksi,ceta,cphi_rad_per_mm,slot; the numbers of the contact are added,' &
+            // ' too.' // new_line('a')
         command%options = [ &
             option_t('--order', 'NAME', 'interpolation: linear (default) or cubic'), &
             option_t('--jacobian', '', 'add the derivatives, as dFx_dcksi, in units of both'), &
@@ -63,6 +66,10 @@ contains
         call read_table(command%arguments(1)%text, lookup)
         call read_csv(command%arguments(2)%text, states, status)
         call fail_on_error(status)
+        if (lookup%kind == lookup_kind_wheel) then
+            call eval_wheel(lookup, states, order, with_jacobian, option_text(command, '-o', '-'))
+            return
+        end if
         do i = 1, n_lookup_state
             call require_column(states, trim(state_columns(i)), column(i), status)
             call fail_on_error(status)

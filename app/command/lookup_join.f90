@@ -10,13 +10,18 @@ module faststrip_command_lookup_join
     use faststrip_command_lookup_fill, only: judge_table
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
                                                 take_threads, choice_text
-    use faststrip_command_lookup_parts, only: take_values, is_solved
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
+    use faststrip_command_lookup_parts, only: take_values, is_solved, units_of
+    use faststrip_command_lookup_wheel_case, only: read_wheel_case
+    use faststrip_command_lookup_wheel_judge, only: judge_wheel_table => judge_table
+    use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, make_wheel_solvers, &
+                                                     release_wheel_solvers
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_integer
     use faststrip_command_system, only: set_progress
     use faststrip_files_bytes, only: read_bytes
     use faststrip_lookup_bytes, only: open_lookup
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
+    use faststrip_wheelset_types, only: wheelset_model_t
     implicit none
     private
 
@@ -44,12 +49,15 @@ contains
         command%n_words = 2
         command%usage = 'PART.fslt...'
         command%about = &
-            'Join the parts that lookup make --part made, and judge the table: the same bytes' &
-            // new_line('a') // 'as by one process. The method has to be that of the parts.' &
-            // new_line('a')
+            'Join the parts that lookup make --part or lookup wheel --part made, and judge the' &
+            // new_line('a') // 'table: the same bytes as by one process. The method has to be' &
+            // ' that of the parts.' // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
-            option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000)'), &
+            option_t('--case', 'CASE.nml', 'wheel and rail of the table of a wheel', &
+                     reads=.true.), &
+            option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000; of a wheel' &
+                     // new_line('a') // '2000 states)'), &
             direct_options]
         call parse_command(command, 1, most_files)
         if (option_text(command, '-o', '-') == '-') &
@@ -71,19 +79,45 @@ contains
             call fail_on_error(status)
         end do
         missing = 0
-        do i = 1, lookup%shape%n
+        do i = 1, units_of(lookup)
             if (.not. is_solved(lookup, i)) missing = missing + 1
         end do
         if (missing > 0) call fail(exit_bad_input, 'parts are missing: ' // integer_text(missing) &
-                                   // ' of ' // integer_text(lookup%shape%n) // ' a/b')
-        call make_workers(choice, take_threads(command), workers, status)
-        call fail_on_error(status)
-        call set_progress('fresh contacts')
-        call judge_table(workers, lookup, tests, first_seed, lookup%errors, status)
-        call fail_on_error(status)
-        lookup%tested = tests
+                                   // ' of ' // integer_text(units_of(lookup)) // ' ' &
+                                   // trim(merge('contacts', 'a/b     ', &
+                                                 lookup%kind == lookup_kind_wheel)))
+        if (lookup%kind == lookup_kind_wheel) then
+            call judge_joined_wheel(command, choice, lookup)
+        else
+            call make_workers(choice, take_threads(command), workers, status)
+            call fail_on_error(status)
+            call set_progress('fresh contacts')
+            call judge_table(workers, lookup, tests, first_seed, lookup%errors, status)
+            call fail_on_error(status)
+            lookup%tested = tests
+            call release_workers(workers)
+        end if
         lookup%promised = 0.0
-        call release_workers(workers)
         call write_table(option_text(command, '-o', ''), lookup)
     end subroutine run_lookup_join
+
+    ! The errors of the table of a wheel.
+    subroutine judge_joined_wheel(command, choice, lookup)
+        type(command_t), intent(in) :: command
+        type(direct_choice_t), intent(in) :: choice
+        type(lookup_t), intent(inout) :: lookup
+
+        type(wheelset_model_t) :: model
+        type(wheel_solver_t), allocatable :: solvers(:)
+        type(status_t) :: status
+
+        if (.not. given(command, '--case')) &
+            call usage_error('parts of the table of a wheel need --case CASE.nml', command%name)
+        call read_wheel_case(option_text(command, '--case', ''), model)
+        call make_wheel_solvers(model, choice, take_threads(command), solvers, status)
+        call fail_on_error(status)
+        call judge_wheel_table(solvers, option_integer(command, '--tests', 2000, least=100, &
+                                                       most=10000000), first_seed, lookup)
+        call release_wheel_solvers(solvers)
+    end subroutine judge_joined_wheel
 end module faststrip_command_lookup_join

@@ -3,23 +3,23 @@ module faststrip_command_lookup_make
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
-    use faststrip_base_text, only: parse_real, parse_integer, integer_text
+    use faststrip_base_text, only: parse_real, integer_text
     use faststrip_command_console, only: fail, fail_on_error, usage_error, version_text, &
-                                         exit_no_convergence
+                                         exit_bad_input, exit_no_convergence
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
                                                release_workers
     use faststrip_command_lookup_file, only: read_table, write_table
     use faststrip_command_lookup_fill, only: begin_table, judge_table
     use faststrip_command_lookup_grid, only: sampled_axis_t, start_axis, refine_axis, nodes_of
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
-                                                take_threads, choice_text
+                                                take_threads, take_part, choice_text
     use faststrip_command_lookup_parts, only: forget_values, solve_part, take_values, work_name
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word, refuse_value
     use faststrip_command_system, only: set_progress
     use faststrip_files_bytes, only: remove_file
     use faststrip_lookup_faces, only: n_faces
-    use faststrip_lookup_table, only: lookup_t, lookup_scatter_percentile
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_scatter_percentile
     implicit none
     private
 
@@ -97,6 +97,9 @@ contains
                 call usage_error('--axes-of must not be given with --ab, --error and --nu', &
                                  command%name)
             call read_table(option_text(command, '--axes-of', ''), lookup)
+            if (lookup%kind /= lookup_kind_hertz) &
+                call fail(exit_bad_input, 'must be a table of ellipses (' &
+                          // option_text(command, '--axes-of', '') // ')')
             choice%nu = lookup%nu
         else if (given(command, '--part') .or. given(command, '--resume')) then
             call usage_error('--part and --resume go with --axes-of', command%name)
@@ -209,26 +212,6 @@ contains
         call fail_on_error(status)
         lookup%tested = tests
     end subroutine judge
-
-    !> Which part of how many.
-    subroutine take_part(command, part, parts)
-        type(command_t), intent(in) :: command
-        integer, intent(out) :: part, parts
-
-        character(len=:), allocatable :: text
-        integer :: slash
-        logical :: is_part, is_parts
-
-        part = 1
-        parts = 1
-        if (.not. given(command, '--part')) return
-        text = option_text(command, '--part', '')
-        slash = index(text, '/')
-        call parse_integer(text(:max(slash - 1, 0)), part, is_part)
-        call parse_integer(text(slash + 1:), parts, is_parts)
-        if (.not. (is_part .and. is_parts) .or. slash == 0 .or. part < 1 .or. part > parts) &
-            call refuse_value(command, '--part', 'k/K, a part and how many there are')
-    end subroutine take_part
 
     !> The range of a/b, as logarithms.
     subroutine take_range(command, ends)

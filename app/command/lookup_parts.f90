@@ -1,5 +1,6 @@
-!> Work on a lookup table that may end at any moment: after each a/b all that was solved is in a
-!> file, from which it is gone on with, and files of several processes are joined.
+!> Work on a lookup table that may end at any moment: after each a/b, or after some contacts of a
+!> wheel, all that was solved is in a file, from which it is gone on with, and files of several
+!> processes are joined.
 !>
 !> Such a file is a table whose other values are NaN: no host takes it for one.
 module faststrip_command_lookup_parts
@@ -8,15 +9,15 @@ module faststrip_command_lookup_parts
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_bad_argument
     use faststrip_command_console, only: progress
     use faststrip_command_lookup_direct, only: direct_t
-    use faststrip_command_lookup_fill, only: fill_shape, nodes_in
+    use faststrip_command_lookup_fill, only: fill_shape
     use faststrip_files_bytes, only: read_bytes, write_bytes
+    use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_bytes, only: open_lookup, pack_lookup
-    use faststrip_lookup_faces, only: n_forces
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
     implicit none
     private
 
-    public :: forget_values, solve_part, take_values, is_solved, work_name
+    public :: forget_values, solve_part, take_values, is_solved, units_of, write_work, work_name
 
 contains
 
@@ -36,15 +37,23 @@ contains
         lookup%values = ieee_value(1.0_real32, ieee_quiet_nan)
     end subroutine forget_values
 
-    !> Is an a/b solved?
-    pure logical function is_solved(lookup, i_shape)
+    !> What is solved at once: all nodes of an a/b, or of a contact of a wheel; how many there are.
+    pure integer function units_of(lookup)
+        type(lookup_t), intent(in) :: lookup !! begun
+
+        units_of = lookup%shape%n
+        if (lookup%kind == lookup_kind_wheel) units_of = lookup%wheel%sets
+    end function units_of
+
+    !> Is an a/b, or a contact of a wheel, solved?
+    pure logical function is_solved(lookup, unit)
         type(lookup_t), intent(in) :: lookup
-        integer, intent(in) :: i_shape !! which a/b
+        integer, intent(in) :: unit !! which one
 
         integer(int64) :: n
 
-        n = n_forces*(nodes_in(lookup)/lookup%shape%n)
-        is_solved = .not. any(ieee_is_nan(lookup%values((i_shape - 1)*n + 1:i_shape*n)))
+        n = size(lookup%values, kind=int64)/units_of(lookup)
+        is_solved = .not. any(ieee_is_nan(lookup%values((unit - 1)*n + 1:unit*n)))
     end function is_solved
 
     !> Solve what is missing of a part: every so manyth a/b.
@@ -55,7 +64,6 @@ contains
         type(lookup_t), intent(inout) :: lookup     !! begun
         type(status_t), intent(out) :: status       !! of the method; of the file
 
-        integer(int8), allocatable :: bytes(:)
         integer :: i
 
         call clear_status(status)
@@ -63,13 +71,23 @@ contains
             call progress('a/b', i - 1, lookup%shape%n)
             if (is_solved(lookup, i)) cycle
             call fill_shape(workers, i, lookup, status)
-            if (.not. is_error(status) .and. len(path) > 0) then
-                call pack_lookup(lookup, bytes)
-                call write_bytes(path, bytes, status)
-            end if
+            if (.not. is_error(status)) call write_work(path, lookup, status)
             if (is_error(status)) return
         end do
     end subroutine solve_part
+
+    !> Keep what was solved so far.
+    subroutine write_work(path, lookup, status)
+        character(len=*), intent(in) :: path    !! file of the work; empty: none is kept
+        type(lookup_t), intent(in) :: lookup    !! begun
+        type(status_t), intent(inout) :: status !! of the file
+
+        integer(int8), allocatable :: bytes(:)
+
+        if (len(path) == 0) return
+        call pack_lookup(lookup, bytes)
+        call write_bytes(path, bytes, status)
+    end subroutine write_work
 
     !> Take what a file has solved of the same table.
     subroutine take_values(path, lookup, status)
@@ -95,10 +113,10 @@ contains
                             'method and revision, got ' // path)
             return
         end if
-        do i = 1, lookup%shape%n
+        do i = 1, units_of(lookup)
             if (.not. is_solved(other, i)) cycle
-            last = i*(size(lookup%values, kind=int64)/lookup%shape%n)
-            first = last - size(lookup%values, kind=int64)/lookup%shape%n + 1
+            last = i*(size(lookup%values, kind=int64)/units_of(lookup))
+            first = last - size(lookup%values, kind=int64)/units_of(lookup) + 1
             lookup%values(first:last) = other%values(first:last)
         end do
     end subroutine take_values
@@ -107,11 +125,28 @@ contains
     pure logical function are_alike(one, other)
         type(lookup_t), intent(in) :: one, other
 
-        are_alike = one%q%n == other%q%n .and. one%ratio%n == other%ratio%n .and. &
-                    one%shape%n == other%shape%n
+        are_alike = one%kind == other%kind
+        if (are_alike) are_alike = one%text == other%text .and. are_same(one%q, other%q) .and. &
+                                   are_same(one%ratio, other%ratio)
         if (.not. are_alike) return
-        are_alike = all(one%q%x == other%q%x) .and. all(one%ratio%x == other%ratio%x) .and. &
-                    all(one%shape%x == other%shape%x) .and. all(one%scale == other%scale) .and. &
-                    one%text == other%text
+        if (one%kind /= lookup_kind_wheel) then
+            are_alike = are_same(one%shape, other%shape)
+            if (are_alike) are_alike = all(one%scale == other%scale)
+            return
+        end if
+        associate (here => one%wheel, there => other%wheel)
+            are_alike = are_same(here%y, there%y) .and. are_same(here%yaw, there%yaw) .and. &
+                        are_same(here%load, there%load) .and. here%slots == there%slots .and. &
+                        here%sets == there%sets
+            if (are_alike) are_alike = all(here%contacts == there%contacts) .and. &
+                                       all(here%set == there%set)
+        end associate
     end function are_alike
+
+    pure logical function are_same(one, other)
+        type(lookup_axis_t), intent(in) :: one, other
+
+        are_same = one%n == other%n
+        if (are_same) are_same = all(one%x == other%x)
+    end function are_same
 end module faststrip_command_lookup_parts

@@ -13,6 +13,7 @@ module faststrip_command_lookup_test
     use faststrip_command_lookup_fill, only: judge_states, draw_states
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
                                                 take_threads, choice_text
+    use faststrip_command_lookup_wheel_test, only: test_wheel
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_integer
     use faststrip_command_system, only: set_progress
@@ -21,7 +22,7 @@ module faststrip_command_lookup_test
                                    end_row, close_csv
     use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
     implicit none
     private
 
@@ -57,10 +58,14 @@ contains
             // ' direction. CSV: order,force,mean,' // new_line('a') &
             // 'percentile_99,worst,lookup_us: errors over mu N, of Mz over mu N c, and the' &
             // new_line('a') // 'processor time of a look-up with its 24 derivatives.' &
-            // new_line('a')
+            // ' The table of a wheel is' // new_line('a') // 'compared with its --case: sums' &
+            // ' over the contacts, on fresh states and on such where a' // new_line('a') &
+            // 'contact comes or goes.' // new_line('a')
         command%options = [ &
             option_t('--tests', 'N', 'fresh contacts (default 10000)'), &
             option_t('--seed', 'N', 'other contacts for another number (default 1)'), &
+            option_t('--case', 'CASE.nml', 'wheel and rail of the table of a wheel', &
+                     reads=.true.), &
             option_t('--states', 'FILE.csv', 'contacts of its rows instead, as of lookup eval', &
                      reads=.true.), &
             option_t('--contacts', 'FILE', 'write the contacts there, with their forces solved' &
@@ -73,6 +78,14 @@ contains
         seed = option_integer(command, '--seed', 1, least=0, most=1000000)
         call read_table(command%arguments(1)%text, lookup)
         choice%nu = lookup%nu
+        if (lookup%kind == lookup_kind_wheel) then
+            if (given(command, '--states')) &
+                call usage_error('--states is for tables of ellipses', command%name)
+            call test_wheel(command, lookup, choice)
+            return
+        else if (given(command, '--case')) then
+            call usage_error('--case is for tables of wheels', command%name)
+        end if
         call make_workers(choice, take_threads(command), workers, status)
         call fail_on_error(status)
         if (given(command, '--states')) then

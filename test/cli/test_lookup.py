@@ -211,7 +211,7 @@ class Lookup(ProgramTest):
         self.write("twice.csv", STATES + ",Fx_N\n5,4,1,1,1,0,0,0,0\n")
         table = self.table()
         for words, says in (
-            ((), "make, join, info, test or eval"),
+            ((), "make, wheel, join, info, test or eval"),
             (("frobnicate",), "got frobnicate"),
             (("make",), "-o TABLE.fslt"),
             (("make", "-o", "-"), "-o TABLE.fslt"),

@@ -9,7 +9,7 @@ module faststrip_lookup_axis
     implicit none
     private
 
-    public :: lookup_axis_t, stencil_t, make_axis, find_cell, linear_stencil, cubic_stencil
+    public :: lookup_axis_t, stencil_t, make_axis, make_point, find_cell, linear_stencil, cubic_stencil
     public :: least_nodes, most_nodes
 
     !> Least and most nodes of an axis: as many as a cubic stencil takes, and no slip.
@@ -77,6 +77,16 @@ contains
             axis%bucket(i) = j
         end do
     end subroutine make_axis
+
+    !> An axis of one node, along which nothing varies.
+    pure subroutine make_point(x, axis)
+        real(wp), intent(in) :: x                !! the node
+        type(lookup_axis_t), intent(out) :: axis !! without nodes where that is not finite
+
+        if (.not. abs(x) <= largest_node) return
+        axis%n = 1
+        axis%x = [x]
+    end subroutine make_point
 
     !> The cell, between nodes `cell` and `cell + 1`, of a value between the first and last node.
     pure integer function find_cell(axis, x) result(cell)

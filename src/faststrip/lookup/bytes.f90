@@ -7,11 +7,15 @@ module faststrip_lookup_bytes
     use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     number_text, st_file_format, st_workspace_too_small
-    use faststrip_lookup_axis, only: lookup_axis_t, make_axis, least_nodes, most_nodes
+                                     number_text, st_file_format
+    use faststrip_lookup_axis, only: least_nodes, most_nodes
     use faststrip_lookup_checksum, only: crc32
     use faststrip_lookup_faces, only: n_faces, n_forces
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel
+    use faststrip_lookup_wheel_bytes, only: take_wheel, put_wheel, wheel_counts, check_wheel_counts
+    use faststrip_lookup_words, only: take_axis, take_doubles, take_values, take_text, word_at, &
+                                      put_word, put_doubles, put_values, put_text, of_double, &
+                                      of_word, of_header, n_counts, most_text
     implicit none
     private
 
@@ -25,12 +29,8 @@ module faststrip_lookup_bytes
     ! Reads otherwise where the bytes of a number stand in another order.
     integer(int32), parameter :: order_mark = 16909060
     integer(int32), parameter :: other_order = 67305985
-    ! Whole numbers behind the magic; bytes of a header; of a double.
-    integer, parameter :: n_counts = 8, header = 8 + 4*n_counts, of_double = 8, of_word = 4
     ! Numbers about the table: nu, what was promised, how many were tested, 18 errors.
     integer, parameter :: n_parameters = 21
-    ! Tuned [bytes]: the longest text. Origin: capacity.
-    integer, parameter :: most_text = 65536
 
 contains
 
@@ -44,39 +44,55 @@ contains
         logical, intent(in), optional :: may_lack !! may values be NaN, those not yet solved?
 
         integer(int32) :: counts(n_counts)
-        real(wp) :: parameters(n_parameters)
-        real(wp), allocatable :: scales(:)
-        integer(int64) :: length, n_values, at
+        integer(int64) :: length
 
         call read_header(bytes, counts, length, status)
         if (is_error(status)) return
+        if (counts(3) == lookup_kind_wheel) then
+            call take_wheel(bytes, counts, lookup, status)
+        else
+            call take_hertz(bytes, counts, lookup, status)
+        end if
+        if (.not. is_error(status)) call check_values(lookup%values, may_lack, status)
+        if (is_error(status)) then
+            call forget(lookup)
+            return
+        end if
+        lookup%kind = counts(3)
+    end subroutine open_lookup
+
+    !> A table of Hertz ellipses behind its header.
+    subroutine take_hertz(bytes, counts, lookup, status)
+        integer(int8), intent(in), contiguous :: bytes(:)
+        integer(int32), intent(in) :: counts(n_counts)
+        type(lookup_t), intent(inout) :: lookup
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: parameters(n_parameters)
+        real(wp), allocatable :: scales(:)
+        integer(int64) :: at
+
         associate (n_q => counts(4), n_ratio => counts(5), n_shape => counts(6), &
                    n_text => counts(8))
-            at = header
+            at = of_header
             call take_doubles(bytes, at, parameters)
             call take_axis(bytes, at, n_q, lookup%q)
             call take_axis(bytes, at, n_ratio, lookup%ratio)
             call take_axis(bytes, at, n_shape, lookup%shape)
             allocate (scales(n_forces*n_shape))
             call take_doubles(bytes, at, scales)
-            n_values = values_of(counts)
-            call take_values(bytes, at, n_values, lookup%values, status)
+            call take_values(bytes, at, values_of(counts), lookup%values, status)
             if (is_error(status)) return
             call take_text(bytes, at, n_text, lookup%text)
             call check_parts(lookup, parameters, scales, status)
-            if (.not. is_error(status)) call check_values(lookup%values, may_lack, status)
-            if (is_error(status)) then
-                call forget(lookup)
-                return
-            end if
+            if (is_error(status)) return
             lookup%scale = reshape(scales, [n_forces, int(n_shape)])
         end associate
         lookup%nu = parameters(1)
         lookup%promised = parameters(2)
         lookup%tested = nint(parameters(3))
         lookup%errors = reshape(parameters(4:), shape(lookup%errors))
-        lookup%kind = counts(3)
-    end subroutine open_lookup
+    end subroutine take_hertz
 
     !> The bytes of a table.
     subroutine pack_lookup(lookup, bytes)
@@ -84,32 +100,34 @@ contains
         integer(int8), allocatable, intent(out) :: bytes(:) !! a multiple of four
 
         integer(int32) :: counts(n_counts)
-        integer(int64) :: at, i
-        integer :: n_text
+        integer(int64) :: at, length
+        integer :: i
 
-        n_text = 4*((len(lookup%text) + 3)/4)
         counts = int([order_mark, lookup_version, lookup%kind, lookup%q%n, lookup%ratio%n, &
-                      lookup%shape%n, n_parameters, n_text], int32)
-        allocate (bytes(length_of(counts)))
+                      lookup%shape%n, n_parameters, 4*((len(lookup%text) + 3)/4)], int32)
+        if (lookup%kind == lookup_kind_wheel) then
+            call wheel_counts(lookup, counts, length)
+        else
+            length = length_of(counts)
+        end if
+        allocate (bytes(length))
         bytes(:8) = magic
         at = 8
         do i = 1, n_counts
             call put_word(counts(i), at, bytes)
         end do
-        call put_doubles([lookup%nu, lookup%promised, real(lookup%tested, wp), &
-                          reshape(lookup%errors, [size(lookup%errors)])], at, bytes)
-        call put_doubles(lookup%q%x, at, bytes)
-        call put_doubles(lookup%ratio%x, at, bytes)
-        call put_doubles(lookup%shape%x, at, bytes)
-        call put_doubles(reshape(lookup%scale, [size(lookup%scale)]), at, bytes)
-        do i = 1, size(lookup%values, kind=int64)
-            call put_word(transfer(lookup%values(i), 0_int32), at, bytes)
-        end do
-        do i = 1, n_text
-            at = at + 1
-            bytes(at) = iachar(' ', int8)
-            if (i <= len(lookup%text)) bytes(at) = iachar(lookup%text(i:i), int8)
-        end do
+        if (lookup%kind == lookup_kind_wheel) then
+            call put_wheel(lookup, at, bytes)
+        else
+            call put_doubles([lookup%nu, lookup%promised, real(lookup%tested, wp), &
+                              reshape(lookup%errors, [size(lookup%errors)])], at, bytes)
+            call put_doubles(lookup%q%x, at, bytes)
+            call put_doubles(lookup%ratio%x, at, bytes)
+            call put_doubles(lookup%shape%x, at, bytes)
+            call put_doubles(reshape(lookup%scale, [size(lookup%scale)]), at, bytes)
+        end if
+        call put_values(lookup%values, at, bytes)
+        call put_text(lookup%text, int(counts(n_counts)), at, bytes)
         call put_word(crc32(bytes(:at)), at, bytes)
     end subroutine pack_lookup
 
@@ -120,12 +138,14 @@ contains
         integer(int64), intent(out) :: length
         type(status_t), intent(out) :: status
 
+        integer(int64) :: asked
         integer :: i
+        logical :: are_counts
 
         call clear_status(status)
         counts = 0
         length = size(bytes, kind=int64)
-        if (length < header) then
+        if (length < of_header) then
             call set_status(status, st_file_format, 'no lookup table: too few bytes, ' // &
                             count_text(int(length)))
             return
@@ -143,15 +163,23 @@ contains
         else if (counts(1) == order_mark .and. counts(2) /= lookup_version) then
             call set_status(status, st_file_format, 'a lookup table must be of version ' // &
                             trim(count_text(lookup_version)) // ', got ' // count_text(counts(2)))
-        else if (any(counts(4:6) < least_nodes) .or. any(counts(4:6) > most_nodes) .or. &
-                 counts(3) /= lookup_kind_hertz .or. counts(7) /= n_parameters .or. &
-                 counts(8) < 0 .or. counts(8) > most_text .or. counts(1) /= order_mark) then
+        end if
+        if (is_error(status)) return
+        are_counts = counts(1) == order_mark .and. counts(8) >= 0 .and. counts(8) <= most_text
+        asked = 0
+        if (are_counts .and. counts(3) == lookup_kind_wheel) then
+            call check_wheel_counts(bytes, counts, are_counts, asked)
+        else if (are_counts) then
+            are_counts = counts(3) == lookup_kind_hertz .and. counts(7) == n_parameters .and. &
+                         all(counts(4:6) >= least_nodes) .and. all(counts(4:6) <= most_nodes)
+            if (are_counts) asked = length_of(counts)
+        end if
+        if (.not. are_counts) then
             call set_status(status, st_file_format, 'a lookup table whose header is damaged')
-        else if (length_of(counts) /= length) then
+        else if (asked /= length) then
             call set_status(status, st_file_format, 'a lookup table must have as many ' // &
-                            'bytes as its header says, ' // &
-                            trim(number_text(real(length_of(counts), wp))) // ', got ' // &
-                            number_text(real(length, wp)))
+                            'bytes as its header says, ' // trim(number_text(real(asked, wp))) // &
+                            ', got ' // number_text(real(length, wp)))
         else if (crc32(bytes(:length - of_word)) /= word_at(bytes, length - of_word)) then
             call set_status(status, st_file_format, 'a lookup table that is damaged: its ' // &
                             'checksum is another one')
@@ -162,7 +190,7 @@ contains
     pure integer(int64) function length_of(counts) result(length)
         integer(int32), intent(in) :: counts(n_counts)
 
-        length = header + of_double*(int(n_parameters, int64) + counts(4) + counts(5) &
+        length = of_header + of_double*(int(n_parameters, int64) + counts(4) + counts(5) &
                                      + (1 + n_forces)*int(counts(6), int64)) &
                  + of_word*values_of(counts) + counts(8) + of_word
     end function length_of
@@ -215,94 +243,4 @@ contains
 
         lookup%kind = 0
     end subroutine forget
-
-    subroutine take_axis(bytes, at, n, axis)
-        integer(int8), intent(in), contiguous :: bytes(:)
-        integer(int64), intent(inout) :: at
-        integer(int32), intent(in) :: n
-        type(lookup_axis_t), intent(out) :: axis
-
-        real(wp) :: nodes(n)
-
-        call take_doubles(bytes, at, nodes)
-        call make_axis(nodes, axis)
-    end subroutine take_axis
-
-    subroutine take_doubles(bytes, at, numbers)
-        integer(int8), intent(in), contiguous :: bytes(:)
-        integer(int64), intent(inout) :: at
-        real(wp), intent(out) :: numbers(:)
-
-        integer :: i
-
-        do i = 1, size(numbers)
-            numbers(i) = transfer(bytes(at + 1:at + of_double), 0.0_wp)
-            at = at + of_double
-        end do
-    end subroutine take_doubles
-
-    subroutine take_values(bytes, at, n, values, status)
-        integer(int8), intent(in), contiguous :: bytes(:)
-        integer(int64), intent(inout) :: at
-        integer(int64), intent(in) :: n
-        real(real32), allocatable, intent(out) :: values(:)
-        type(status_t), intent(inout) :: status
-
-        integer(int64) :: i
-        integer :: failure
-
-        allocate (values(n), stat=failure)
-        if (failure /= 0) then
-            call set_status(status, st_workspace_too_small, 'not enough memory for a lookup table')
-            return
-        end if
-        do i = 1, n
-            values(i) = transfer(bytes(at + 1:at + of_word), 0.0_real32)
-            at = at + of_word
-        end do
-    end subroutine take_values
-
-    subroutine take_text(bytes, at, n, text)
-        integer(int8), intent(in), contiguous :: bytes(:)
-        integer(int64), intent(inout) :: at
-        integer(int32), intent(in) :: n
-        character(len=:), allocatable, intent(out) :: text
-
-        integer :: i
-
-        allocate (character(len=n) :: text)
-        do i = 1, n
-            text(i:i) = achar(iand(int(bytes(at + i)), 255))
-        end do
-        at = at + n
-    end subroutine take_text
-
-    pure integer(int32) function word_at(bytes, at)
-        integer(int8), intent(in), contiguous :: bytes(:)
-        integer(int64), intent(in) :: at ! bytes before it
-
-        word_at = transfer(bytes(at + 1:at + of_word), 0_int32)
-    end function word_at
-
-    pure subroutine put_word(word, at, bytes)
-        integer(int32), intent(in) :: word
-        integer(int64), intent(inout) :: at
-        integer(int8), intent(inout) :: bytes(:)
-
-        bytes(at + 1:at + of_word) = transfer(word, bytes(:1), of_word)
-        at = at + of_word
-    end subroutine put_word
-
-    pure subroutine put_doubles(numbers, at, bytes)
-        real(wp), intent(in) :: numbers(:)
-        integer(int64), intent(inout) :: at
-        integer(int8), intent(inout) :: bytes(:)
-
-        integer :: i
-
-        do i = 1, size(numbers)
-            bytes(at + 1:at + of_double) = transfer(numbers(i), bytes(:1), of_double)
-            at = at + of_double
-        end do
-    end subroutine put_doubles
 end module faststrip_lookup_bytes

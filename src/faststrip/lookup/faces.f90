@@ -18,7 +18,7 @@ module faststrip_lookup_faces
     implicit none
     private
 
-    public :: faces_cell_t, find_faces_cell, add_faces, finish_faces, creepages_at
+    public :: faces_cell_t, find_faces_cell, add_faces, sum_faces, finish_faces, creepages_at
     public :: n_faces, n_forces, lookup_linear, lookup_cubic, force_signs
 
     !> Faces of a table, and forces at each node.
@@ -99,6 +99,20 @@ contains
         real(wp), intent(inout) :: slope(3)   !! derivative by a coordinate of the set of faces
 
         real(wp) :: v(3, 4)
+
+        call sum_faces(values, faces, n_q, n_ratio, cell, v)
+        phi = phi + weight*v
+        slope = slope + slope_weight*v(:, 1)
+    end subroutine add_faces
+
+    !> Phi and its derivatives by q, s, t on one set of faces.
+    pure subroutine sum_faces(values, faces, n_q, n_ratio, cell, v)
+        real(real32), intent(in), contiguous :: values(:) !! all values of a table
+        integer, intent(in) :: faces           !! number of the set of faces, from 1
+        integer, intent(in) :: n_q, n_ratio    !! nodes of the axes
+        type(faces_cell_t), intent(in) :: cell !! of `find_faces_cell`
+        real(wp), intent(out) :: v(3, 4)       !! Phi; its derivatives
+
         integer(int64) :: first, row, sheet
 
         row = n_forces*int(n_q, int64)
@@ -111,9 +125,7 @@ contains
         else
             call sum_cubic(values(first + 1:), row, sheet, cell, v)
         end if
-        phi = phi + weight*v
-        slope = slope + slope_weight*v(:, 1)
-    end subroutine add_faces
+    end subroutine sum_faces
 
     !> Phi and its derivatives from the eight nodes of a cell.
     pure subroutine sum_linear(values, row, sheet, cell, v)

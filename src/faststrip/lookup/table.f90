@@ -6,21 +6,60 @@ module faststrip_lookup_table
     implicit none
     private
 
-    public :: lookup_t, lookup_kind_hertz, lookup_scatter_mean, lookup_scatter_percentile, &
+    public :: lookup_t, wheel_part_t, lookup_kind_hertz, lookup_kind_wheel
+    public :: n_contact_numbers, most_slots, n_wheel_errors
+    public :: at_load, at_angle, at_rail_y, at_rail_z, at_ahead, at_wheel_y, at_radius, at_height, &
+              at_area, at_pmax, at_length, at_creep, at_spin
+    public :: lookup_scatter_mean, lookup_scatter_percentile, &
               lookup_scatter_worst
 
     !> Kinds of tables.
     !> Given: numbers of the file format.
-    integer, parameter :: lookup_kind_hertz = 1
+    integer, parameter :: lookup_kind_hertz = 1, lookup_kind_wheel = 2
 
     !> Second index of `errors`: mean, 99th percentile and worst.
     !> Given: numbers of the file format.
     integer, parameter :: lookup_scatter_mean = 1, lookup_scatter_percentile = 2, &
                           lookup_scatter_worst = 3
 
+    !> Numbers of a contact of a wheel: normal force, N; contact angle, rad; y, z on the rail's
+    !> profile, mm; place ahead of the wheelset's centre, mm; y on the wheel's profile, mm; rolling
+    !> radius, mm; height of the wheelset's centre, mm; area, mm2; largest pressure, MPa; length c
+    !> of the moment, mm; two squared lengths of cksi and ceta, mm2, and a cubed one of cphi, mm3:
+    !> over mu N and times G they normalise the creepages.
+    !> Given: numbers of the file format.
+    integer, parameter :: n_contact_numbers = 14
+    integer, parameter :: at_load = 1, at_angle = 2, at_rail_y = 3, at_rail_z = 4, at_ahead = 5, &
+                          at_wheel_y = 6, at_radius = 7, at_height = 8, at_area = 9, &
+                          at_pmax = 10, at_length = 11, at_creep = 12, at_spin = 14
+    !> The most contacts of a wheel in a table.
+    !> Tuned [contacts]. Origin: capacity.
+    integer, parameter :: most_slots = 6
+    !> Errors of a wheel's table: creep forces ahead and across, their moment, all over mu times the
+    !> normal forces; the lateral part of the normal forces, over them.
+    !> Given: numbers of the file format.
+    integer, parameter :: n_wheel_errors = 4
+
+    !> What the table of a wheel on a rail has beside the faces.
+    type :: wheel_part_t
+        type(lookup_axis_t) :: y     !! of the wheelset over the rail, mm
+        type(lookup_axis_t) :: yaw   !! rad; of one node where it does not vary
+        type(lookup_axis_t) :: load  !! vertical part of the normal forces, N
+        real(wp) :: shear = 0.0_wp   !! modulus of both bodies, MPa
+        integer :: slots = 0         !! contacts that there can be
+        integer :: sets = 0          !! sets of faces, two to each contact that was solved
+        real(wp), allocatable :: contacts(:, :, :)
+            !! numbers, slots, nodes: y fastest, then yaw. Of N the number itself; area, pmax and the
+            !! lengths are over those powers of N that Hertz' law has: 2/3, 1/3; 1/3, 2/3, 2/3, 1
+        integer, allocatable :: set(:, :) !! slots, nodes: number of the contact whose faces count
+        integer :: tested(2) = 0     !! fresh states: all; those in cells where contacts appear
+        real(wp) :: errors(n_wheel_errors, 3, 2, 2) = 0.0_wp
+            !! mean, 99th percentile, worst; linear, cubic; as `tested`
+    end type wheel_part_t
+
     !> A table, made by `open_lookup`. It is not changed by looking up: all threads may share one.
     type :: lookup_t
-        integer :: kind = 0           !! `lookup_kind_hertz`; 0: none was opened
+        integer :: kind = 0           !! one of the kinds; 0: none was opened
         real(wp) :: nu = 0.0_wp       !! Poisson's ratio that it is for
         real(wp) :: promised = 0.0_wp !! 99th percentile of the errors it was made for, over mu N
         integer :: tested = 0         !! fresh contacts on which the errors were found; 0: none
@@ -31,6 +70,7 @@ module faststrip_lookup_table
         type(lookup_axis_t) :: shape  !! ln(a/b)
         real(wp), allocatable :: scale(:, :)      !! (3, shapes) creepages: x = scale X
         real(real32), allocatable :: values(:)    !! Phi over force, q, ratio, ratio, face, shape
+        type(wheel_part_t) :: wheel               !! of a wheel on a rail; then without `shape`
         character(len=:), allocatable :: text     !! how it was made, lines of words
     end type lookup_t
 end module faststrip_lookup_table

@@ -1,0 +1,383 @@
+!> Contacts of a wheel on a rail and their creep forces, looked up in a table: no allocation, and any
+!> number of threads on one table.
+!>
+!> A table has nodes over the wheelset's lateral displacement y, its yaw, and the vertical part of
+!> the normal forces. Each contact that there is anywhere has a slot; where it is not, its normal
+!> force is 0, and its other numbers are those of the nearest node where it is. So a contact comes
+!> and goes with its normal force. Its forces over mu N are those of its patch, on faces over x
+!> (`faststrip_lookup_faces`), each once for the patch as it is and once for its mirror image: what a
+!> patch that is not symmetric does with x1 < 0 < x3 is what its mirror image does with x1 > 0.
+!>
+!> Along y, yaw and load the contacts' numbers are interpolated by the order asked for, Phi always
+!> linearly; along the creepages Phi by the order.
+module faststrip_lookup_wheel
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, number_text, st_ok, &
+                                     st_bad_argument, st_not_finite, st_out_of_range
+    use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, linear_stencil, cubic_stencil
+    use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
+                                      force_signs, n_forces, lookup_linear, lookup_cubic
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, most_slots, &
+                                      at_load, at_area, at_pmax, at_length, at_creep, at_spin
+    implicit none
+    private
+
+    public :: look_up_contacts, look_up_wheel, contacts_change, n_wheel_place, n_wheel_state
+
+    !> Numbers of a place: y (mm), yaw (rad), load (N). Of a state: those, mu, cksi, ceta, cphi
+    !> (rad/mm).
+    !> Given: what contacts and forces depend on.
+    integer, parameter :: n_wheel_place = 3, n_wheel_state = 7
+
+    ! Tuned [1]: normalised creepages are cut there. Origin: safeguard against overflow; all slides
+    ! from 1e3 on.
+    real(wp), parameter :: most_creepage = 1.0e30_wp
+    ! Tuned [N]: no contact below. Origin: safeguard: nothing is divided by less.
+    real(wp), parameter :: least_load = 1.0e-6_wp
+    ! Powers of N that numbers grow with, as the table's are over them: area, pmax, the lengths.
+    ! Given: Hertz' law.
+    real(wp), parameter :: powers(at_area:n_contact_numbers) = &
+        [2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp]/3.0_wp
+
+    !> Where a place lies among the nodes.
+    type :: place_cell_t
+        type(stencil_t) :: along(n_wheel_place)  ! y, yaw, load
+        integer :: width(n_wheel_place) = 1
+    end type place_cell_t
+
+contains
+
+    !> The contacts of the wheel at a place.
+    pure subroutine look_up_contacts(lookup, order, place, contacts, status, slopes)
+        type(lookup_t), intent(in) :: lookup           !! of `open_lookup`, of a wheel
+        integer, intent(in) :: order                   !! `lookup_linear` or `lookup_cubic`
+        real(wp), intent(in) :: place(n_wheel_place)   !! y, yaw, load; a table of one yaw takes any
+        real(wp), intent(out) :: contacts(:, :)
+            !! numbers as `n_contact_numbers` says, slots (`lookup%wheel%slots` or more); all 0 where
+            !! there is no contact
+        type(status_t), intent(inout) :: status
+            !! `st_bad_argument` (no table of a wheel, order, too few slots), `st_not_finite`,
+            !! `st_out_of_range` (y, yaw, load)
+        real(wp), intent(out), optional :: slopes(:, :, :)
+            !! derivatives, numbers, slots, by y, yaw, load
+
+        type(place_cell_t) :: cell
+        real(wp) :: numbers(n_contact_numbers, 0:n_wheel_place)
+        integer :: slot, k
+
+        status%code = st_ok
+        contacts = 0.0_wp
+        if (present(slopes)) slopes = 0.0_wp
+        call check_place(lookup, order, place, status)
+        if (status%code /= st_ok) return
+        if (size(contacts, 2) < lookup%wheel%slots .or. size(contacts, 1) /= n_contact_numbers) then
+            call set_status(status, st_bad_argument, 'too little room for the contacts')
+            return
+        end if
+        call find_place(lookup, order, place, cell)
+        do slot = 1, lookup%wheel%slots
+            call sum_numbers(lookup, cell, slot, 1, n_contact_numbers, numbers)
+            if (numbers(at_load, 0) < least_load) cycle
+            call restore_powers(numbers)
+            contacts(:, slot) = numbers(:, 0)
+            if (.not. present(slopes)) cycle
+            do k = 1, n_wheel_place
+                slopes(:, slot, k) = numbers(:, k)
+            end do
+        end do
+    end subroutine look_up_contacts
+
+    !> Creep forces of one contact.
+    pure subroutine look_up_wheel(lookup, order, slot, state, forces, status, jacobian)
+        type(lookup_t), intent(in) :: lookup           !! of `open_lookup`, of a wheel
+        integer, intent(in) :: order                   !! `lookup_linear` or `lookup_cubic`
+        integer, intent(in) :: slot                    !! which contact
+        real(wp), intent(in) :: state(n_wheel_state)   !! y, yaw, load, mu, cksi, ceta, cphi
+        real(wp), intent(out) :: forces(n_forces)
+            !! Fx, Fy on the rail in the contact's frame, N; Mz, N mm; 0 where there is no contact
+        type(status_t), intent(inout) :: status
+            !! as of `look_up_contacts`; `st_bad_argument`: mu not above 0, no such slot
+        real(wp), intent(out), optional :: jacobian(n_forces, n_wheel_state)
+            !! derivatives of the forces by the numbers of the state
+
+        type(place_cell_t) :: place
+        type(faces_cell_t) :: cell
+        real(wp) :: numbers(n_contact_numbers, 0:n_wheel_place), linear(3), x(3), phi(3, 4), f(3)
+        real(wp) :: by_creepage(3, 3), by_place(3, n_wheel_place)
+
+        status%code = st_ok
+        forces = 0.0_wp
+        if (present(jacobian)) jacobian = 0.0_wp
+        call check_place(lookup, order, state(:n_wheel_place), status)
+        if (status%code == st_ok) call check_motion(lookup, slot, state, status)
+        if (status%code /= st_ok) return
+        call find_place(lookup, order, state(:n_wheel_place), place)
+        call sum_numbers(lookup, place, slot, at_load, at_load, numbers)
+        if (numbers(at_load, 0) < least_load) return
+        call sum_numbers(lookup, place, slot, at_length, n_contact_numbers, numbers)
+        ! Of c and the lengths of the creepages over the load that of the table.
+        linear = numbers(at_creep:at_spin, 0)*lookup%wheel%shear/state(4)
+        linear(:2) = linear(:2)*numbers(at_load, 0)**(-1.0_wp/3.0_wp)
+        x = min(max(linear*state(5:7), -most_creepage), most_creepage)
+        call find_faces_cell(lookup%q, lookup%ratio, order, x, cell)
+        if (order == lookup_cubic) call find_place(lookup, lookup_linear, state(:n_wheel_place), &
+                                                   place)
+        call sum_places(lookup, place, slot, cell, phi, by_place)
+        call finish_faces(cell, phi, f, by_creepage)
+        associate (force => state(4)*numbers(at_load, 0), &
+                   c => numbers(at_length, 0)*numbers(at_load, 0)**(1.0_wp/3.0_wp))
+            forces = [force, force, force*c]*f
+            if (.not. present(jacobian)) return
+            by_place = cell%q*by_place*spread(force_signs(cell), 2, n_wheel_place)
+            call find_jacobian(state, numbers, linear, x, f, by_creepage, by_place, c, jacobian)
+        end associate
+    end subroutine look_up_wheel
+
+    !> Does a contact come or go within the cell of the place?
+    pure logical function contacts_change(lookup, place) result(change)
+        type(lookup_t), intent(in) :: lookup         !! of a wheel
+        real(wp), intent(in) :: place(n_wheel_place) !! y, yaw, load, within the table
+
+        type(place_cell_t) :: cell
+        logical :: any_there, all_there, is_there
+        integer :: slot, i, j, k
+
+        call find_place(lookup, lookup_linear, place, cell)
+        change = .false.
+        do slot = 1, lookup%wheel%slots
+            any_there = .false.
+            all_there = .true.
+            do k = 1, cell%width(3)
+                do j = 1, cell%width(2)
+                    do i = 1, cell%width(1)
+                        is_there = lookup%wheel%contacts(at_load, slot, node_of(lookup, cell, i, &
+                                                         j, k)) > 0.0_wp
+                        any_there = any_there .or. is_there
+                        all_there = all_there .and. is_there
+                    end do
+                end do
+            end do
+            change = change .or. (any_there .and. .not. all_there)
+        end do
+    end function contacts_change
+
+    !> Where a place lies, which is within the table.
+    pure subroutine find_place(lookup, order, place, cell)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: order
+        real(wp), intent(in) :: place(n_wheel_place)
+        type(place_cell_t), intent(inout) :: cell
+
+        call find_along(lookup%wheel%y, order, place(1), cell%along(1), cell%width(1))
+        call find_along(lookup%wheel%yaw, order, place(2), cell%along(2), cell%width(2))
+        call find_along(lookup%wheel%load, order, place(3), cell%along(3), cell%width(3))
+    end subroutine find_place
+
+    !> Weights of nodes along one axis, and how many.
+    pure subroutine find_along(axis, order, x, stencil, width)
+        type(lookup_axis_t), intent(in) :: axis
+        integer, intent(in) :: order
+        real(wp), intent(in) :: x
+        type(stencil_t), intent(inout) :: stencil
+        integer, intent(out) :: width
+
+        if (axis%n == 1) then
+            width = 1
+            stencil%first = 1
+            stencil%w(1) = 1.0_wp
+            stencil%dw(1) = 0.0_wp
+        else if (order == lookup_linear) then
+            width = 2
+            call linear_stencil(axis, x, stencil)
+        else
+            width = 4
+            call cubic_stencil(axis, x, stencil)
+        end if
+    end subroutine find_along
+
+    pure integer function node_of(lookup, cell, i, j, k) result(node)
+        type(lookup_t), intent(in) :: lookup
+        type(place_cell_t), intent(in) :: cell
+        integer, intent(in) :: i, j, k
+
+        node = (cell%along(1)%first + i - 1) + lookup%wheel%y%n &
+               *((cell%along(2)%first + j - 2) + lookup%wheel%yaw%n*(cell%along(3)%first + k - 2))
+    end function node_of
+
+    !> Numbers of a contact, as the table has them, and their derivatives.
+    pure subroutine sum_numbers(lookup, cell, slot, first, last, numbers)
+        type(lookup_t), intent(in) :: lookup
+        type(place_cell_t), intent(in) :: cell
+        integer, intent(in) :: slot, first, last
+        real(wp), intent(inout) :: numbers(n_contact_numbers, 0:n_wheel_place)
+
+        real(wp) :: w(0:n_wheel_place)
+        integer :: i, j, k, node, m
+
+        numbers(first:last, :) = 0.0_wp
+        do k = 1, cell%width(3)
+            do j = 1, cell%width(2)
+                do i = 1, cell%width(1)
+                    node = node_of(lookup, cell, i, j, k)
+                    w = weights(cell, i, j, k)
+                    do m = 0, n_wheel_place
+                        numbers(first:last, m) = numbers(first:last, m) &
+                                                 + w(m)*lookup%wheel%contacts(first:last, slot, node)
+                    end do
+                end do
+            end do
+        end do
+    end subroutine sum_numbers
+
+    !> Weight of a node in a value and in its derivatives by y, yaw, load.
+    pure function weights(cell, i, j, k) result(w)
+        type(place_cell_t), intent(in) :: cell
+        integer, intent(in) :: i, j, k
+        real(wp) :: w(0:n_wheel_place)
+
+        associate (a => cell%along(1), b => cell%along(2), c => cell%along(3))
+            w(0) = a%w(i)*b%w(j)*c%w(k)
+            w(1) = a%dw(i)*b%w(j)*c%w(k)
+            w(2) = a%w(i)*b%dw(j)*c%w(k)
+            w(3) = a%w(i)*b%w(j)*c%dw(k)
+        end associate
+    end function weights
+
+    !> Phi with its derivatives by q, s, t, and Phi's by y, yaw, load.
+    pure subroutine sum_places(lookup, place, slot, cell, phi, by_place)
+        type(lookup_t), intent(in) :: lookup
+        type(place_cell_t), intent(in) :: place ! of the linear order
+        integer, intent(in) :: slot
+        type(faces_cell_t), intent(in) :: cell
+        real(wp), intent(out) :: phi(3, 4), by_place(3, n_wheel_place)
+
+        real(wp) :: v(3, 4), w(0:n_wheel_place)
+        integer :: i, j, k, m, mirrored
+
+        mirrored = 0
+        if (cell%sign_of(1)*cell%sign_of(3) < 0.0_wp) mirrored = 1
+        phi = 0.0_wp
+        by_place = 0.0_wp
+        do k = 1, place%width(3)
+            do j = 1, place%width(2)
+                do i = 1, place%width(1)
+                    w = weights(place, i, j, k)
+                    call sum_faces(lookup%values, 2*lookup%wheel%set(slot, &
+                                   node_of(lookup, place, i, j, k)) - 1 + mirrored, lookup%q%n, &
+                                   lookup%ratio%n, cell, v)
+                    phi = phi + w(0)*v
+                    do m = 1, n_wheel_place
+                        by_place(:, m) = by_place(:, m) + w(m)*v(:, 1)
+                    end do
+                end do
+            end do
+        end do
+    end subroutine sum_places
+
+    !> Numbers of a contact from those of a table: times their powers of N.
+    pure subroutine restore_powers(numbers)
+        real(wp), intent(inout) :: numbers(n_contact_numbers, 0:n_wheel_place)
+
+        real(wp) :: root, grown
+        integer :: i, k
+
+        root = numbers(at_load, 0)**(1.0_wp/3.0_wp)
+        do i = at_area, n_contact_numbers
+            grown = root**nint(3.0_wp*powers(i))
+            do k = 1, n_wheel_place
+                numbers(i, k) = grown*(numbers(i, k) + powers(i)*numbers(i, 0) &
+                                       *numbers(at_load, k)/numbers(at_load, 0))
+            end do
+            numbers(i, 0) = grown*numbers(i, 0)
+        end do
+    end subroutine restore_powers
+
+    !> Derivatives of the forces by the state.
+    pure subroutine find_jacobian(state, numbers, linear, x, f, by_creepage, by_place, c, jacobian)
+        real(wp), intent(in) :: state(n_wheel_state)
+        real(wp), intent(in) :: numbers(n_contact_numbers, 0:n_wheel_place) ! those of the table
+        real(wp), intent(in) :: linear(3), x(3), f(3), by_creepage(3, 3)
+        real(wp), intent(in) :: by_place(3, n_wheel_place), c
+        real(wp), intent(out) :: jacobian(n_forces, n_wheel_state)
+
+        ! Creepages over mu N go with N to this power.
+        real(wp), parameter :: of_creepage(3) = [-1.0_wp, -1.0_wp, 0.0_wp]/3.0_wp
+        real(wp) :: unit(3), load, load_slope, x_slope(3)
+        integer :: k
+
+        load = numbers(at_load, 0)
+        unit = [1.0_wp, 1.0_wp, c]
+        do k = 1, n_wheel_place
+            load_slope = numbers(at_load, k)
+            x_slope = x*(load*numbers(at_creep:at_spin, k)/numbers(at_creep:at_spin, 0) &
+                         + of_creepage*load_slope)
+            jacobian(:, k) = load_slope*f + times(by_creepage, x_slope) + load*by_place(:, k)
+            jacobian(3, k) = jacobian(3, k) + f(3)*(load*numbers(at_length, k) &
+                                                    /numbers(at_length, 0) + load_slope/3.0_wp)
+            jacobian(:, k) = state(4)*unit*jacobian(:, k)
+        end do
+        jacobian(:, 4) = unit*load*(f - times(by_creepage, x))
+        do k = 1, 3
+            jacobian(:, 4 + k) = state(4)*load*unit*by_creepage(:, k)*linear(k)
+        end do
+    end subroutine find_jacobian
+
+    !> Matrix times vector.
+    pure function times(matrix, vector) result(product)
+        real(wp), intent(in) :: matrix(3, 3), vector(3)
+        real(wp) :: product(3)
+
+        product = matrix(:, 1)*vector(1) + matrix(:, 2)*vector(2) + matrix(:, 3)*vector(3)
+    end function times
+
+    !> Refuse what is no table of a wheel, no order, and a place beyond the table.
+    pure subroutine check_place(lookup, order, place, status)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: order
+        real(wp), intent(in) :: place(n_wheel_place)
+        type(status_t), intent(inout) :: status
+
+        if (lookup%kind /= lookup_kind_wheel) then
+            call set_status(status, st_bad_argument, 'no lookup table of a wheel on a rail')
+        else if (order /= lookup_linear .and. order /= lookup_cubic) then
+            call set_status(status, st_bad_argument, 'the order of interpolation must be 1 or 3')
+        else if (.not. all(ieee_is_finite(place))) then
+            call set_status(status, st_not_finite, 'a number of the state is not finite')
+        else
+            call check_along(lookup%wheel%y, 'y', place(1), status)
+            call check_along(lookup%wheel%yaw, 'yaw', place(2), status)
+            call check_along(lookup%wheel%load, 'the load', place(3), status)
+        end if
+    end subroutine check_place
+
+    pure subroutine check_along(axis, name, x, status)
+        type(lookup_axis_t), intent(in) :: axis
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: x
+        type(status_t), intent(inout) :: status
+
+        if (axis%n == 1 .or. status%code /= st_ok) return
+        if (x >= axis%x(1) .and. x <= axis%x(axis%n)) return
+        call set_status(status, st_out_of_range, name // ' must be within the table, ' // &
+                        trim(number_text(axis%x(1))) // ' to ' // &
+                        trim(number_text(axis%x(axis%n))) // ', got ' // number_text(x))
+    end subroutine check_along
+
+    !> Refuse a slot, friction and creepages that are none.
+    pure subroutine check_motion(lookup, slot, state, status)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: slot
+        real(wp), intent(in) :: state(n_wheel_state)
+        type(status_t), intent(inout) :: status
+
+        if (slot < 1 .or. slot > lookup%wheel%slots) then
+            call set_status(status, st_bad_argument, 'no such contact in the lookup table')
+        else if (.not. all(ieee_is_finite(state(4:)))) then
+            call set_status(status, st_not_finite, 'a number of the state is not finite')
+        else if (.not. state(4) > 0.0_wp) then
+            call set_status(status, st_bad_argument, 'mu must be above 0, got ' // &
+                            number_text(state(4)))
+        end if
+    end subroutine check_motion
+end module faststrip_lookup_wheel
