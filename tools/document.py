@@ -55,6 +55,8 @@ GROUPS = (
 PAGES = tuple(page for _, pages in GROUPS for page in pages)
 API = ("Fortran interface", "api/index.html")
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
+# A length that is asked with several arguments.
+LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
 # What FORD's pages load from a network: a style sheet, in whose place is docs/api.css, and scripts.
 LOADED = re.compile(r'<link [^>]*href="https?://[^>]*>|<script[^>]*src="https?://[^>]*>\s*</script>'
                     r'|<script type="text/x-mathjax-config">.*?</script>', re.DOTALL)
@@ -63,7 +65,8 @@ LOADED = re.compile(r'<link [^>]*href="https?://[^>]*>|<script[^>]*src="https?:/
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--prefix", type=pathlib.Path, metavar="FOLDER")
+    parser.add_argument("--prefix", type=lambda text: pathlib.Path(text).resolve(),
+                        metavar="FOLDER")
     options = parser.parse_args()
     shutil.rmtree(SITE, ignore_errors=True)
     SITE.mkdir(parents=True)
@@ -74,12 +77,24 @@ def main():
         sys.exit("\n".join(broken))
 
 
+def readable(text):
+    """A source as FORD can read it, which takes a comma in a length for its end."""
+    return LENGTH.sub(r"\1\2)", text)
+
+
 def build_api():
     """FORD's pages, made independent of the network."""
     ford = pathlib.Path(sys.executable).parent / "ford"
-    done = subprocess.run([str(ford), str(ROOT / "docs" / "ford.md")], cwd=ROOT,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
-                          check=False)
+    with tempfile.TemporaryDirectory() as folder:
+        for path in (ROOT / "src").rglob("*.f90"):
+            if "build" not in path.relative_to(ROOT).parts:
+                copy = pathlib.Path(folder, path.relative_to(ROOT))
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                copy.write_text(readable(path.read_text(encoding="utf-8")), encoding="utf-8")
+        done = subprocess.run([str(ford), "--src_dir", f"{folder}/src",
+                               str(ROOT / "docs" / "ford.md")], cwd=ROOT,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+                              check=False)
     warnings = [line for line in done.stdout.splitlines() if "warning" in line.lower()]
     if done.returncode != 0 or warnings or not (SITE / "api" / "index.html").is_file():
         sys.exit("\n".join(warnings) or done.stdout)

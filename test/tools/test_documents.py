@@ -243,6 +243,13 @@ class Tools(unittest.TestCase):
                 "```\n")
         self.assertEqual(pages.pictures(text), [("out/a.png", "Two words.")])
 
+    def test_ford_is_given_lengths_without_commas(self):
+        for text, wanted in (
+                ("character(len=f(table, row)) :: text", "character(len=f) :: text"),
+                ("character(len=f(n)) :: text", None), ("character(len=*) :: a, b", None),
+                ("call f(a, (b))  ! character(len=3)", None)):
+            self.assertEqual(document.readable(text), wanted or text)
+
     def test_the_api_pages_load_nothing_from_elsewhere(self):
         page = ('<link href="https://cdn.x/a.css" rel="stylesheet"\n integrity="sha"><script\n'
                 ' src="https://cdn.x/b.js" async></script><script type="text/x-mathjax-config">'
