@@ -77,7 +77,8 @@ class InACopy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
-                     validation.PROMISES, validation.ESTIMATED, validation.SPEED):
+                     validation.PROMISES, validation.ESTIMATED, validation.SPEED,
+                     validation.PAINTED):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         shutil.copytree(ROOT / "docs", self.root / "docs")
