@@ -17,6 +17,7 @@ from ._contact import Contact, Material, fastsim, hertz, kalker, library_version
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
 from ._library import FaststripError, LibraryNotFound
 from ._lookup import LookedUp, Lookup
+from ._lookup_wheel import WheelContacts, WheelLookup
 from ._many import ManyResult, solve_many
 from ._plot import plot_profiles
 from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
@@ -46,6 +47,8 @@ __all__ = [
     "Wear",
     "WearLaw",
     "WheelContact",
+    "WheelContacts",
+    "WheelLookup",
     "Wheelset",
     "WheelsetResult",
     "conicity",

@@ -167,6 +167,9 @@ def _declare(library: ctypes.CDLL) -> None:
         "lookup_free": [POINTER(handle)],
         "lookup_about": [handle, POINTER(number)],
         "lookup_forces": [handle, c_int, c_int, *[c_void_p] * 4],
+        "lookup_wheel_about": [handle, POINTER(number)],
+        "lookup_wheel_contacts": [handle, c_int, c_int, *[c_void_p] * 4],
+        "lookup_wheel_forces": [handle, c_int, c_int, *[c_void_p] * 5],
         "wheelset_last_message": [handle, c_char_p, c_size_t],
     }
     for name, types in arguments.items():

@@ -29,9 +29,10 @@ class LookedUp(Record):
     Attributes
     ----------
     forces : ndarray of float, shape (..., 3)
-        Fx, Fy, N, and Mz about the middle of the ellipse, N mm.
+        Fx, Fy, N, and Mz about the middle of the ellipse or the place of contact, N mm.
     jacobian : ndarray of float, shape (..., 3, 8)
-        Their derivatives by a, b, load, mu, g, cksi, ceta, cphi; empty unless asked for.
+        Their derivatives by a, b, load, mu, g, cksi, ceta, cphi; empty unless asked for. Of
+        `WheelLookup` shape (..., 3, 7): by y, yaw, load, mu, cksi, ceta, cphi.
     status : ndarray of int32, shape (...)
         0, or the error of each state.
     """
@@ -100,18 +101,11 @@ class Lookup:
     """
 
     def __init__(self, table: Union[str, os.PathLike[str], bytes]) -> None:
-        self._handle = c_void_p()
-        content = table
-        if not isinstance(content, bytes):
-            with open(content, "rb") as file:
-                content = file.read()
-        text = ctypes.create_string_buffer(TEXT)
-        status = library.faststrip_lookup_open(content, len(content), ctypes.byref(self._handle),
-                                               text, TEXT)
-        if status >= FIRST_ERROR:
-            raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+        self._handle = opened(table)
         numbers = (ctypes.c_double * N_ABOUT)()
-        library.faststrip_lookup_about(self._handle, numbers)
+        status = library.faststrip_lookup_about(self._handle, numbers)
+        if status >= FIRST_ERROR:
+            raise FaststripError(status, word_of(status), "the table of a wheel: take WheelLookup")
         self.nu = numbers[0]
         self.promised = numbers[1]
         self.tested = int(numbers[2])
@@ -154,37 +148,77 @@ class Lookup:
         FaststripError
             If all fail.
         """
-        if order not in ORDERS:
-            raise refused("order", "linear or cubic", order)
-        try:
-            cksi, ceta, cphi = creepage
-        except (TypeError, ValueError):
-            raise refused("creepage", "three numbers or arrays", creepage) from None
-        values = (a, b, load, mu, g, cksi, ceta, cphi)
-        try:
-            parts = np.broadcast_arrays(*(_numbers(name, value)
-                                          for name, value in zip(STATE, values)))
-        except ValueError:
-            raise refused("a, b, load, mu, g, creepage", "numbers or arrays of shapes that go "
-                          "together", tuple(np.shape(value) for value in values)) from None
-        shape = parts[0].shape
-        states = np.stack([part.ravel() for part in parts], axis=-1)
+        states, shape = stacked(STATE, (a, b, load, mu, g, *three(creepage)))
+        number = order_number(order)
         n = states.shape[0]
         forces = np.zeros((n, N_FORCES))
         slopes = np.zeros((n if flag("jacobian", jacobian) else 0, N_STATE, N_FORCES))
         codes = np.zeros(n, dtype=np.int32)
         status = library.faststrip_lookup_forces(
-            self._handle, ORDERS[order], n, states.ctypes.data, forces.ctypes.data,
+            self._handle, number, n, states.ctypes.data, forces.ctypes.data,
             slopes.ctypes.data if jacobian else None, codes.ctypes.data)
-        bad = codes >= FIRST_ERROR
-        if n and bad.all() or status >= FIRST_ERROR and not bad.any():
-            raise FaststripError(status, word_of(status), f"no state of {n} is in the table")
-        forces[bad] = np.nan
-        slopes = slopes.transpose(0, 2, 1)
-        if jacobian:
-            slopes[bad] = np.nan
-            slopes = slopes.reshape((*shape, N_FORCES, N_STATE))
-        return LookedUp(forces.reshape((*shape, N_FORCES)), slopes, codes.reshape(shape))
+        return looked_up(status, forces, slopes, codes, shape)
+
+
+def opened(table: Union[str, os.PathLike[str], bytes]) -> c_void_p:
+    """The handle of a table."""
+    handle = c_void_p()
+    content = table
+    if not isinstance(content, bytes):
+        with open(content, "rb") as file:
+            content = file.read()
+    text = ctypes.create_string_buffer(TEXT)
+    status = library.faststrip_lookup_open(content, len(content), ctypes.byref(handle), text, TEXT)
+    if status >= FIRST_ERROR:
+        raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+    return handle
+
+
+def order_number(order: str) -> int:
+    """The number of an order of interpolation."""
+    if order not in ORDERS:
+        raise refused("order", "linear or cubic", order)
+    return ORDERS[order]
+
+
+def three(creepage: Tuple[Any, Any, Any]) -> Tuple[Any, Any, Any]:
+    """Three creepages."""
+    try:
+        cksi, ceta, cphi = creepage
+    except (TypeError, ValueError):
+        raise refused("creepage", "three numbers or arrays", creepage) from None
+    return cksi, ceta, cphi
+
+
+def stacked(names: Sequence[str], values: Sequence[Any]) -> Tuple[Array, Tuple[int, ...]]:
+    """States as rows, and the shape that their numbers have together."""
+    try:
+        parts = np.broadcast_arrays(*(_numbers(name, value)
+                                      for name, value in zip(names, values)))
+    except ValueError:
+        said = [name for name in names if not name.startswith("c")]
+        if len(said) < len(names):
+            said.append("creepage")
+        raise refused(", ".join(said), "numbers or arrays of shapes that go together",
+                      tuple(np.shape(value) for value in values)) from None
+    return np.stack([part.ravel() for part in parts], axis=-1), parts[0].shape
+
+
+def looked_up(status: int, forces: Array, slopes: Array, codes: npt.NDArray[np.int32],
+              shape: Tuple[int, ...]) -> LookedUp:
+    """Forces in the shape of the states; nan where there are none. Raises if all failed."""
+    n = len(codes)
+    bad = codes >= FIRST_ERROR
+    if n and bad.all() or status >= FIRST_ERROR and not bad.any():
+        raise FaststripError(status, word_of(status), f"no state of {n} is in the table")
+    forces[bad] = np.nan
+    n_state = slopes.shape[1]
+    wanted = len(slopes) == n
+    slopes = slopes.transpose(0, 2, 1)
+    if wanted:
+        slopes[bad] = np.nan
+        slopes = slopes.reshape((*shape, N_FORCES, n_state))
+    return LookedUp(forces.reshape((*shape, N_FORCES)), slopes, codes.reshape(shape))
 
 
 def _numbers(name: str, value: Any) -> Array:

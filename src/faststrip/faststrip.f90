@@ -104,10 +104,13 @@ module faststrip
                                         demand_axle_load
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel, &
+                                      n_contact_numbers, most_slots
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_faces, only: lookup_linear, lookup_cubic
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
+    use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, contacts_change, &
+                                      n_wheel_place, n_wheel_state
     implicit none
     public
 end module faststrip

@@ -8,7 +8,7 @@ module faststrip_interop_c_lookup
     use faststrip_interop_lookup_handle, only: new_lookup, free_lookup, find_lookup, &
                                                look_up_states, describe_lookup, n_about
     use faststrip_lookup_hertz, only: n_lookup_state
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
     implicit none
     private
 
@@ -77,7 +77,7 @@ contains
         code = status%code
         if (is_error(status)) return
         code = st_bad_argument
-        if (.not. c_associated(numbers)) return
+        if (.not. c_associated(numbers) .or. table%kind /= lookup_kind_hertz) return
         found => numbers_at(numbers, n_about)
         found = describe_lookup(table)
         code = st_ok

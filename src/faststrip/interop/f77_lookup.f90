@@ -17,7 +17,7 @@ module faststrip_interop_f77_lookup
     use faststrip_interop_lookup_handle, only: new_lookup, free_lookup, find_lookup, &
                                                look_up_states, describe_lookup, n_about
     use faststrip_lookup_hertz, only: n_lookup_state
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
     implicit none
     private
 
@@ -79,7 +79,9 @@ contains
         about = 0.0_c_double
         call find_lookup(number_of(iwork), lookup, status)
         info = status%code
-        if (associated(lookup)) about = describe_lookup(lookup)
+        if (.not. associated(lookup)) return
+        if (lookup%kind /= lookup_kind_hertz) info = st_bad_argument
+        about = describe_lookup(lookup)
     end subroutine fslinf
 
     !> CALL FSLOOK(IWORK, IORDER, N, STATE, FORCE, DJAC, ISTAT, INFO)

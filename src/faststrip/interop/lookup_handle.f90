@@ -8,16 +8,18 @@ module faststrip_interop_lookup_handle
                                           kind_lookup
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_hertz, only: look_up_hertz
-    use faststrip_lookup_table, only: lookup_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel
+    use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     implicit none
     private
 
     public :: new_lookup, free_lookup, find_lookup, look_up_states, describe_lookup, n_about
+    public :: find_contacts, look_up_wheels, describe_wheel, n_about_wheel
 
     !> Numbers about a table.
     !> Given: by the faces.
-    integer, parameter :: n_about = 23
+    integer, parameter :: n_about = 23, n_about_wheel = 60
 
 contains
 
@@ -100,11 +102,88 @@ contains
         call restore_environment(environment)
     end subroutine look_up_states
 
-    !> Numbers about a table, as the header has them.
+    !> The contacts of a wheel at many places; the status of the first that fails.
+    subroutine find_contacts(lookup, order, places, contacts, status, slopes, codes)
+        type(lookup_t), intent(in) :: lookup                 !! opened
+        integer(c_int), intent(in) :: order                  !! 1 or 3
+        real(c_double), intent(in) :: places(:, :)           !! y, yaw, load, places
+        real(c_double), intent(inout) :: contacts(:, :, :)   !! numbers, slots, places
+        type(status_t), intent(out) :: status                !! of `look_up_contacts`
+        real(c_double), intent(inout), optional :: slopes(:, :, :, :)
+            !! numbers, slots, by y, yaw, load, places
+        integer(c_int), intent(inout), optional :: codes(:)  !! status of each place
+
+        type(environment_t) :: environment
+        type(status_t) :: found
+        integer :: i
+
+        call clear_status(status)
+        call hold_environment(environment)
+        do i = 1, size(places, 2)
+            if (present(slopes)) then
+                call look_up_contacts(lookup, order, places(:, i), contacts(:, :, i), found, &
+                                      slopes(:, :, :, i))
+            else
+                call look_up_contacts(lookup, order, places(:, i), contacts(:, :, i), found)
+            end if
+            if (present(codes)) codes(i) = found%code
+            if (found%code /= st_ok .and. status%code == st_ok) status = found
+        end do
+        call restore_environment(environment)
+    end subroutine find_contacts
+
+    !> Creep forces of contacts of a wheel; the status of the first state that fails.
+    subroutine look_up_wheels(lookup, order, slots, states, forces, status, jacobians, codes)
+        type(lookup_t), intent(in) :: lookup                 !! opened
+        integer(c_int), intent(in) :: order                  !! 1 or 3
+        integer(c_int), intent(in) :: slots(:)               !! which contact, of each state
+        real(c_double), intent(in) :: states(:, :)           !! numbers, states
+        real(c_double), intent(inout) :: forces(:, :)        !! forces, states
+        type(status_t), intent(out) :: status                !! of `look_up_wheel`
+        real(c_double), intent(inout), optional :: jacobians(:, :, :) !! forces, numbers, states
+        integer(c_int), intent(inout), optional :: codes(:)  !! status of each state
+
+        type(environment_t) :: environment
+        type(status_t) :: found
+        integer :: i
+
+        call clear_status(status)
+        call hold_environment(environment)
+        do i = 1, size(states, 2)
+            if (present(jacobians)) then
+                call look_up_wheel(lookup, order, slots(i), states(:, i), forces(:, i), found, &
+                                   jacobians(:, :, i))
+            else
+                call look_up_wheel(lookup, order, slots(i), states(:, i), forces(:, i), found)
+            end if
+            if (present(codes)) codes(i) = found%code
+            if (found%code /= st_ok .and. status%code == st_ok) status = found
+        end do
+        call restore_environment(environment)
+    end subroutine look_up_wheels
+
+    !> Numbers about the table of a wheel, as the header has them; zero for another one.
+    pure function describe_wheel(lookup) result(numbers)
+        type(lookup_t), intent(in) :: lookup !! opened
+        real(c_double) :: numbers(n_about_wheel)
+
+        numbers = 0.0_c_double
+        if (lookup%kind /= lookup_kind_wheel) return
+        associate (wheel => lookup%wheel)
+            numbers = [lookup%nu, wheel%shear, lookup%promised, real(wheel%tested, c_double), &
+                       real(wheel%slots, c_double), wheel%y%x([1, wheel%y%n]), &
+                       wheel%yaw%x([1, wheel%yaw%n]), wheel%load%x([1, wheel%load%n]), &
+                       reshape(wheel%errors, [size(wheel%errors)])]
+        end associate
+    end function describe_wheel
+
+    !> Numbers about a table of ellipses, as the header has them; zero for another one.
     pure function describe_lookup(lookup) result(numbers)
         type(lookup_t), intent(in) :: lookup !! opened
         real(c_double) :: numbers(n_about)
 
+        numbers = 0.0_c_double
+        if (lookup%kind /= lookup_kind_hertz) return
         numbers = [lookup%nu, lookup%promised, real(lookup%tested, c_double), &
                    exp(lookup%shape%x(1)), exp(lookup%shape%x(lookup%shape%n)), &
                    reshape(lookup%errors, [size(lookup%errors)])]

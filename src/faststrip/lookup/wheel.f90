@@ -40,10 +40,14 @@ module faststrip_lookup_wheel
     real(wp), parameter :: powers(at_area:n_contact_numbers) = &
         [2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp]/3.0_wp
 
-    !> Where a place lies among the nodes.
+    ! Nodes about a place: four along each axis.
+    integer, parameter :: most_about = 4**n_wheel_place
+
+    !> The nodes about a place.
     type :: place_cell_t
-        type(stencil_t) :: along(n_wheel_place)  ! y, yaw, load
-        integer :: width(n_wheel_place) = 1
+        integer :: n                             ! how many
+        integer :: node(most_about)              ! which ones
+        real(wp) :: w(0:n_wheel_place, most_about) ! weights in a value, in slopes by y, yaw, load
     end type place_cell_t
 
 contains
@@ -104,7 +108,7 @@ contains
         type(place_cell_t) :: place
         type(faces_cell_t) :: cell
         real(wp) :: numbers(n_contact_numbers, 0:n_wheel_place), linear(3), x(3), phi(3, 4), f(3)
-        real(wp) :: by_creepage(3, 3), by_place(3, n_wheel_place)
+        real(wp) :: by_creepage(3, 3), by_place(3, n_wheel_place), root
 
         status%code = st_ok
         forces = 0.0_wp
@@ -116,9 +120,9 @@ contains
         call sum_numbers(lookup, place, slot, at_load, at_load, numbers)
         if (numbers(at_load, 0) < least_load) return
         call sum_numbers(lookup, place, slot, at_length, n_contact_numbers, numbers)
-        ! Of c and the lengths of the creepages over the load that of the table.
-        linear = numbers(at_creep:at_spin, 0)*lookup%wheel%shear/state(4)
-        linear(:2) = linear(:2)*numbers(at_load, 0)**(-1.0_wp/3.0_wp)
+        root = numbers(at_load, 0)**(1.0_wp/3.0_wp)
+        linear = numbers(at_creep:at_spin, 0)*(lookup%wheel%shear/state(4))
+        linear(:2) = linear(:2)/root
         x = min(max(linear*state(5:7), -most_creepage), most_creepage)
         call find_faces_cell(lookup%q, lookup%ratio, order, x, cell)
         if (order == lookup_cubic) call find_place(lookup, lookup_linear, state(:n_wheel_place), &
@@ -126,7 +130,7 @@ contains
         call sum_places(lookup, place, slot, cell, phi, by_place)
         call finish_faces(cell, phi, f, by_creepage)
         associate (force => state(4)*numbers(at_load, 0), &
-                   c => numbers(at_length, 0)*numbers(at_load, 0)**(1.0_wp/3.0_wp))
+                   c => numbers(at_length, 0)*root)
             forces = [force, force, force*c]*f
             if (.not. present(jacobian)) return
             by_place = cell%q*by_place*spread(force_signs(cell), 2, n_wheel_place)
@@ -140,38 +144,49 @@ contains
         real(wp), intent(in) :: place(n_wheel_place) !! y, yaw, load, within the table
 
         type(place_cell_t) :: cell
-        logical :: any_there, all_there, is_there
-        integer :: slot, i, j, k
+        integer :: slot, there
 
         call find_place(lookup, lookup_linear, place, cell)
         change = .false.
         do slot = 1, lookup%wheel%slots
-            any_there = .false.
-            all_there = .true.
-            do k = 1, cell%width(3)
-                do j = 1, cell%width(2)
-                    do i = 1, cell%width(1)
-                        is_there = lookup%wheel%contacts(at_load, slot, node_of(lookup, cell, i, &
-                                                         j, k)) > 0.0_wp
-                        any_there = any_there .or. is_there
-                        all_there = all_there .and. is_there
-                    end do
-                end do
-            end do
-            change = change .or. (any_there .and. .not. all_there)
+            there = count(lookup%wheel%contacts(at_load, slot, cell%node(:cell%n)) > 0.0_wp)
+            change = change .or. (there > 0 .and. there < cell%n)
         end do
     end function contacts_change
 
-    !> Where a place lies, which is within the table.
+    !> The nodes about a place, which is within the table.
     pure subroutine find_place(lookup, order, place, cell)
         type(lookup_t), intent(in) :: lookup
         integer, intent(in) :: order
         real(wp), intent(in) :: place(n_wheel_place)
         type(place_cell_t), intent(inout) :: cell
 
-        call find_along(lookup%wheel%y, order, place(1), cell%along(1), cell%width(1))
-        call find_along(lookup%wheel%yaw, order, place(2), cell%along(2), cell%width(2))
-        call find_along(lookup%wheel%load, order, place(3), cell%along(3), cell%width(3))
+        type(stencil_t) :: in_y, in_yaw, in_load
+        real(wp) :: both, by_yaw, by_load
+        integer :: i, j, k, row, width(n_wheel_place)
+
+        call find_along(lookup%wheel%y, order, place(1), in_y, width(1))
+        call find_along(lookup%wheel%yaw, order, place(2), in_yaw, width(2))
+        call find_along(lookup%wheel%load, order, place(3), in_load, width(3))
+        cell%n = 0
+        do k = 1, width(3)
+            do j = 1, width(2)
+                row = lookup%wheel%y%n*((in_yaw%first + j - 2) &
+                                        + lookup%wheel%yaw%n*(in_load%first + k - 2)) &
+                      + in_y%first - 1
+                both = in_yaw%w(j)*in_load%w(k)
+                by_yaw = in_yaw%dw(j)*in_load%w(k)
+                by_load = in_yaw%w(j)*in_load%dw(k)
+                do i = 1, width(1)
+                    cell%n = cell%n + 1
+                    cell%node(cell%n) = row + i
+                    cell%w(0, cell%n) = in_y%w(i)*both
+                    cell%w(1, cell%n) = in_y%dw(i)*both
+                    cell%w(2, cell%n) = in_y%w(i)*by_yaw
+                    cell%w(3, cell%n) = in_y%w(i)*by_load
+                end do
+            end do
+        end do
     end subroutine find_place
 
     !> Weights of nodes along one axis, and how many.
@@ -196,15 +211,6 @@ contains
         end if
     end subroutine find_along
 
-    pure integer function node_of(lookup, cell, i, j, k) result(node)
-        type(lookup_t), intent(in) :: lookup
-        type(place_cell_t), intent(in) :: cell
-        integer, intent(in) :: i, j, k
-
-        node = (cell%along(1)%first + i - 1) + lookup%wheel%y%n &
-               *((cell%along(2)%first + j - 2) + lookup%wheel%yaw%n*(cell%along(3)%first + k - 2))
-    end function node_of
-
     !> Numbers of a contact, as the table has them, and their derivatives.
     pure subroutine sum_numbers(lookup, cell, slot, first, last, numbers)
         type(lookup_t), intent(in) :: lookup
@@ -212,37 +218,20 @@ contains
         integer, intent(in) :: slot, first, last
         real(wp), intent(inout) :: numbers(n_contact_numbers, 0:n_wheel_place)
 
-        real(wp) :: w(0:n_wheel_place)
-        integer :: i, j, k, node, m
+        real(wp) :: number
+        integer :: i, j
 
         numbers(first:last, :) = 0.0_wp
-        do k = 1, cell%width(3)
-            do j = 1, cell%width(2)
-                do i = 1, cell%width(1)
-                    node = node_of(lookup, cell, i, j, k)
-                    w = weights(cell, i, j, k)
-                    do m = 0, n_wheel_place
-                        numbers(first:last, m) = numbers(first:last, m) &
-                                                 + w(m)*lookup%wheel%contacts(first:last, slot, node)
-                    end do
-                end do
+        do i = 1, cell%n
+            do j = first, last
+                number = lookup%wheel%contacts(j, slot, cell%node(i))
+                numbers(j, 0) = numbers(j, 0) + cell%w(0, i)*number
+                numbers(j, 1) = numbers(j, 1) + cell%w(1, i)*number
+                numbers(j, 2) = numbers(j, 2) + cell%w(2, i)*number
+                numbers(j, 3) = numbers(j, 3) + cell%w(3, i)*number
             end do
         end do
     end subroutine sum_numbers
-
-    !> Weight of a node in a value and in its derivatives by y, yaw, load.
-    pure function weights(cell, i, j, k) result(w)
-        type(place_cell_t), intent(in) :: cell
-        integer, intent(in) :: i, j, k
-        real(wp) :: w(0:n_wheel_place)
-
-        associate (a => cell%along(1), b => cell%along(2), c => cell%along(3))
-            w(0) = a%w(i)*b%w(j)*c%w(k)
-            w(1) = a%dw(i)*b%w(j)*c%w(k)
-            w(2) = a%w(i)*b%dw(j)*c%w(k)
-            w(3) = a%w(i)*b%w(j)*c%dw(k)
-        end associate
-    end function weights
 
     !> Phi with its derivatives by q, s, t, and Phi's by y, yaw, load.
     pure subroutine sum_places(lookup, place, slot, cell, phi, by_place)
@@ -252,25 +241,19 @@ contains
         type(faces_cell_t), intent(in) :: cell
         real(wp), intent(out) :: phi(3, 4), by_place(3, n_wheel_place)
 
-        real(wp) :: v(3, 4), w(0:n_wheel_place)
-        integer :: i, j, k, m, mirrored
+        real(wp) :: v(3, 4)
+        integer :: i, m, mirrored
 
         mirrored = 0
         if (cell%sign_of(1)*cell%sign_of(3) < 0.0_wp) mirrored = 1
         phi = 0.0_wp
         by_place = 0.0_wp
-        do k = 1, place%width(3)
-            do j = 1, place%width(2)
-                do i = 1, place%width(1)
-                    w = weights(place, i, j, k)
-                    call sum_faces(lookup%values, 2*lookup%wheel%set(slot, &
-                                   node_of(lookup, place, i, j, k)) - 1 + mirrored, lookup%q%n, &
-                                   lookup%ratio%n, cell, v)
-                    phi = phi + w(0)*v
-                    do m = 1, n_wheel_place
-                        by_place(:, m) = by_place(:, m) + w(m)*v(:, 1)
-                    end do
-                end do
+        do i = 1, place%n
+            call sum_faces(lookup%values, 2*lookup%wheel%set(slot, place%node(i)) - 1 + mirrored, &
+                           lookup%q%n, lookup%ratio%n, cell, v)
+            phi = phi + place%w(0, i)*v
+            do m = 1, n_wheel_place
+                by_place(:, m) = by_place(:, m) + place%w(m, i)*v(:, 1)
             end do
         end do
     end subroutine sum_places
