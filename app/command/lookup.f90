@@ -2,6 +2,7 @@
 module faststrip_command_lookup
     use faststrip_command_console, only: say, usage_error
     use faststrip_command_lookup_eval, only: run_lookup_eval
+    use faststrip_command_lookup_export, only: run_lookup_export
     use faststrip_command_lookup_info, only: run_lookup_info
     use faststrip_command_lookup_join, only: run_lookup_join
     use faststrip_command_lookup_make, only: run_lookup_make
@@ -13,7 +14,7 @@ module faststrip_command_lookup
 
     public :: run_lookup
 
-    character(len=*), parameter :: actions = 'make, wheel, join, info, test or eval'
+    character(len=*), parameter :: actions = 'make, wheel, join, info, test, eval or export'
 
 contains
 
@@ -30,6 +31,7 @@ contains
         case ('info'); call run_lookup_info()
         case ('test'); call run_lookup_test()
         case ('eval'); call run_lookup_eval()
+        case ('export'); call run_lookup_export()
         case ('--help', '-h'); call print_help()
         case (''); call usage_error('an action is needed: ' // actions, 'lookup')
         case default
@@ -50,6 +52,7 @@ contains
         call say('  info TABLE.fslt               what a table holds, and its errors')
         call say('  test TABLE.fslt               errors on fresh states, and look-ups per second')
         call say('  eval TABLE.fslt CSV           forces of the states of a CSV file')
+        call say('  export TABLE.fslt -o FILE.nc  the table as NetCDF')
         call say('')
         call say('options:')
         call say('  --help                            this text')

@@ -2,7 +2,7 @@
 !> would slow every start.
 module faststrip_command_netcdf_file
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funloc, &
-                                           c_funptr, c_int, c_null_char
+                                           c_funptr, c_int, c_null_char, c_null_funptr
     use faststrip_base_status, only: status_t, clear_status, message_length, is_error, &
                                      set_status, st_file_format, st_file_write
     use faststrip_base_text, only: integer_text, set_place_status
@@ -16,13 +16,14 @@ module faststrip_command_netcdf_file
     implicit none
     private
 
-    public :: is_netcdf, write_netcdf, finish_as_asked, use_single_precision, check_names
+    public :: is_netcdf, write_netcdf, write_netcdf_lookup, finish_as_asked, use_single_precision, check_names
 
     !> How the names of these files end.
     character(len=*), parameter :: ending = '.nc'
 
     character(len=*), parameter :: library = 'faststrip_netcdf.so'
-    character(len=*), parameter :: procedure_name = 'faststrip_write_netcdf'
+    character(len=*), parameter :: table_procedure = 'faststrip_write_netcdf'
+    character(len=*), parameter :: lookup_procedure = 'faststrip_write_netcdf_lookup'
 
     ! Numbers of tables that are finished as NetCDF.
     logical :: are_single = .false.
@@ -39,6 +40,14 @@ module faststrip_command_netcdf_file
             character(kind=c_char), intent(out) :: message(message_length)
             integer(c_int) :: code
         end function written
+
+        ! As `faststrip_write_netcdf_lookup` there.
+        function lookup_written(source, target, name, writer, message) result(code) bind(c)
+            import :: c_char, c_int, message_length
+            character(kind=c_char), intent(in) :: source(*), target(*), name(*), writer(*)
+            character(kind=c_char), intent(out) :: message(message_length)
+            integer(c_int) :: code
+        end function lookup_written
     end interface
 
     interface
@@ -109,50 +118,82 @@ contains
         procedure(written), pointer :: write_table
         character(len=:), allocatable :: target, said
         character(kind=c_char) :: words(message_length)
-        integer(c_int) :: code
+        type(c_funptr) :: found
 
-        if (index(final_path(path), '/dev/') == 1) then
-            call set_status(status, st_file_write, 'NetCDF must go to a file, got ' // path)
-            return
-        end if
-        call load_library(write_table, status)
+        call load_library(table_procedure, path, found, status)
         if (is_error(status)) return
+        call c_f_procpointer(found, write_table)
         target = free_name(path)
         said = path
         if (present(called)) said = called
-        call set_progress('loading ' // library)
         status%code = write_table(source // c_null_char, said // c_null_char, &
                                   target // c_null_char, path // c_null_char, &
                                   version_text() // c_null_char, &
                                   merge(1_c_int, 0_c_int, are_single), c_funloc(tell), words)
         status%message = transfer(words, status%message)
+        if (.not. is_error(status) .and. len_trim(status%message) > 0) &
+            call note(trim(status%message))
+        call finish_file(target, path, status)
+    end subroutine write_netcdf
+
+    !> Write a lookup table as NetCDF: a whole new file is left, or the old one.
+    subroutine write_netcdf_lookup(source, path, status)
+        character(len=*), intent(in) :: source !! the table's file
+        character(len=*), intent(in) :: path   !! of the file to be made
+        type(status_t), intent(out) :: status  !! of the table; `st_file_write`
+
+        procedure(lookup_written), pointer :: write_table
+        character(len=:), allocatable :: target
+        character(kind=c_char) :: words(message_length)
+        type(c_funptr) :: found
+
+        call load_library(lookup_procedure, path, found, status)
+        if (is_error(status)) return
+        call c_f_procpointer(found, write_table)
+        target = free_name(path)
+        status%code = write_table(source // c_null_char, target // c_null_char, &
+                                  path // c_null_char, version_text() // c_null_char, words)
+        status%message = transfer(words, status%message)
+        call finish_file(target, path, status)
+    end subroutine write_netcdf_lookup
+
+    ! A file that is whole gets its name, another one goes.
+    subroutine finish_file(target, path, status)
+        character(len=*), intent(in) :: target, path
+        type(status_t), intent(inout) :: status
+
+        integer(c_int) :: code
+
         if (.not. is_error(status)) then
-            if (len_trim(status%message) > 0) call note(trim(status%message))
             code = c_rename(target // c_null_char, final_path(path) // c_null_char)
             if (code /= 0) call set_status(status, st_file_write, 'cannot write the file: ' &
                                            // path // ': ' // failure_words())
         end if
         if (is_error(status)) code = c_remove(target // c_null_char)
-    end subroutine write_netcdf
+    end subroutine finish_file
 
-    subroutine load_library(write_table, status)
-        procedure(written), pointer, intent(out) :: write_table
+    ! A procedure of the library that writes NetCDF to a path.
+    subroutine load_library(procedure_name, path, found, status)
+        character(len=*), intent(in) :: procedure_name, path
+        type(c_funptr), intent(out) :: found
         type(status_t), intent(out) :: status
 
         character(kind=c_char) :: why(message_length)
         character(len=message_length) :: words
-        type(c_funptr) :: found
 
-        nullify (write_table)
+        call clear_status(status)
+        found = c_null_funptr
+        if (index(final_path(path), '/dev/') == 1) then
+            call set_status(status, st_file_write, 'NetCDF must go to a file, got ' // path)
+            return
+        end if
+        call set_progress('loading ' // library)
         found = c_load(library // c_null_char, procedure_name // c_null_char, why, &
                        int(size(why), c_int))
-        if (c_associated(found)) then
-            call c_f_procpointer(found, write_table)
-        else
-            words = transfer(why, words)
-            call set_status(status, st_file_write, 'cannot write NetCDF: ' &
-                            // words(:index(words, c_null_char) - 1))
-        end if
+        if (c_associated(found)) return
+        words = transfer(why, words)
+        call set_status(status, st_file_write, 'cannot write NetCDF: ' &
+                        // words(:index(words, c_null_char) - 1))
     end subroutine load_library
 
     ! Where nothing lies yet of what this run is writing.

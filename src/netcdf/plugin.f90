@@ -2,11 +2,12 @@
 module faststrip_netcdf_plugin
     use, intrinsic :: iso_c_binding, only: c_char, c_f_procpointer, c_funptr, c_int, c_null_char
     use faststrip_base_status, only: status_t, message_length
+    use faststrip_netcdf_lookup, only: write_lookup
     use faststrip_netcdf_table, only: conversion_t, progress_told, write_table
     implicit none
     private
 
-    public :: faststrip_write_netcdf
+    public :: faststrip_write_netcdf, faststrip_write_netcdf_lookup
 
 contains
 
@@ -28,7 +29,6 @@ contains
         type(status_t) :: status
         procedure(progress_told), pointer :: tell
         character(len=:), allocatable :: words
-        integer :: i
 
         what%source = fortran_text(source)
         what%called = fortran_text(called)
@@ -39,11 +39,39 @@ contains
         call c_f_procpointer(progress, tell)
         call write_table(what, tell, words, status)
         if (status%code == 0) status%message = words
+        call put_message(status, message)
+        code = int(status%code, c_int)
+    end function faststrip_write_netcdf
+
+    !> Write a lookup table as NetCDF-4. Returns a status code; texts end with a zero byte.
+    function faststrip_write_netcdf_lookup(source, target, name, writer, message) result(code) &
+        bind(c)
+        character(kind=c_char), intent(in) :: source(*) !! the table's file
+        character(kind=c_char), intent(in) :: target(*) !! the file to be made; must not be there
+        character(kind=c_char), intent(in) :: name(*)   !! what messages call that
+        character(kind=c_char), intent(in) :: writer(*) !! name, version, revision of the program
+        character(kind=c_char), intent(out) :: message(message_length) !! of an error; filled up
+                                                        !! with blanks
+        integer(c_int) :: code
+
+        type(status_t) :: status
+
+        call write_lookup(fortran_text(source), fortran_text(target), fortran_text(name), &
+                          fortran_text(writer), status)
+        call put_message(status, message)
+        code = int(status%code, c_int)
+    end function faststrip_write_netcdf_lookup
+
+    subroutine put_message(status, message)
+        type(status_t), intent(in) :: status
+        character(kind=c_char), intent(out) :: message(message_length)
+
+        integer :: i
+
         do i = 1, message_length
             message(i) = status%message(i:i)
         end do
-        code = int(status%code, c_int)
-    end function faststrip_write_netcdf
+    end subroutine put_message
 
     function fortran_text(text) result(words)
         character(kind=c_char), intent(in) :: text(*)

@@ -7,6 +7,9 @@ import subprocess
 import time
 import zlib
 
+import numpy as np
+import xarray as xr
+
 from cli_program import ROOT, ProgramTest, numbers, rows_of
 
 MAKE = ("--error", "0.05", "--ab", "0.5:3", "--tests", "1000")
@@ -206,12 +209,32 @@ class Lookup(ProgramTest):
         layout = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
         self.assertIn("## Lookup tables", layout)
 
+    def test_netcdf_gives_the_table_back(self):
+        self.good("lookup", "export", self.table(), "-o", "table.nc")
+        data = xr.load_dataset(self.folder / "table.nc", engine="h5netcdf")
+        content = Lookup.made
+        n_q, n_ratio, n_shape = struct.unpack_from("<3i", content, 20)
+        doubles = np.frombuffer(content, "<f8", 21 + n_q + n_ratio + 4 * n_shape, 40)
+        np.testing.assert_array_equal(data.error.values.ravel(), doubles[3:21])
+        np.testing.assert_array_equal(data.q.values, doubles[21:21 + n_q])
+        shapes = 21 + n_q + n_ratio
+        np.testing.assert_array_equal(data.ratio_2.values, doubles[21 + n_q:shapes])
+        np.testing.assert_allclose(data.a_over_b.values,
+                                   np.exp(doubles[shapes:shapes + n_shape]), rtol=1e-14)
+        np.testing.assert_array_equal(data.scale.values.ravel(), doubles[shapes + n_shape:])
+        self.assertEqual(data.phi.shape, (n_shape, 6, n_ratio, n_ratio, n_q, 3))
+        np.testing.assert_array_equal(
+            data.phi.values.ravel(),
+            np.frombuffer(content, "<f4", data.phi.size, 40 + 8 * len(doubles)))
+        self.assertEqual((data.Conventions, data.poisson_ratio, data.error.tested),
+                         ("CF-1.8", 0.28, 1000))
+
     def test_wrong_calls(self):
         self.write("in.csv", STATES.replace("mu", "my") + "\n")
         self.write("twice.csv", STATES + ",Fx_N\n5,4,1,1,1,0,0,0,0\n")
         table = self.table()
         for words, says in (
-            ((), "make, wheel, join, info, test or eval"),
+            ((), "make, wheel, join, info, test, eval or export"),
             (("frobnicate",), "got frobnicate"),
             (("make",), "-o TABLE.fslt"),
             (("make", "-o", "-"), "-o TABLE.fslt"),
@@ -242,7 +265,7 @@ class Lookup(ProgramTest):
 
     def test_help(self):
         text = self.good("lookup", "--help")
-        for action in ("make", "join", "info", "test", "eval"):
+        for action in ("make", "wheel", "join", "info", "test", "eval", "export"):
             self.assertIn(f"\n  {action} ", text)
             about = self.good("lookup", action, "--help")
             self.assertTrue(about.startswith(f"usage: faststrip lookup {action} "))

@@ -5,11 +5,21 @@ import struct
 import subprocess
 import zlib
 
+import cf_units
+import numpy as np
+import xarray as xr
+
 from cli_program import ROOT, ProgramTest, numbers, rows_of
 
 MAKE = ("--error", "0.2", "--y", "6:9.5", "--tests", "400", "--least-step", "0.1")
 STATES = "y_mm,yaw_rad,load_N,mu,cksi,ceta,cphi_rad_per_mm,slot"
 CASE = "&wheel\n profile = 'cone.csv'\n/\n&rail\n profile = '60e1'\n/\n&material\n mu = 0.3\n/\n"
+# Names of a contact's numbers in NetCDF, their units, and by which power of N, in thirds, the table
+# has them divided.
+NUMBERS = (("normal_force", "N", 0), ("contact_angle", "rad", 0), ("y_rail", "mm", 0),
+           ("z_rail", "mm", 0), ("x_track", "mm", 0), ("y_wheel", "mm", 0),
+           ("rolling_radius", "mm", 0), ("z_wheelset", "mm", 0), ("area", "mm2", 2),
+           ("pmax", "MPa", 1), ("c", "mm", 1), ("l1", "mm2", 2), ("l2", "mm2", 2), ("l3", "mm3", 3))
 ERRORS = ("Fx", "Fy", "Mz", "N_y")
 
 
@@ -196,6 +206,47 @@ class LookupWheel(ProgramTest):
         self.assertAlmostEqual(shear, 82000.0)
         y = struct.unpack_from(f"<{n_y}d", content, 56 + 8 * (n_numbers + n_q + n_ratio))
         self.assertEqual((y[0], y[-1]), (6.0, 9.5))
+
+    def test_netcdf_gives_the_table_back(self):
+        self.good("lookup", "export", self.table(), "-o", "table.nc")
+        data = xr.load_dataset(self.folder / "table.nc", engine="h5netcdf", mask_and_scale=False)
+        content = LookupWheel.made
+        n_q, n_ratio, n_y, n_numbers, _, n_yaw, n_load, slots, sets = struct.unpack_from(
+            "<9i", content, 20)
+        doubles = np.frombuffer(content, "<f8", n_numbers + n_q + n_ratio + n_y + n_yaw + n_load,
+                                56)
+        at = n_numbers
+        for name, n in (("q", n_q), ("ratio_1", n_ratio), ("y", n_y), ("yaw", n_yaw),
+                        ("load", n_load)):
+            np.testing.assert_array_equal(data[name].values, doubles[at:at + n])
+            at += n
+        np.testing.assert_array_equal(data.error.values.ravel(), doubles[5:n_numbers])
+        places = (n_load, n_yaw, n_y, slots)
+        contacts = np.frombuffer(content, "<f8", 14 * math.prod(places), 56 + 8 * at).reshape(
+            *places, 14)
+        load = contacts[..., 0]
+        there = load > 0
+        for k, (name, unit, thirds) in enumerate(NUMBERS):
+            self.assertEqual(cf_units.Unit(data[name].units), cf_units.Unit(unit))
+            self.assertTrue(data[name].long_name)
+            np.testing.assert_allclose(data[name].values[there],
+                                       (contacts[..., k] * load**(thirds / 3))[there], rtol=1e-14)
+            self.assertTrue((data[name].values[~there] == data[name].attrs["_FillValue"]).all())
+        at = 56 + 8 * (at + contacts.size)
+        np.testing.assert_array_equal(data.contact_of.values.ravel(),
+                                      np.frombuffer(content, "<i4", math.prod(places), at))
+        at += 4 * math.prod(places)
+        self.assertEqual(data.phi.shape, (sets, 2, 6, n_ratio, n_ratio, n_q, 3))
+        np.testing.assert_array_equal(data.phi.values.ravel(),
+                                      np.frombuffer(content, "<f4", data.phi.size, at))
+        self.assertEqual((data.Conventions, data.poisson_ratio, data.promised_error),
+                         ("CF-1.8", 0.28, 0.2))
+        self.assertIn("right wheel cone.csv on rail 60e1", data.source)
+        self.refused(2, "lookup", "export", "table.fslt", "-o", "x.csv", says=["'x.csv'"])
+        self.refused(2, "lookup", "export", "table.fslt", says=["-o FILE.nc"])
+        self.refused(1, "lookup", "export", "cone.csv", "-o", "x.nc", says=["cone.csv"])
+        self.refused(1, "lookup", "export", "table.fslt", "-o", "none/x.nc", says=["none/x.nc"])
+        self.assertFalse((self.folder / "x.nc").exists())
 
     def test_wrong_calls(self):
         table = self.table()
