@@ -545,8 +545,8 @@ int faststrip_conicity(int n, const double *y, const double *delta_r, int m,
 int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *text,
                                     size_t length);
 
-/* A table of creep forces on Hertz ellipses, made by `faststrip lookup make`, or of the contacts of a
- * wheel on a rail, made by `faststrip lookup wheel`. It is not changed by looking up: all threads
+/* A table of creep forces on Hertz ellipses, made by `faststrip lookup make`, or of the contacts of
+ * a wheel on a rail, made by `faststrip lookup wheel`. It is not changed by looking up: all threads
  * may share one. */
 typedef struct faststrip_lookup faststrip_lookup;
 
@@ -559,10 +559,10 @@ int faststrip_lookup_open(const void *bytes, size_t length, faststrip_lookup **l
                           size_t text_length);
 int faststrip_lookup_free(faststrip_lookup **lookup);
 
-/* 23 numbers about a table of ellipses (of a wheel: 100): Poisson's ratio; the 99th percentile of the errors that it was made
- * for; fresh contacts that it was judged by; least and most a/b; mean of the errors of Fx, Fy (over
- * mu N) and Mz (over mu N c) by linear interpolation, their 99th percentiles, the worst; the same
- * nine by cubic interpolation. */
+/* 23 numbers about a table of ellipses (of a wheel: 100): Poisson's ratio; the 99th percentile of
+ * the errors that it was made for; fresh contacts that it was judged by; least and most a/b; mean
+ * of the errors of Fx, Fy (over mu N) and Mz (over mu N c) by linear interpolation, their 99th
+ * percentiles, the worst; the same nine by cubic interpolation. */
 int faststrip_lookup_about(const faststrip_lookup *lookup, double numbers[23]);
 
 /* Look forces up, for Coulomb friction and like materials. states has eight numbers of each of n
@@ -577,24 +577,24 @@ int faststrip_lookup_forces(const faststrip_lookup *lookup, enum faststrip_looku
                             int n, const double *states, double *forces, double *jacobians,
                             int *codes);
 
-/* 60 numbers about the table of a wheel (of ellipses: 100): Poisson's ratio, shear modulus, MPa; the
- * 99th percentile of the errors that it was made for; fresh states that it was judged by, all, and
- * such in cells where contacts come or go; number of slots, contacts that there can be; first and
- * last y, mm, yaw, rad, and load, N; mean of the errors of Fx, Fy (over mu N), Mz (over mu N c) and
- * of the lateral part of the normal forces (over N) by linear interpolation, their 99th percentiles,
- * the worst; the same twelve by cubic interpolation; all these of states where contacts come or
- * go. */
+/* 60 numbers about the table of a wheel (of ellipses: 100): Poisson's ratio, shear modulus, MPa;
+ * the 99th percentile of the errors that it was made for; fresh states that it was judged by, all,
+ * and such in cells where contacts come or go; number of slots, contacts that there can be; first
+ * and last y, mm, yaw, rad, and load, N; mean of the errors of Fx, Fy (over mu N), Mz (over mu N c)
+ * and of the lateral part of the normal forces (over N) by linear interpolation, their 99th
+ * percentiles, the worst; the same twelve by cubic interpolation; all these of states where
+ * contacts come or go. */
 int faststrip_lookup_wheel_about(const faststrip_lookup *lookup, double numbers[60]);
 
 /* Look the contacts of a wheel up. places has three numbers of each of n places: y of the wheelset,
- * mm, yaw, rad (any, in a table of one yaw), vertical part of the normal forces, N. contacts becomes
- * 14 numbers of each slot, of each place: normal force, N; contact angle, rad; y, z on the rail's
- * profile, mm; x in the track, mm; y on the wheel's profile, mm; rolling radius, mm; z of the
- * wheelset, mm; area, mm2; largest pressure, MPa; length c of the moment, mm; L1, L2, mm2, L3, mm3,
- * which times G/(mu N) normalise the creepages. A slot is the same contact at all places; all of it
- * is 0 where there is none. slopes, if not null, becomes their derivatives by y, by yaw, by load: 14
- * numbers of each slot, three times, of each place. Places beyond the table: 109. codes as of
- * faststrip_lookup_forces. Nothing is allocated. */
+ * mm, yaw, rad (any, in a table of one yaw), vertical part of the normal forces, N. contacts
+ * becomes 14 numbers of each slot, of each place: normal force, N; contact angle, rad; y, z on the
+ * rail's profile, mm; x in the track, mm; y on the wheel's profile, mm; rolling radius, mm; z of
+ * the wheelset, mm; area, mm2; largest pressure, MPa; length c of the moment, mm; L1, L2, mm2, L3,
+ * mm3, which times G/(mu N) normalise the creepages. A slot is the same contact at all places; all
+ * of it is 0 where there is none. slopes, if not null, becomes their derivatives by y, by yaw, by
+ * load: 14 numbers of each slot, three times, of each place. Places beyond the table: 109. codes as
+ * of faststrip_lookup_forces. Nothing is allocated. */
 int faststrip_lookup_wheel_contacts(const faststrip_lookup *lookup,
                                     enum faststrip_lookup_order order, int n,
                                     const double *places, double *contacts, double *slopes,

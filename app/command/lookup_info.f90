@@ -86,8 +86,8 @@ contains
                          count(wheel%contacts(at_load, k, :) > 0.0_wp)) // ' of ' &
                          // integer_text(size(wheel%set, 2)) // ' places')
             end do
-            if (wheel%y%n > 1) call say('  shortest cell of y: ' // trim(number_text( &
-                                        minval(wheel%y%x(2:) - wheel%y%x(:wheel%y%n - 1)))) // ' mm')
+            call say('  shortest cell of y: ' // trim(number_text( &
+                     minval(wheel%y%x(2:) - wheel%y%x(:wheel%y%n - 1)))) // ' mm')
             if (lookup%promised > 0.0_wp) &
                 call say('made for a 99th percentile of ' // trim(number_text(lookup%promised)))
             do kind = 1, 2

@@ -13,8 +13,8 @@ module faststrip_command_lookup_wheel_case
 
 contains
 
-    !> The wheel and the rail of a case; ends the program with a line where there is something that a
-    !> table cannot hold.
+    !> The wheel and the rail of a case; ends the program with a line where there is something that
+    !> a table cannot hold.
     subroutine read_wheel_case(path, model)
         character(len=*), intent(in) :: path           !! name of the `.nml` file
         type(wheelset_model_t), intent(inout) :: model !! made

@@ -1,5 +1,5 @@
-!> The lookup table of a wheel from its nodes: first the contacts of all places, then creep forces of
-!> each contact.
+!> The lookup table of a wheel from its nodes: first the contacts of all places, then creep forces
+!> of each contact.
 module faststrip_command_lookup_wheel_fill
     use, intrinsic :: iso_fortran_env, only: int64, real32
     use faststrip_base_kinds, only: wp

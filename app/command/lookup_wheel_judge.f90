@@ -23,7 +23,8 @@ module faststrip_command_lookup_wheel_judge
     implicit none
     private
 
-    public :: judged_t, judge_table, judge_wheel, draw_wheel_states, sums_of, n_sums, creepage_direction
+    public :: judged_t, judge_table, judge_wheel, draw_wheel_states, sums_of, n_sums
+    public :: creepage_direction
 
     !> Sums over the contacts of a wheel: ahead; across, along y and z of the track; moment; lateral
     !> part of the normal forces.

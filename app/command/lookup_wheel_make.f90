@@ -1,4 +1,5 @@
-!> `faststrip lookup wheel`: the table of a wheel on a rail, refined until it is as good as asked for.
+!> `faststrip lookup wheel`: the table of a wheel on a rail, refined until it is as good as asked
+!> for.
 module faststrip_command_lookup_wheel_make
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
@@ -246,12 +247,13 @@ contains
         call release_workers(workers)
         if (found(1) > wanted%error) &
             call fail(exit_no_convergence, 'the error asked for was not met: ' &
-                      // trim(number_text(wanted%error)) // ', got ' // trim(number_text(found(1))))
+                      // trim(number_text(wanted%error)) // ', got ' &
+                      // trim(number_text(found(1))))
         if (found(2) > wanted%error) &
             call note('where contacts come or go the error asked for was not met: ' &
-                      // trim(number_text(wanted%error)) // ', got ' // trim(number_text(found(2))) &
-                      // '; cells of y are down to ' // trim(number_text(minval( &
-                         lookup%wheel%y%x(2:) - lookup%wheel%y%x(:lookup%wheel%y%n - 1)))) // ' mm')
+                      // trim(number_text(wanted%error)) // ', got ' &
+                      // trim(number_text(found(2))) // '; cells of y are down to ' &
+                      // trim(number_text(shortest(lookup%wheel%y))) // ' mm')
         lookup%promised = wanted%error
     end subroutine make_refined
 
@@ -263,6 +265,13 @@ contains
         choice_of = choice
         choice_of%nu = nu
     end function choice_of
+
+    ! The length of the shortest cell of an axis.
+    pure real(wp) function shortest(axis)
+        type(lookup_axis_t), intent(in) :: axis
+
+        shortest = minval(axis%x(2:) - axis%x(:axis%n - 1))
+    end function shortest
 
     ! The nodes in a few words.
     function shape_text(lookup) result(text)

@@ -30,8 +30,8 @@ module faststrip_command_lookup_wheel_solver
     implicit none
     private
 
-    public :: wheel_solver_t, found_contacts_t, make_wheel_solvers, release_wheel_solvers, solve_place, &
-              take_contact, solve_creep
+    public :: wheel_solver_t, found_contacts_t, make_wheel_solvers, release_wheel_solvers
+    public :: solve_place, take_contact, solve_creep
 
     ! Tuned [1]: vertical force that is found, of the load, and the bracket of the approach in which
     ! a force jumps over it. Origin: chosen: a thousandth of what tables interpolate.

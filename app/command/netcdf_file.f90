@@ -16,7 +16,8 @@ module faststrip_command_netcdf_file
     implicit none
     private
 
-    public :: is_netcdf, write_netcdf, write_netcdf_lookup, finish_as_asked, use_single_precision, check_names
+    public :: is_netcdf, write_netcdf, write_netcdf_lookup, finish_as_asked, use_single_precision
+    public :: check_names
 
     !> How the names of these files end.
     character(len=*), parameter :: ending = '.nc'

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ._arguments import flag
 from ._library import FIRST_ERROR, FaststripError, library, word_of
-from ._lookup import (N_FORCES, LookedUp, looked_up, opened, order_number, stacked, three)
+from ._lookup import N_FORCES, LookedUp, looked_up, opened, order_number, stacked, three
 from ._record import Record
 
 Array = npt.NDArray[np.float64]

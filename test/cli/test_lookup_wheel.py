@@ -99,7 +99,8 @@ class LookupWheel(ProgramTest):
         self.assertLess(sum(lateral), 0.05 * sum(abs(float(row["N_y_N"])) for row in fresh))
 
     def test_contacts_are_those_of_the_wheelset(self):
-        self.write("states.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
+        self.write("states.csv",
+                   "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
                    "tread,right,7,0,0,20000,-43.47826086956522,80000\n"
                    "flange,right,9.3,0,0,20000,-43.47826086956522,80000\n")
         solved = rows_of(self.good("wheelset", "cone.nml", "--states", "states.csv"))
@@ -111,10 +112,10 @@ class LookupWheel(ProgramTest):
         self.assertEqual([row["y_mm"] for row in found], ["7", "9.3"])
         self.assertNotEqual(found[0]["slot"], found[1]["slot"])
         for here, there in zip(found, solved):
-            self.assertAlmostEqual(float(here["contact_angle_rad"]), float(there["contact_angle_rad"]), delta=0.02)
+            angle = float(here["contact_angle_rad"])
+            self.assertAlmostEqual(angle, float(there["contact_angle_rad"]), delta=0.02)
             # The vertical force of the table is that of the normal forces alone.
-            self.assertAlmostEqual(float(here["N_N"]) * math.cos(float(here["contact_angle_rad"])), 8e4,
-                                   delta=400.0)
+            self.assertAlmostEqual(float(here["N_N"]) * math.cos(angle), 8e4, delta=400.0)
             self.assertAlmostEqual(float(here["radius_mm"]), float(there["radius_mm"]),
                                    delta=0.5)
             self.assertAlmostEqual(float(here["Fx_N"]) / float(here["N_N"]),
@@ -252,8 +253,8 @@ class LookupWheel(ProgramTest):
         table = self.table()
         self.write("falling.nml", CASE + "&friction\n kind = 'linear'\n mu_kinetic = 0.1\n"
                    " half_slip_speed_mm_s = 100\n/\n")
-        self.write("state.nml", CASE + "&state\n y_mm = 1, yaw_rad = 0, speed_mm_s = 1, Fz_N = 1e4\n"
-                   " side = 'right'\n/\n")
+        self.write("state.nml", CASE + "&state\n y_mm = 1, yaw_rad = 0, speed_mm_s = 1\n"
+                   " Fz_N = 1e4, side = 'right'\n/\n")
         self.write("in.csv", STATES + "\n0,0,8e4,0.3,0,0,0,1\n7,0,8e4,0.3,0,0,0,9\n"
                    "7,0,8e4,0.3,1e-3,0,0,1\n")
         wheel = ("wheel", "cone.nml", "-o", "x")
@@ -261,7 +262,8 @@ class LookupWheel(ProgramTest):
             (("wheel", "cone.nml"), "-o TABLE.fslt"), (("wheel", "-o", "x"), "CASE.nml"),
             ((*wheel, "--y", "3:1"), "'3:1'"), ((*wheel, "--y", "3"), "'3'"),
             ((*wheel, "--load", "0:1"), "'0:1'"), ((*wheel, "--yaw", "0.1:0"), "'0.1:0'"),
-            ((*wheel, "--method", "fastsim"), "'fastsim'"), ((*wheel, "--part", "1/2"), "--axes-of"),
+            ((*wheel, "--method", "fastsim"), "'fastsim'"),
+            ((*wheel, "--part", "1/2"), "--axes-of"),
             ((*wheel, "--axes-of", table, "--error", "0.1"), "--axes-of"),
             (("test", table, "--states", "in.csv", "--case", "cone.nml"), "--states"),
         ):

@@ -1,5 +1,5 @@
-!> Lookup tables of a wheel on a rail in the C face: what `include/faststrip.h` declares, and where it
-!> is documented.
+!> Lookup tables of a wheel on a rail in the C face: what `include/faststrip.h` declares, and where
+!> it is documented.
 module faststrip_interop_c_lookup_wheel
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_associated, &
                                            c_f_pointer
@@ -107,7 +107,8 @@ contains
         if (code /= st_ok) return
         code = st_bad_argument
         if (n < 0) return
-        if (.not. (c_associated(slots) .and. c_associated(states) .and. c_associated(forces))) return
+        if (.not. (c_associated(slots) .and. c_associated(states))) return
+        if (.not. c_associated(forces)) return
         call c_f_pointer(slots, which, [n])
         call c_f_pointer(states, given, [n_wheel_state, n])
         call c_f_pointer(forces, found, [n_forces, n])

@@ -66,8 +66,8 @@ contains
 
     !> CALL FSLCON(IWORK, IORDER, N, NSLOT, PLACE, CONTAC, DCON, ISTAT, INFO)
     !>
-    !> Look up the contacts at N places and their derivatives. NSLOT is ABOUT(6). INFO: the status of
-    !> the first place that fails; its CONTAC and DCON are zero, the others go on.
+    !> Look up the contacts at N places and their derivatives. NSLOT is ABOUT(6). INFO: the status
+    !> of the first place that fails; its CONTAC and DCON are zero, the others go on.
     subroutine fslcon(iwork, order, n, n_slots, places, contacts, slopes, codes, info) &
         bind(c, name='fslcon_')
         integer(c_int), intent(in) :: iwork(n_iwork)    !! made by FSLOPN
@@ -95,8 +95,8 @@ contains
 
     !> CALL FSLWHL(IWORK, IORDER, N, ISLOT, STATE, FORCE, DJAC, ISTAT, INFO)
     !>
-    !> Look up the creep forces of N states and their derivatives. INFO: the status of the first state
-    !> that fails; its FORCE and DJAC are zero, the others go on.
+    !> Look up the creep forces of N states and their derivatives. INFO: the status of the first
+    !> state that fails; its FORCE and DJAC are zero, the others go on.
     subroutine fslwhl(iwork, order, n, slots, states, forces, jacobians, codes, info) &
         bind(c, name='fslwhl_')
         integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSLOPN

@@ -9,7 +9,8 @@ module faststrip_lookup_axis
     implicit none
     private
 
-    public :: lookup_axis_t, stencil_t, make_axis, make_point, find_cell, linear_stencil, cubic_stencil
+    public :: lookup_axis_t, stencil_t, make_axis, make_point, find_cell, linear_stencil
+    public :: cubic_stencil
     public :: least_nodes, most_nodes
 
     !> Least and most nodes of an axis: as many as a cubic stencil takes, and no slip.

@@ -49,8 +49,9 @@ module faststrip_lookup_table
         integer :: slots = 0         !! contacts that there can be
         integer :: sets = 0          !! sets of faces, two to each contact that was solved
         real(wp), allocatable :: contacts(:, :, :)
-            !! numbers, slots, nodes: y fastest, then yaw. Of N the number itself; area, pmax and the
-            !! lengths are over those powers of N that Hertz' law has: 2/3, 1/3; 1/3, 2/3, 2/3, 1
+            !! numbers, slots, nodes: y fastest, then yaw. Of N the number itself; area, pmax and
+            !! the lengths are over those powers of N that Hertz' law has: 2/3, 1/3; 1/3, 2/3, 2/3,
+            !! 1
         integer, allocatable :: set(:, :) !! slots, nodes: number of the contact whose faces count
         integer :: tested(2) = 0     !! fresh states: all; those in cells where contacts appear
         real(wp) :: errors(n_wheel_errors, 3, 2, 2) = 0.0_wp

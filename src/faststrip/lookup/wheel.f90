@@ -1,12 +1,12 @@
-!> Contacts of a wheel on a rail and their creep forces, looked up in a table: no allocation, and any
-!> number of threads on one table.
+!> Contacts of a wheel on a rail and their creep forces, looked up in a table: no allocation, and
+!> any number of threads on one table.
 !>
 !> A table has nodes over the wheelset's lateral displacement y, its yaw, and the vertical part of
 !> the normal forces. Each contact that there is anywhere has a slot; where it is not, its normal
 !> force is 0, and its other numbers are those of the nearest node where it is. So a contact comes
 !> and goes with its normal force. Its forces over mu N are those of its patch, on faces over x
-!> (`faststrip_lookup_faces`), each once for the patch as it is and once for its mirror image: what a
-!> patch that is not symmetric does with x1 < 0 < x3 is what its mirror image does with x1 > 0.
+!> (`faststrip_lookup_faces`), each once for the patch as it is and once for its mirror image: what
+!> a patch that is not symmetric does with x1 < 0 < x3 is what its mirror image does with x1 > 0.
 !>
 !> Along y, yaw and load the contacts' numbers are interpolated by the order asked for, Phi always
 !> linearly; along the creepages Phi by the order.
@@ -58,8 +58,8 @@ contains
         integer, intent(in) :: order                   !! `lookup_linear` or `lookup_cubic`
         real(wp), intent(in) :: place(n_wheel_place)   !! y, yaw, load; a table of one yaw takes any
         real(wp), intent(out) :: contacts(:, :)
-            !! numbers as `n_contact_numbers` says, slots (`lookup%wheel%slots` or more); all 0 where
-            !! there is no contact
+            !! numbers as `n_contact_numbers` says, slots (`lookup%wheel%slots` or more); all 0
+            !! where there is no contact
         type(status_t), intent(inout) :: status
             !! `st_bad_argument` (no table of a wheel, order, too few slots), `st_not_finite`,
             !! `st_out_of_range` (y, yaw, load)

@@ -117,8 +117,8 @@ contains
             call take_axis(bytes, at, more(2), wheel%load)
             wheel%slots = more(3)
             wheel%sets = more(4)
-            allocate (wheel%contacts(n_contact_numbers, wheel%slots, nodes), &
-                      wheel%set(wheel%slots, nodes), stat=failure)
+            allocate (wheel%contacts(n_contact_numbers, wheel%slots, nodes), stat=failure)
+            if (failure == 0) allocate (wheel%set(wheel%slots, nodes), stat=failure)
             if (failure /= 0) then
                 call set_status(status, st_workspace_too_small, 'not enough memory for a lookup ' &
                                 // 'table')
