@@ -1,9 +1,10 @@
 !> Levels of the strip solver: the number of strips asked for is reached by way of smaller ones.
 !>
 !> 7 strips find the patches, 15 and more refine them. The first are solved for together with the
-!> ends to begin with, and find the patches by passes where that does not succeed. Where 20 or
-!> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
-!> either, within a bounded work, gets the answer of `faststrip_normal_lattice`.
+!> ends. Where that does not succeed a row of cells finds the patches, and passes of 7 strips where
+!> 15 do not settle on these. Where 20 or fewer strips do not settle at all twice as many are tried;
+!> a gap whose ends do not settle with them either, within a bounded work, gets the answer of
+!> `faststrip_normal_lattice`.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
@@ -59,8 +60,8 @@ module faststrip_normal_strip_levels
     integer, parameter :: from_nothing = 1
     integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
     integer, parameter :: from_coarser = 3       ! the level before
-    integer, parameter :: from_changed = 4       ! the last solution, where other patches joined in
-    integer, parameter :: from_row = 5           ! patches found by a row of fixed cells
+    integer, parameter :: from_row = 4           ! patches found by a row of fixed cells
+    integer, parameter :: by_passes = 5          ! nothing, pass by pass
 
     !> What the user chooses.
     type :: strip_options_t
@@ -82,6 +83,18 @@ module faststrip_normal_strip_levels
         logical :: is_auto = .false.    !! is any of them enough?
     end type plan_t
 
+    !> Where a solution stands among its levels.
+    type :: way_t
+        ! Given: the beginning.
+        integer :: level = 1             !! of the plan
+        integer :: start = from_nothing  !! what it starts from
+        integer :: n_settled = 0         !! strips of the last level that counts and settled
+        integer :: row_level = 0         !! the highest that started from a row
+        integer :: passes_level = 1      !! that passes are to try
+        integer :: passed_level = 0      !! the highest that was tried by passes
+        logical :: ended = .false.       !! is nothing left to try?
+    end type way_t
+
 contains
 
     !> Solve by levels of strips, or else by the lattice.
@@ -98,57 +111,41 @@ contains
         type(status_t), intent(inout) :: status !! those of the lattice
 
         type(plan_t) :: plan
+        type(way_t) :: way
         type(settling_t) :: settling
         type(normal_result_t) :: coarser
-        integer :: level, start
         logical :: found, in_doubt
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
-        level = 1
-        start = from_nothing
         in_doubt = .false.
         if (options%warm_start .and. workspace%old%n > 0) then
-            start = from_last_solution
+            way%start = from_last_solution
             call resume_patches(workspace, demand, settling%patches, settling%penetration)
             in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
-            level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
+            way%level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
         end if
-        n_settled = 0
-        do while (level <= plan%n)
-            call begin(workspace, compliance, demand, start, settling, in_doubt, found)
-            if (.not. found) exit
+        do while (way%level <= plan%n)
+            call begin(workspace, compliance, demand, way%start, settling, in_doubt, found)
             coarser = result
-            call settle(workspace, compliance, demand, &
-                        level_of(plan, level, start, in_doubt, options%tolerance), settling, &
-                        strips, result)
-            if (settling%settled) then
-                if (level >= plan%first_counted) n_settled = plan%strips(level)
-                start = from_coarser
-                level = level + 1
-                if (.not. plan%is_auto .or. level <= plan%first_counted + 1) cycle
-                if (.not. is_resolved(workspace, compliance, strips, result, &
-                                      options%resolution_limit)) cycle
-                if (is_enough(coarser, result)) exit
-            else if (start == from_nothing .and. level == 1) then
-                start = from_row
-                level = max(level, plan%first_counted)
-            else if (start == from_nothing .or. start == from_row) then
-                if (n_settled > 0) exit
-                if (level == plan%n) call add_level(options%strips_per_patch, plan)
-                if (level == plan%n) exit
-                level = level + 1
-            else
-                if (start == from_last_solution .and. settling%changed) then
-                    start = from_changed
-                    level = 1
-                    cycle
-                end if
-                if (start == from_last_solution) level = 1
-                if (plan%strips(level) > most_at_once) exit
-                start = from_nothing
+            if (found) call settle(workspace, compliance, demand, &
+                                   level_of(plan, way, in_doubt, options%tolerance), settling, &
+                                   strips, result)
+            settling%settled = found .and. settling%settled
+            if (.not. settling%settled) then
+                call try_else(options%strips_per_patch, plan, way)
+                if (way%ended) exit
+                cycle
             end if
+            if (way%level >= plan%first_counted) way%n_settled = plan%strips(way%level)
+            way%start = from_coarser
+            way%level = way%level + 1
+            if (.not. plan%is_auto .or. way%level <= plan%first_counted + 1) cycle
+            if (.not. is_resolved(workspace, compliance, strips, result, &
+                                  options%resolution_limit)) cycle
+            if (is_enough(coarser, result)) exit
         end do
+        n_settled = way%n_settled
         all_settled = settling%settled
         result%iterations = result%cost%iterations
         if (n_settled == 0) then
@@ -164,6 +161,42 @@ contains
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
 
+    !> What is tried after a level that did not settle.
+    pure subroutine try_else(strips_per_patch, plan, way)
+        integer, intent(in) :: strips_per_patch ! asked
+        type(plan_t), intent(inout) :: plan
+        type(way_t), intent(inout) :: way
+
+        integer :: row_level
+
+        if (way%start == from_last_solution) then
+            way%start = from_nothing
+            way%level = 1
+            return
+        end if
+        if (way%start == from_coarser) then
+            way%ended = plan%strips(way%level) > most_at_once
+            way%passes_level = way%level
+        end if
+        row_level = max(way%level, plan%first_counted)
+        if (way%start /= by_passes .and. way%row_level < row_level) then
+            way%start = from_row
+            way%level = row_level
+            way%row_level = row_level
+        else if (way%start /= by_passes .and. way%passed_level < way%passes_level) then
+            way%start = by_passes
+            way%level = way%passes_level
+            way%passed_level = way%passes_level
+        else
+            way%level = plan%n
+            if (way%n_settled == 0) call add_level(strips_per_patch, plan)
+            way%ended = way%level == plan%n
+            way%start = from_row
+            way%level = plan%n
+            way%row_level = plan%n
+        end if
+    end subroutine try_else
+
     !> Patches for a level that does not start from strips.
     subroutine begin(workspace, compliance, demand, start, settling, in_doubt, found)
         type(strip_workspace_t), intent(inout) :: workspace
@@ -175,7 +208,7 @@ contains
         logical, intent(out) :: found            ! are there patches?
 
         found = .true.
-        if (start == from_nothing) then
+        if (start == from_nothing .or. start == by_passes) then
             call start_patches(workspace%curve, compliance, demand, settling%patches, &
                                settling%penetration)
             workspace%old%n = 0
@@ -200,21 +233,20 @@ contains
     end function warm_level
 
     !> What a level of the plan asks for.
-    pure type(level_t) function level_of(plan, level, start, in_doubt, tolerance)
+    pure type(level_t) function level_of(plan, way, in_doubt, tolerance)
         type(plan_t), intent(in) :: plan
-        integer, intent(in) :: level, start
+        type(way_t), intent(in) :: way    ! its level and start
         logical, intent(in) :: in_doubt   ! do patches split and join?
         real(wp), intent(in) :: tolerance ! of the levels that count
 
-        level_of%strips_per_patch = plan%strips(level)
+        level_of%strips_per_patch = plan%strips(way%level)
         level_of%most_strips = maxval(plan%strips(:plan%n))
         level_of%tolerance = tolerance
-        if (level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
-        level_of%near = start == from_last_solution .or. start == from_coarser &
-                        .or. start == from_row
-        level_of%at_once = start == from_nothing
-        level_of%resumes = start == from_last_solution
-        level_of%scouts = level < plan%first_counted
+        if (way%level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
+        level_of%near = any(way%start == [from_last_solution, from_coarser, from_row])
+        level_of%at_once = way%start == from_nothing
+        level_of%resumes = way%start == from_last_solution
+        level_of%scouts = way%level < plan%first_counted
         level_of%in_doubt = in_doubt
     end function level_of
 

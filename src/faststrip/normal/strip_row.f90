@@ -26,9 +26,10 @@ module faststrip_normal_strip_row
     integer, parameter :: row_cells = 24, fewest_cells = 6, most_cells = 40
     ! Tuned [rows]: each over the patches of the one before. Origin: chosen for the time.
     integer, parameter :: most_rows = 3
-    ! Tuned [steps]: of the cells' lengths in a row; of the cells that press. Origin: chosen for the
-    ! time: lengths hardly change any more; safeguard.
-    integer, parameter :: length_steps = 3, most_changes = 12
+    ! Tuned [steps]: of the cells' lengths in a row; of those that close the gap at the tips; of the
+    ! cells that press. Origin: chosen for the time: lengths hardly change any more; with half of
+    ! the steps at the tips twice as many cold solutions take more than 20 steps; safeguard.
+    integer, parameter :: length_steps = 3, tip_steps = 6, most_changes = 12
     ! Tuned [1]: length of a cell over that of the undeformed overlap, to begin with. Origin: a
     ! round contact.
     real(wp), parameter :: first_share = 0.7_wp
@@ -41,6 +42,9 @@ module faststrip_normal_strip_row
     real(wp), parameter :: above = 1.1_wp
     ! Tuned [cells]: how far an end is carried on from the edge of its cell. Origin: chosen.
     real(wp), parameter :: farthest_in = 0.2_wp, farthest_out = 0.5_wp
+    ! Tuned [cells]: two ends so far apart, by the loads of the cells beside them, are those of two
+    ! patches. Origin: chosen for the steps; from .3 to 1 steps change by 2 %.
+    real(wp), parameter :: least_apart = 0.8_wp
 
     !> A row of cells; the first `n` count.
     type :: row_t
@@ -145,7 +149,8 @@ contains
             row%half_length(:n) = first_share*sqrt(max(row%penetration - row%height(:n), 0.0_wp) &
                                                    /row%inv2r(:n))
         end if
-        do step = 1, length_steps
+        do step = 1, merge(tip_steps, length_steps, by_tips)
+            if (by_tips) call shorten_idle(row)
             row%half_length(:n) = max(row%half_length(:n), shortest*maxval(row%half_length(:n)))
             do j = 1, n
                 call center_influence_column(row%half_length(j), row%left(j), row%right(j), &
@@ -161,6 +166,20 @@ contains
             end if
         end do
     end subroutine balance_row
+
+    !> Cells without pressure get the shortest length, or they would come back as long as they were
+    !> to begin with.
+    pure subroutine shorten_idle(row)
+        type(row_t), intent(inout) :: row
+
+        real(wp) :: length
+        integer :: k
+
+        length = minval(row%half_length(:row%n), mask=row%presses(:row%n))
+        do k = 1, row%n
+            if (.not. row%presses(k)) row%half_length(k) = length
+        end do
+    end subroutine shorten_idle
 
     !> Which cells press: those without pressure leave, those that overlap come back.
     pure subroutine find_pressing(influence, demand, row, found)
@@ -317,18 +336,37 @@ contains
     end function pressure_ratio
 
     !> The next cells side by side that press.
-    pure subroutine next_run(row, first, last)
+    pure subroutine next_run(row, first, last, by_patch)
         type(row_t), intent(in) :: row
         integer, intent(out) :: first   !! of the run, n + 1 if there is none
         integer, intent(inout) :: last  !! of the run before, 0 to begin with; of this one
+        logical, intent(in), optional :: by_patch !! do cells of two patches part, too?
 
         do first = last + 1, row%n
             if (row%presses(first)) exit
         end do
         do last = first, row%n - 1
             if (.not. row%presses(last + 1) .or. row%left(last + 1) > row%right(last)) exit
+            if (.not. present(by_patch)) cycle
+            if (by_patch .and. runs_out(row, last)) exit
         end do
     end subroutine next_run
+
+    !> Do the loads of the cells run out between a cell and the next, from both sides?
+    pure logical function runs_out(row, cell)
+        type(row_t), intent(in) :: row
+        integer, intent(in) :: cell
+
+        real(wp) :: load(4)
+
+        runs_out = .false.
+        if (cell < 2 .or. cell + 2 > row%n) return
+        if (.not. all(row%presses(cell - 1:cell + 2))) return
+        load = row%p0(cell - 1:cell + 2)*row%half_length(cell - 1:cell + 2)
+        if (load(1) <= load(2) .or. load(4) <= load(3)) return
+        ! Ends as in end_move, from the edge between both: load(2)/(load(1) - load(2)) - 1/2 cells.
+        runs_out = load(2)/(load(1) - load(2)) + load(3)/(load(4) - load(3)) < 1.0_wp - least_apart
+    end function runs_out
 
     !> The places of the next row: the runs of this one, and a cell on either side.
     pure subroutine narrow_places(row, n, from, to)
@@ -379,8 +417,9 @@ contains
         last = 0
         associate (strips => workspace%strips)
             do
-                call next_run(row, first, last)
+                call next_run(row, first, last, .true.)
                 if (first > row%n) exit
+                if (is_neck(row, first, last)) cycle
                 parts = (fewest_strips + last - first)/(last - first + 1)
                 possible = n + parts*(last - first + 1) <= workspace%max_strips &
                            .and. patches%n < max_patches
@@ -406,6 +445,15 @@ contains
         call remember(workspace, patches)
         possible = patches%n > 0
     end subroutine hand_to_strips
+
+    !> Is a run one cell between two patches?
+    pure logical function is_neck(row, first, last)
+        type(row_t), intent(in) :: row
+        integer, intent(in) :: first, last ! of the run
+
+        is_neck = first == last .and. first > 1 .and. last < row%n
+        if (is_neck) is_neck = row%presses(first - 1) .and. row%presses(last + 1)
+    end function is_neck
 
     !> How far the contact goes on beyond a cell, mm: to where the squared length runs out; a cell
     !> that is longer than the one before it is at the end.

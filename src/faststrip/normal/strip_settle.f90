@@ -41,6 +41,12 @@ module faststrip_normal_strip_settle
     ! Tuned [passes]: the same of a level that only finds patches. Origin: chosen for the time: the
     ! next level can go on from any.
     integer, parameter :: max_scout_passes = 8
+    ! Tuned [passes]: from then on a pass is solved to the end, and may stand. Origin: chosen for
+    ! the time: what settles has done so by then.
+    integer, parameter :: max_coarse_passes = 10
+    ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
+    ! chosen for the time: ends that come and go do so without rest.
+    integer, parameter :: max_idle_passes = 4
     ! Tuned [passes]: the same from the last solution. Origin: chosen for the time: where it is not
     ! near, starting anew costs less.
     integer, parameter :: max_resumed_passes = 1
@@ -61,7 +67,7 @@ module faststrip_normal_strip_settle
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all levels together: so much, and so many steps of all strips.
     ! Tuned [influence numbers; steps]. Origin: chosen: bounds the time of gaps that do not settle.
-    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 60.0_wp
+    real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
     ! Tuned [strip widths]. Origin: the coupled equations converge from there.
@@ -85,7 +91,7 @@ module faststrip_normal_strip_settle
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
-        logical :: at_once = .false.      !! are strips and ends tried together first?
+        logical :: at_once = .false.      !! are strips and ends tried together, or nothing?
         logical :: resumes = .false.      !! near the last one of the workspace?
         logical :: scouts = .false.       !! are patches to be found, and nothing else?
         logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
@@ -102,11 +108,10 @@ module faststrip_normal_strip_settle
         integer :: couplings = 0          !! how often strips and ends were tried together
         real(wp) :: tolerance = 0.0_wp    !! of Newton's method in this pass
         logical :: at_rest = .false.      !! did the ends rest in the last pass?
-        logical :: changed = .false.      !! have overlaps joined the patches?
         logical :: appeared = .false.     !! is one of these patches new, beside a solution?
         ! Given: none yet.
         real(wp) :: best_move = huge(1.0_wp) !! of the ends, of the passes solved to the end
-        logical :: at_once = .false.      !! are strips and ends still to be tried together?
+        integer :: best_pass = 0          !! whose it is
         logical :: settled = .false.      !! is there a pass that stands?
     end type settling_t
 
@@ -152,12 +157,11 @@ contains
         settling%pass = 0
         settling%splits = 0
         settling%couplings = 0
-        settling%at_once = level%at_once
         settling%tolerance = merge(near_tolerance, far_tolerance, level%near)
         settling%at_rest = .false.
-        settling%changed = .false.
         settling%appeared = .false.
         settling%best_move = huge(1.0_wp)
+        settling%best_pass = 0
         call share_strips(level%strips_per_patch, settling%patches)
         if (.not. level%near) return
         ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
@@ -181,6 +185,8 @@ contains
 
         settling%state = state_give_up
         if (settling%pass >= most_passes(level) .and. .not. settling%appeared) return
+        if (settling%best_move <= loose_end_tolerance .and. &
+            settling%pass > settling%best_pass + max_idle_passes) return
         settling%pass = settling%pass + 1
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call drop_slivers(narrowest, settling%patches)
@@ -192,7 +198,7 @@ contains
         workspace%strips%penetration = settling%penetration
         settling%solved = settling%patches
         settling%state = merge(state_couple, state_newton, settling%appeared .or. &
-                               settling%pass == 1 .and. (level%near .or. settling%at_once))
+                               settling%pass == 1 .and. (level%near .or. level%at_once))
     end subroutine position
 
     !> How often strips may be positioned in a level.
@@ -287,8 +293,8 @@ contains
         else if (.not. settling%at_rest) then
             settling%tolerance = near_tolerance
         end if
-        ! The last passes count, whatever they reach.
-        if (settling%at_rest .or. settling%pass >= most_passes(level)/2) &
+        ! Later passes count, whatever they reach.
+        if (settling%at_rest .or. settling%pass >= min(max_coarse_passes, most_passes(level)/2)) &
             settling%tolerance = level%tolerance
         settling%state = state_position
         if (.not. moved < coupling_move) return
@@ -331,16 +337,14 @@ contains
                                     merge(few_factorings, max_factorings, level%resumes), &
                                     settling%solved, result%cost, found)
             end if
-        else if (settling%at_once) then
+        else if (level%at_once .and. settling%pass == 1) then
             call settle_at_once(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
-            settling%at_once = .false.
-            ! As if it had not been tried.
-            if (.not. found) call forget_try(workspace, settling)
         else
             call settle_coupled(workspace, compliance, demand, level%tolerance, max_factorings, &
                                 settling%solved, result%cost, found)
         end if
+        if (.not. found .and. level%at_once) call leave_try(workspace, settling)
         if (.not. found) return
         settling%patches = settling%solved
         settling%penetration = workspace%strips%penetration
@@ -355,16 +359,15 @@ contains
         settling%state = state_done
     end subroutine couple
 
-    !> Nothing is left of a try but its cost.
-    pure subroutine forget_try(workspace, settling)
+    !> Strips and ends were tried together and not found: nothing is left of that but its cost.
+    pure subroutine leave_try(workspace, settling)
         type(strip_workspace_t), intent(inout) :: workspace
         type(settling_t), intent(inout) :: settling
 
-        settling%pass = 0
-        settling%couplings = 0
+        settling%state = state_give_up
         workspace%carried%known = .false.
         workspace%newton%kept = .false.
-    end subroutine forget_try
+    end subroutine leave_try
 
     !> Let overlaps join the patches. If that changes them, they are positioned anew, far from a
     !> solution.
@@ -382,7 +385,6 @@ contains
         if (.not. changed) return
         settling%at_rest = .false.
         settling%tolerance = far_tolerance
-        settling%changed = .true.
         call share_strips(level%strips_per_patch, settling%patches)
         settling%state = state_position
     end subroutine join_overlaps
@@ -396,6 +398,7 @@ contains
         type(normal_result_t), intent(inout) :: result
 
         settling%best_move = moved
+        settling%best_pass = settling%pass
         call hand_over(workspace%strips, settling%patches, strips)
         call summarize(strips, settling%penetration + workspace%curve%h_lowest, result)
     end subroutine keep
