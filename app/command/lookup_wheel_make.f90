@@ -267,7 +267,8 @@ contains
                       // trim(number_text(wanted%error)) // ', got ' &
                       // trim(number_text(found(2))) // '; cells of y are down to ' &
                       // trim(number_text(shortest(lookup%wheel%y))) // ' mm')
-        lookup%promised = wanted%error
+        ! A promise holds everywhere, or it is none.
+        lookup%promised = max(wanted%error, found(2))
     end subroutine make_refined
 
     ! Are errors better than others? First all of them count, down to what was asked for.

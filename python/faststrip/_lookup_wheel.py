@@ -61,7 +61,8 @@ class WheelLookup:
     nu, g : float
         Poisson's ratio and shear modulus, MPa.
     promised : float
-        99th percentile of the errors that it was made for.
+        99th percentile of the errors that it was made for; where contacts come or go and this
+        was not met, the one there.
     tested : tuple of int
         Fresh states that it was judged by: all; those in cells where contacts come or go.
     slots : int
