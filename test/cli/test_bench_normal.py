@@ -73,7 +73,6 @@ class Bench(LabTest):
             self.assert_spread(row, "cpu_us")
             self.assertTrue(1.0 < float(row["ns_per_value"]) < 1e4, row["ns_per_value"])
             factorings = float(row["factorings"])
-            self.assertLessEqual(factorings, float(row["iterations"]))
             # A load that changes a little needs no new Jacobian.
             if row["start"] == "warm_load":
                 self.assertLess(factorings, float(row["iterations"]))
