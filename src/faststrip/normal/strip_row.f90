@@ -23,7 +23,7 @@ module faststrip_normal_strip_row
 
     ! Tuned [cells]: of a row; fewest of a place; room. Origin: chosen for the time: a neck of a
     ! tenth of the contact is seen.
-    integer, parameter :: row_cells = 24, fewest_cells = 6, most_cells = 40
+    integer, parameter :: row_cells = 24, fewest_cells = 6, most_cells = 36
     ! Tuned [rows]: each over the patches of the one before. Origin: chosen for the time.
     integer, parameter :: most_rows = 3
     ! Tuned [steps]: of the cells' lengths in a row; of those that close the gap at the tips; of the
