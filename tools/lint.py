@@ -6,8 +6,8 @@
     ruff        Python files, by the rules of tools/ruff.toml
     fortitude   Fortran files, by the rules of tools/fortitude.toml
     shellcheck  shell scripts; skipped where it is not installed (--install installs it from Debian)
-    columns     at most 100 characters in a line; 120 for an assertion of .pf, which is one line;
-                tables, CSV, lines with an address and what programs print are free in Markdown
+    columns     at most 100 characters in a line; tables, CSV, lines with an address and what
+                programs print are free in Markdown
     blanks      no tab, no blank at the end of a line, one end of line at the end of a file
 
 Checked are the files that git knows or would take; without git all that do not lie below build/,
@@ -26,8 +26,6 @@ import debian
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 COLUMNS = {".f90": 100, ".py": 100, ".sh": 100, ".md": 100, ".pf": 100, ".c": 100, ".h": 100}
-# pFUnit wants an assertion on one line.
-ASSERTION = 120
 SCRIPTS = ("run", ".ci/run")
 NOT_SOURCES = {".git", ".venv", "build", "bin", "out", "__pycache__"}
 
@@ -137,9 +135,8 @@ def columns(folder, names, _):
                 printed = line in ("```output", "```csv")
             free = name.endswith(".md") and (printed or line.lstrip().startswith("|")
                                              or "://" in line or "<!--" in line)
-            limit = ASSERTION if name.endswith(".pf") and line.lstrip().startswith("@") else most
-            if len(line) > limit and not free:
-                found.append(f"{name}:{number}: {len(line)} columns, at most {limit}")
+            if len(line) > most and not free:
+                found.append(f"{name}:{number}: {len(line)} columns, at most {most}")
     return found
 
 

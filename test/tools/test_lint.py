@@ -15,7 +15,7 @@ GOOD = {
     "run": "#!/bin/sh\necho \"$1\"\n",
     "src/a.f90": "!> A module.\nmodule a\n    implicit none\n    private\n\n    public :: n\n\n"
                  "    integer, parameter :: n = 1\nend module a\n",
-    "test/a.pf": "x" * 100 + "\n  @assert" + "x" * 111 + "\n",
+    "test/a.pf": "x" * 100 + "\n  @assert" + "x" * 91 + "\n",
     "a.md": "x" * 100 + "\n| " + "x" * 200 + " |\n[words](https://" + "x" * 100 + ")\n",
     "build/b.py": "import os, sys\t\n" + "x" * 200,
     "data.csv": "x" * 200 + "\t\n",
@@ -71,8 +71,8 @@ class Lint(unittest.TestCase):
                            ("a.md", 100), ("test/a.pf", 100)):
             self.found("columns", name, "\n" + (most + 1) * "x" + "\n",
                        f"{name}:2: {most + 1} columns, at most {most}")
-        self.found("columns", "test/a.pf", "  @assert" + "x" * 112 + "\n",
-                   "test/a.pf:1: 121 columns, at most 120")
+        self.found("columns", "test/a.pf", "  @assert" + "x" * 92 + "\n",
+                   "test/a.pf:1: 101 columns, at most 100")
         # Characters, not bytes.
         self.write("a.md", "ü" * 100 + "\n")
         self.assertEqual(self.lint("columns").returncode, 0)
