@@ -6,7 +6,7 @@ module faststrip_command_lookup_eval
     use faststrip_command_console, only: fail, fail_on_error, note, put_origin, exit_bad_input, &
                                          progress
     use faststrip_command_lookup_file, only: read_table
-    use faststrip_command_lookup_wheel_eval, only: eval_wheel
+    use faststrip_command_lookup_wheel_eval, only: wheel_names, put_wheel, name_length
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_word
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
@@ -25,7 +25,6 @@ module faststrip_command_lookup_eval
         'a_mm', 'b_mm', 'N_N', 'mu', 'G_MPa', 'cksi', 'ceta', 'cphi_rad_per_mm']
     character(len=6), parameter :: force_columns(n_forces) = [character(len=6) :: &
         'Fx_N', 'Fy_N', 'Mz_Nmm']
-    integer, parameter :: name_length = 10
     character(len=4), parameter :: by(n_lookup_state) = [character(len=4) :: &
         'a', 'b', 'N', 'mu', 'G', 'cksi', 'ceta', 'cphi']
 
@@ -38,10 +37,12 @@ contains
         type(csv_writer_t) :: writer
         type(lookup_t) :: lookup
         type(status_t) :: status
-        real(wp) :: state(n_lookup_state), forces(n_forces), jacobian(n_forces, n_lookup_state)
-        integer :: column(n_lookup_state), i, k, row, order, n_failed
-        character(len=name_length), allocatable :: new(:)
-        logical :: with_jacobian
+        ! As many as a state of either kind has.
+        real(wp) :: numbers(n_lookup_state)
+        integer, allocatable :: column(:)
+        character(len=name_length), allocatable :: needed(:), new(:)
+        integer :: i, row, order, n_failed
+        logical :: with_jacobian, is_wheel
 
         command%name = 'lookup eval'
         command%n_words = 2
@@ -66,15 +67,13 @@ contains
         call read_table(command%arguments(1)%text, lookup)
         call read_csv(command%arguments(2)%text, states, status)
         call fail_on_error(status)
-        if (lookup%kind == lookup_kind_wheel) then
-            call eval_wheel(lookup, states, order, with_jacobian, option_text(command, '-o', '-'))
-            return
+        is_wheel = lookup%kind == lookup_kind_wheel
+        if (is_wheel) then
+            call wheel_names(with_jacobian, needed, new)
+        else
+            call hertz_names(with_jacobian, needed, new)
         end if
-        do i = 1, n_lookup_state
-            call require_column(states, trim(state_columns(i)), column(i), status)
-            call fail_on_error(status)
-        end do
-        call find_new_names(states, with_jacobian, new)
+        call find_columns(states, needed, new, column)
         call open_csv(writer, option_text(command, '-o', '-'), status)
         call fail_on_error(status)
         call put_origin(writer)
@@ -87,25 +86,17 @@ contains
         call end_row(writer)
         n_failed = 0
         do row = 1, states%n_rows
-            do i = 1, n_lookup_state
-                call cell_number(states, row, column(i), state(i), status)
-                if (is_error(status)) exit
-            end do
-            if (.not. is_error(status)) &
-                call look_up_hertz(lookup, order, state, forces, status, jacobian)
             do i = 1, states%n_columns
                 call put_cell(writer, cell_text(states, row, i))
             end do
-            do k = 1, n_forces
-                call put_cell(writer, forces(k), .not. is_error(status))
+            do i = 1, size(column)
+                call cell_number(states, row, column(i), numbers(i), status)
+                if (is_error(status)) exit
             end do
-            call put_cell(writer, trim(status_word(status%code)))
-            if (with_jacobian) then
-                do i = 1, n_lookup_state
-                    do k = 1, n_forces
-                        call put_cell(writer, jacobian(k, i), .not. is_error(status))
-                    end do
-                end do
+            if (is_wheel) then
+                call put_wheel(lookup, order, numbers, with_jacobian, writer, status)
+            else
+                call put_hertz(lookup, order, numbers, with_jacobian, writer, status)
             end if
             call end_row(writer)
             if (is_error(status)) then
@@ -121,23 +112,66 @@ contains
                                     // integer_text(states%n_rows) // ' states failed')
     end subroutine run_lookup_eval
 
-    !> The names of the columns that are added; ends the program if one is there already.
-    subroutine find_new_names(states, with_jacobian, new)
+    !> The columns that are needed; ends the program if one is missing, or if one that will be added
+    !> is there already.
+    subroutine find_columns(states, needed, new, column)
         type(csv_table_t), intent(in) :: states
-        logical, intent(in) :: with_jacobian
-        character(len=name_length), allocatable, intent(out) :: new(:)
+        character(len=*), intent(in) :: needed(:), new(:)
+        integer, allocatable, intent(out) :: column(:)
 
-        integer :: i, k
+        type(status_t) :: status
+        integer :: i
 
-        new = [character(len=name_length) :: force_columns, 'status']
-        if (with_jacobian) &
-            new = [character(len=name_length) :: new, &
-                   (('d' // force_columns(k)(:2) // '_d' // by(i), k=1, n_forces), &
-                    i=1, n_lookup_state)]
+        allocate (column(size(needed)), source=0)
+        do i = 1, size(needed)
+            call require_column(states, trim(needed(i)), column(i), status)
+            call fail_on_error(status)
+        end do
         do i = 1, size(new)
             if (column_index(states, trim(new(i))) > 0) &
                 call fail(exit_bad_input, 'a column must not have the name of a result, got ' &
                           // trim(new(i)) // ' (' // states%file // ')')
         end do
-    end subroutine find_new_names
+    end subroutine find_columns
+
+    ! Columns of a state of an ellipse, and of what is found for it.
+    subroutine hertz_names(with_jacobian, needed, new)
+        logical, intent(in) :: with_jacobian
+        character(len=name_length), allocatable, intent(out) :: needed(:), new(:)
+
+        integer :: i, k
+
+        needed = [character(len=name_length) :: state_columns]
+        new = [character(len=name_length) :: force_columns, 'status']
+        if (with_jacobian) &
+            new = [character(len=name_length) :: new, &
+                   (('d' // force_columns(k)(:2) // '_d' // by(i), k=1, n_forces), &
+                    i=1, n_lookup_state)]
+    end subroutine hertz_names
+
+    ! Forces of a state of an ellipse; empty cells if there is an error, or was one before.
+    subroutine put_hertz(lookup, order, state, with_jacobian, writer, status)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: order
+        real(wp), intent(in) :: state(n_lookup_state)
+        logical, intent(in) :: with_jacobian
+        type(csv_writer_t), intent(inout) :: writer
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: forces(n_forces), jacobian(n_forces, n_lookup_state)
+        integer :: i, k
+
+        if (.not. is_error(status)) &
+            call look_up_hertz(lookup, order, state, forces, status, jacobian)
+        do k = 1, n_forces
+            call put_cell(writer, forces(k), .not. is_error(status))
+        end do
+        call put_cell(writer, trim(status_word(status%code)))
+        if (.not. with_jacobian) return
+        do i = 1, n_lookup_state
+            do k = 1, n_forces
+                call put_cell(writer, jacobian(k, i), .not. is_error(status))
+            end do
+        end do
+    end subroutine put_hertz
 end module faststrip_command_lookup_eval
