@@ -587,14 +587,14 @@ int faststrip_lookup_forces(const faststrip_lookup *lookup, enum faststrip_looku
 int faststrip_lookup_wheel_about(const faststrip_lookup *lookup, double numbers[60]);
 
 /* Look the contacts of a wheel up. places has three numbers of each of n places: y of the wheelset,
- * mm, yaw, rad (any, in a table of one yaw), vertical part of the normal forces, N. contacts
- * becomes 14 numbers of each slot, of each place: normal force, N; contact angle, rad; y, z on the
- * rail's profile, mm; x in the track, mm; y on the wheel's profile, mm; rolling radius, mm; z of
- * the wheelset, mm; area, mm2; largest pressure, MPa; length c of the moment, mm; L1, L2, mm2, L3,
- * mm3, which times G/(mu N) normalise the creepages. A slot is the same contact at all places; all
- * of it is 0 where there is none. slopes, if not null, becomes their derivatives by y, by yaw, by
- * load: 14 numbers of each slot, three times, of each place. Places beyond the table: 109. codes as
- * of faststrip_lookup_forces. Nothing is allocated. */
+ * mm, yaw, rad, vertical part of the normal forces, N. contacts becomes 14 numbers of each slot, of
+ * each place: normal force, N; contact angle, rad; y, z on the rail's profile, mm; x in the track,
+ * mm; y on the wheel's profile, mm; rolling radius, mm; z of the wheelset, mm; area, mm2; largest
+ * pressure, MPa; length c of the moment, mm; L1, L2, mm2, L3, mm3, which times G/(mu N) normalise
+ * the creepages. A slot is the same contact at all places; all of it is 0 where there is none.
+ * slopes, if not null, becomes their derivatives by y, by yaw, by load: 14 numbers of each slot,
+ * three times, of each place. Places beyond the table, also another yaw than that of a table that
+ * has one: 109. codes as of faststrip_lookup_forces. Nothing is allocated. */
 int faststrip_lookup_wheel_contacts(const faststrip_lookup *lookup,
                                     enum faststrip_lookup_order order, int n,
                                     const double *places, double *contacts, double *slopes,

@@ -10,7 +10,7 @@ from typing import Any, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import flag
+from ._arguments import flag, refused
 from ._library import FIRST_ERROR, FaststripError, library, word_of
 from ._lookup import N_FORCES, LookedUp, looked_up, opened, order_number, stacked, three
 from ._record import Record
@@ -22,6 +22,8 @@ STATE = (*PLACE, "mu", "cksi", "ceta", "cphi")
 CONTACT = ("n", "angle", "y_rail", "z_rail", "x", "y_wheel", "radius", "z", "area", "pmax", "c",
            "l1", "l2", "l3")
 N_ABOUT = 60
+#: Beyond any table's, and within the library's whole numbers.
+MOST_SLOT = 1e6
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,8 @@ class WheelLookup:
     slots : int
         Contacts that there can be.
     y, yaw, load : tuple of float
-        First and last lateral displacement of the wheelset, mm; yaw, rad, of which any will do
-        where both are the same; vertical part of the normal forces, N.
+        First and last lateral displacement of the wheelset, mm; yaw, rad, both the same in a
+        table of one yaw, which knows no other; vertical part of the normal forces, N.
     errors : ndarray of float, shape (2, 2, 3, 4)
         Errors of Fx, Fy, Mz, lateral part of the normal forces, all over them (and mu, and c): as
         ``tested``; linear, cubic; mean, 99th percentile, worst; error.
@@ -170,6 +172,10 @@ class WheelLookup:
         """
         rows, shape = stacked(("slot", *STATE), (slot, y, yaw, load, mu, *three(creepage)))
         number = order_number(order)
+        whole = np.abs(rows[:, 0]) < MOST_SLOT
+        whole[whole] = rows[whole, 0] % 1 == 0
+        if not whole.all():
+            raise refused("slot", "whole numbers", float(rows[~whole, 0][0]))
         slots = np.ascontiguousarray(rows[:, 0], dtype=np.int32)
         states = np.ascontiguousarray(rows[:, 1:])
         n = len(states)

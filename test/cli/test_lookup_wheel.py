@@ -256,7 +256,7 @@ class LookupWheel(ProgramTest):
         self.write("state.nml", CASE + "&state\n y_mm = 1, yaw_rad = 0, speed_mm_s = 1\n"
                    " Fz_N = 1e4, side = 'right'\n/\n")
         self.write("in.csv", STATES + "\n0,0,8e4,0.3,0,0,0,1\n7,0,8e4,0.3,0,0,0,9\n"
-                   "7,0,8e4,0.3,1e-3,0,0,1\n")
+                   "7,0,8e4,0.3,1e-3,0,0,1\n7,0,8e4,0.3,0,0,0,1.5\n7,0.01,8e4,0.3,0,0,0,1\n")
         wheel = ("wheel", "cone.nml", "-o", "x")
         for words, says in (
             (("wheel", "cone.nml"), "-o TABLE.fslt"), (("wheel", "-o", "x"), "CASE.nml"),
@@ -278,7 +278,9 @@ class LookupWheel(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("row 1 (in.csv:2): y must be within the table", done.stderr)
         self.assertEqual([row["status"] for row in rows_of(done.stdout)],
-                         ["out_of_range", "bad_argument", "ok"])
+                         ["out_of_range", "bad_argument", "ok", "bad_argument", "out_of_range"])
+        self.assertIn("slot must be a whole number from 1 to 6, got 1.5", done.stderr)
+        self.assertIn("yaw must be within the table", done.stderr)
         self.assertFalse((self.folder / "x").exists())
         self.assertIn("## Lookup tables", (ROOT / "docs" / "formats.md").read_text("utf-8"))
-        self.assertEqual(numbers(rows_of(done.stdout), "slot"), [1.0, 9.0, 1.0])
+        self.assertEqual(numbers(rows_of(done.stdout), "slot"), [1.0, 9.0, 1.0, 1.5, 1.0])

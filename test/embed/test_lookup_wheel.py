@@ -1,5 +1,6 @@
 """The lookup table of a wheel gives the same contacts and forces in every face."""
 
+import math
 import struct
 import subprocess
 import unittest
@@ -241,6 +242,9 @@ class WheelFaces(HostTest):
             self.table.contacts(0.0, 0.0, 8e4, order="square")
         with self.assertRaisesRegex(error, "creepage"):
             self.table(1, 0.0, 0.0, 8e4, 0.3, 1e-3)
+        for slot in (1.5, math.nan, 1e12):
+            with self.assertRaisesRegex(error, "slot must be whole numbers"):
+                self.table(slot, 0.0, 0.0, 8e4, 0.3, (1e-3, 0.0, 0.0))
 
 
 if __name__ == "__main__":

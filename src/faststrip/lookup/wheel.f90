@@ -56,7 +56,7 @@ contains
     pure subroutine look_up_contacts(lookup, order, place, contacts, status, slopes)
         type(lookup_t), intent(in) :: lookup           !! of `open_lookup`, of a wheel
         integer, intent(in) :: order                   !! `lookup_linear` or `lookup_cubic`
-        real(wp), intent(in) :: place(n_wheel_place)   !! y, yaw, load; a table of one yaw takes any
+        real(wp), intent(in) :: place(n_wheel_place)   !! y, yaw, load
         real(wp), intent(out) :: contacts(:, :)
             !! numbers as `n_contact_numbers` says, slots (`lookup%wheel%slots` or more); all 0
             !! where there is no contact
@@ -340,7 +340,7 @@ contains
         real(wp), intent(in) :: x
         type(status_t), intent(inout) :: status
 
-        if (axis%n == 1 .or. status%code /= st_ok) return
+        if (status%code /= st_ok) return
         if (x >= axis%x(1) .and. x <= axis%x(axis%n)) return
         call set_status(status, st_out_of_range, name // ' must be within the table, ' // &
                         trim(number_text(axis%x(1))) // ' to ' // &
