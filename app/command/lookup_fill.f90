@@ -5,7 +5,7 @@ module faststrip_command_lookup_fill
     use faststrip_base_status, only: status_t, is_error, clear_status
     use faststrip_command_lookup_direct, only: direct_t, solve_direct, note_failure
     use faststrip_command_lookup_points, only: scattered_point
-    use faststrip_command_lookup_scatter, only: scatter_of
+    use faststrip_command_lookup_scatter, only: scatter_of, percentile_bound
     use faststrip_command_lookup_states, only: phi_at, shape_scale, fresh_state, fresh_coordinates
     use faststrip_lookup_axis, only: make_axis
     use faststrip_lookup_faces, only: n_forces, n_faces, lookup_linear, lookup_cubic
@@ -90,19 +90,20 @@ contains
     end subroutine fill_shape
 
     !> Compare a table with direct solutions of fresh contacts.
-    subroutine judge_table(workers, lookup, n, seed, errors, status)
+    subroutine judge_table(workers, lookup, n, seed, errors, status, bounds)
         type(direct_t), intent(inout) :: workers(:) !! one for each thread
         type(lookup_t), intent(in) :: lookup     !! filled
         integer, intent(in) :: n                 !! contacts
         integer, intent(in) :: seed              !! which ones
         real(wp), intent(out) :: errors(3, 3, 2) !! as `lookup%errors`
         type(status_t), intent(out) :: status    !! of the method, at the first contact that fails
+        real(wp), intent(out), optional :: bounds(3, 2) !! as of `judge_states`
 
         real(wp), allocatable :: states(:, :), forces(:, :, :)
 
         call draw_states(lookup, n, seed, states, status)
         if (.not. is_error(status)) &
-            call judge_states(workers, lookup, states, forces, errors, status)
+            call judge_states(workers, lookup, states, forces, errors, status, bounds)
     end subroutine judge_table
 
     !> Fresh contacts.
@@ -126,7 +127,7 @@ contains
     end subroutine draw_states
 
     !> Compare a table with direct solutions of given contacts.
-    subroutine judge_states(workers, lookup, states, forces, errors, status)
+    subroutine judge_states(workers, lookup, states, forces, errors, status, bounds)
         type(direct_t), intent(inout) :: workers(:)      !! one for each thread
         type(lookup_t), intent(in) :: lookup             !! filled
         real(wp), intent(in) :: states(:, :)             !! numbers, contacts
@@ -134,6 +135,8 @@ contains
             !! three forces; solved, linear, cubic; contacts
         real(wp), intent(out) :: errors(3, 3, 2)         !! as `lookup%errors`
         type(status_t), intent(out) :: status !! of the method, at the first contact that fails
+        real(wp), intent(out), optional :: bounds(3, 2)
+            !! `percentile_bound` of the errors of Fx, Fy, Mz; linear, cubic
 
         type(status_t) :: found
         real(wp) :: off(size(states, 2))
@@ -141,6 +144,7 @@ contains
 
         call clear_status(status)
         errors = 0.0_wp
+        if (present(bounds)) bounds = 0.0_wp
         allocate (forces(n_forces, 3, size(states, 2)), source=0.0_wp)
         failed = size(states, 2) + 1
         !$omp parallel do num_threads(size(workers)) schedule(static, 1) default(none) &
@@ -160,6 +164,7 @@ contains
                 off = abs(forces(k, 1 + order, :) - forces(k, 1, :))/(states(3, :)*states(4, :))
                 if (k == n_forces) off = off/sqrt(states(1, :)*states(2, :))
                 errors(k, :, order) = scatter_of(off)
+                if (present(bounds)) bounds(k, order) = percentile_bound(off)
             end do
         end do
     end subroutine judge_states

@@ -4,7 +4,12 @@ module faststrip_command_lookup_scatter
     implicit none
     private
 
-    public :: percentile, scatter_of
+    public :: percentile, scatter_of, percentile_bound
+
+    !> Contacts from which on the worst of them is above the 99th percentile of all, in 95 of 100
+    !> draws: .99**299 is .05.
+    !> Given: by the binomial distribution.
+    integer, parameter, public :: least_drawn = 299
 
 contains
 
@@ -16,17 +21,47 @@ contains
         scatter = [sum(errors)/size(errors), percentile(errors, 99.0_wp), maxval(errors)]
     end function scatter_of
 
+    !> What the 99th percentile of all contacts does not exceed in 95 of 100 draws of some of them,
+    !> whatever its distribution: one of their errors, by the binomial distribution of how many are
+    !> above the percentile. The worst if there are fewer than `least_drawn`.
+    pure real(wp) function percentile_bound(errors) result(bound)
+        real(wp), intent(in) :: errors(:) !! of contacts drawn at random, at least one
+
+        real(wp), parameter :: above = 0.01_wp, doubt = 0.05_wp
+        real(wp) :: log_chance, chances
+        integer :: n, k
+
+        n = size(errors)
+        ! So many errors, or fewer, are above the percentile in 5 of 100 draws.
+        log_chance = n*log(1.0_wp - above)
+        chances = exp(log_chance)
+        do k = 0, n - 2
+            log_chance = log_chance + log(above/(1.0_wp - above)*real(n - k, wp)/real(k + 1, wp))
+            chances = chances + exp(log_chance)
+            if (chances > doubt) exit
+        end do
+        bound = ranked(errors, n - k)
+    end function percentile_bound
+
     !> The value that so many percent do not exceed.
     pure real(wp) function percentile(values, percent)
         real(wp), intent(in) :: values(:) !! at least one
         real(wp), intent(in) :: percent   !! above 0 to 100
 
+        percentile = ranked(values, min(max(ceiling(percent/100.0_wp*size(values)), 1), &
+                                        size(values)))
+    end function percentile
+
+    ! The value that has a rank, from the least on.
+    pure real(wp) function ranked(values, rank)
+        real(wp), intent(in) :: values(:)
+        integer, intent(in) :: rank
+
         real(wp) :: sorted(size(values)), pivot, kept
-        integer :: rank, low, high, i, j
+        integer :: low, high, i, j
 
         ! Hoare's selection: only as much is sorted as tells which value has the rank.
         sorted = values
-        rank = min(max(ceiling(percent/100.0_wp*size(values)), 1), size(values))
         low = 1
         high = size(values)
         do while (low < high)
@@ -55,6 +90,6 @@ contains
                 exit
             end if
         end do
-        percentile = sorted(rank)
-    end function percentile
+        ranked = sorted(rank)
+    end function ranked
 end module faststrip_command_lookup_scatter

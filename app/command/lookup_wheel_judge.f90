@@ -11,7 +11,7 @@ module faststrip_command_lookup_wheel_judge
     use faststrip_base_text, only: integer_text
     use faststrip_command_console, only: progress, note, fail_on_error
     use faststrip_command_lookup_points, only: scattered_point
-    use faststrip_command_lookup_scatter, only: scatter_of
+    use faststrip_command_lookup_scatter, only: scatter_of, percentile_bound
     use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, found_contacts_t, &
                                                      solve_place, take_contact, solve_creep
     use faststrip_lookup_axis, only: lookup_axis_t
@@ -48,21 +48,26 @@ module faststrip_command_lookup_wheel_judge
 
 contains
 
-    !> Find the errors of a table: on fresh states, and on some in cells where contacts come or go.
-    subroutine judge_table(solvers, tests, seed, lookup)
+    !> Find the errors of a table: on fresh states, and on as many in cells where contacts come or
+    !> go.
+    subroutine judge_table(solvers, tests, seed, lookup, bounds)
         type(wheel_solver_t), intent(inout) :: solvers(:) !! one for each thread
-        integer, intent(in) :: tests            !! fresh states
+        integer, intent(in) :: tests            !! fresh states of each kind
         integer, intent(in) :: seed             !! which ones
         type(lookup_t), intent(inout) :: lookup !! filled; gets its errors
+        real(wp), intent(out), optional :: bounds(n_wheel_errors, 2, 2)
+            !! `percentile_bound` of each error; linear, cubic; all, where contacts come or go
 
         type(judged_t), allocatable :: states(:)
+        real(wp) :: found(n_wheel_errors, 2)
         type(status_t) :: status
         integer :: k
 
         do k = 1, 2
-            call draw_wheel_states(lookup, max(tests/k**2, 1), seed, k == 2, states)
+            call draw_wheel_states(lookup, tests, seed, k == 2, states)
             call judge_wheel(solvers, lookup, states, lookup%wheel%errors(:, :, :, k), &
-                             lookup%wheel%tested(k), status)
+                             lookup%wheel%tested(k), status, found)
+            if (present(bounds)) bounds(:, :, k) = found
             call fail_on_error(status)
             if (lookup%wheel%tested(k) < size(states)) &
                 call note(integer_text(size(states) - lookup%wheel%tested(k)) // ' of ' &
@@ -166,13 +171,15 @@ contains
     end subroutine take_creepages
 
     !> Compare a table with direct solutions of states.
-    subroutine judge_wheel(solvers, lookup, states, errors, n_solved, status)
+    subroutine judge_wheel(solvers, lookup, states, errors, n_solved, status, bounds)
         type(wheel_solver_t), intent(inout) :: solvers(:)  !! one for each thread
         type(lookup_t), intent(in) :: lookup               !! filled
         type(judged_t), intent(inout) :: states(:)         !! drawn or given; judged
         real(wp), intent(out) :: errors(n_wheel_errors, 3, 2) !! as of `lookup%wheel%errors`
         integer, intent(out) :: n_solved                   !! states with a direct solution
         type(status_t), intent(out) :: status              !! of looking up
+        real(wp), intent(out), optional :: bounds(n_wheel_errors, 2)
+            !! `percentile_bound` of each error; linear, cubic
 
         real(wp), allocatable :: off(:)
         integer :: i, k, order, me
@@ -188,12 +195,14 @@ contains
         end do
         !$omp end parallel do
         errors = 0.0_wp
+        if (present(bounds)) bounds = 0.0_wp
         n_solved = count(states%is_solved)
         if (n_solved == 0) return
         do order = 1, 2
             do k = 1, n_wheel_errors
                 off = pack(states%off(k, order), states%is_solved)
                 errors(k, :, order) = scatter_of(off)
+                if (present(bounds)) bounds(k, order) = percentile_bound(off)
             end do
         end do
     end subroutine judge_wheel

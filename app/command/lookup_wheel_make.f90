@@ -22,13 +22,14 @@ module faststrip_command_lookup_wheel_make
     use faststrip_command_lookup_wheel_judge, only: judge_table
     use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, make_wheel_solvers, &
                                                      release_wheel_solvers
+    use faststrip_command_lookup_scatter, only: least_drawn
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word, refuse_value
     use faststrip_command_system, only: set_progress
     use faststrip_files_bytes, only: remove_file
     use faststrip_lookup_axis, only: lookup_axis_t, make_axis
     use faststrip_lookup_faces, only: n_faces
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, lookup_scatter_percentile
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_wheel_errors
     use faststrip_lookup_wheel, only: n_wheel_place
     use faststrip_wheelset_types, only: wheelset_model_t
     implicit none
@@ -89,9 +90,10 @@ contains
             // ' forces; three creepages of' // new_line('a') // 'each contact. Of the case the' &
             // ' groups &wheel, &rail, &material, &numerics; its right' // new_line('a') &
             // 'wheel; roll 0. Nodes are put where contacts and forces bend, until the 99th' &
-            // new_line('a') // 'percentile of the errors on fresh states is at most --error, and' &
-            // ' that on states where' // new_line('a') // 'a contact comes or goes, too: or the' &
-            // ' cells there are no longer than --least-step.' // new_line('a')
+            // new_line('a') // 'percentile of the errors on fresh states is at most --error (at' &
+            // ' 95 %), and that on' // new_line('a') // 'states where a contact comes or goes,' &
+            // ' too: or cells there are no longer than' // new_line('a') // '--least-step.' &
+            // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
             option_t('--y', 'FIRST:LAST', 'lateral displacements of the wheelset, mm (default' &
@@ -141,7 +143,8 @@ contains
                                least_yaw, least_load*wanted%limits%ends(2, 3)]
         wanted%limits%most_nodes = most_of_places
         wanted%error = option_number(command, '--error', 0.03_wp, above=0)
-        wanted%tests = option_integer(command, '--tests', 2000, least=100, most=10000000)
+        wanted%tests = option_integer(command, '--tests', 2000, most=10000000, &
+                                      least=merge(100, least_drawn, given(command, '--axes-of')))
         if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
             == 'cubic') wanted%order = 2
         call take_part(command, wanted%part, wanted%parts)
@@ -196,7 +199,7 @@ contains
         type(direct_t), allocatable :: workers(:)
         type(status_t) :: status
         type(lookup_t) :: best
-        real(wp) :: limits(2), found(2), best_found(2), step(2)
+        real(wp) :: limits(2), found(2), best_found(2), step(2), bounds(n_wheel_errors, 2, 2)
         integer :: round, k, before(5)
 
         call make_workers(choice_of(wanted%choice, solvers(1)%nu), size(solvers), workers, status)
@@ -234,11 +237,8 @@ contains
             call begin(solvers, axes, wanted, lookup, sources)
             call solve_sets(solvers, sources, 1, 1, '', lookup, status)
             call fail_on_error(status)
-            call judge_table(solvers, wanted%tests, first_seed + round, lookup)
-            do k = 1, 2
-                found(k) = maxval(lookup%wheel%errors(:, lookup_scatter_percentile, wanted%order, &
-                                                      k))
-            end do
+            call judge_table(solvers, wanted%tests, first_seed + round, lookup, bounds)
+            found = maxval(bounds(:, wanted%order, :), dim=1)
             call note('round ' // integer_text(round) // ': ' // shape_text(lookup) // ', 99 % ' &
                       // trim(number_text(found(1))) // ', where contacts come or go ' &
                       // trim(number_text(found(2))))

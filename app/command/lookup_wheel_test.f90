@@ -59,7 +59,7 @@ contains
         call fail_on_error(status)
         allocate (all_states(0))
         do kind = 1, 2
-            call draw_wheel_states(lookup, max(n/kind**2, 1), seed, kind == 2, states)
+            call draw_wheel_states(lookup, n, seed, kind == 2, states)
             call judge_wheel(solvers, lookup, states, errors(:, :, :, kind), n_solved(kind), status)
             call fail_on_error(status)
             all_states = [all_states, states]

@@ -176,7 +176,7 @@ class WheelFaces(HostTest):
         (cls.folder / "case.nml").write_text(CASE, encoding="utf-8")
         subprocess.run([str(cls.installed.prefix / "bin" / "faststrip"), "lookup", "wheel",
                         "case.nml", "-o", "wheel.fslt", "--error", "0.3", "--y", "-2:2", "--tests",
-                        "100"], cwd=cls.folder, check=True, stdin=subprocess.DEVNULL)
+                        "299"], cwd=cls.folder, check=True, stdin=subprocess.DEVNULL)
         cls.table = cls.package.WheelLookup(cls.folder / "wheel.fslt")
         (cls.folder / "by_c.c").write_text(BY_C, encoding="utf-8")
         cls.shell("gcc -Wall -O1 by_c.c $(pkg-config --cflags --libs faststrip) -o by_c")
