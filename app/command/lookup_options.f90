@@ -7,6 +7,7 @@ module faststrip_command_lookup_options
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_methods
     use faststrip_command_options, only: command_t, option_t, option_word, option_integer, &
                                          option_number, option_text, refuse_value, given
+    use faststrip_command_system, only: use_one_thread_each
     use faststrip_files_csv, only: real_text
     implicit none
     private
@@ -66,12 +67,13 @@ contains
             call usage_error('--tolerance goes with --method auto', command%name)
     end subroutine take_direct_options
 
-    !> How many threads solve contacts.
+    !> How many threads solve contacts. Libraries get one each: more of them wait for each other.
     integer function take_threads(command) result(threads)
         type(command_t), intent(in) :: command !! parsed, with `direct_options`
 
         threads = min(int(c_get_nprocs()), most_threads)
         threads = option_integer(command, '--threads', threads, least=1, most=most_threads)
+        call use_one_thread_each()
     end function take_threads
 
     !> Which part of how many.
