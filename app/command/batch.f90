@@ -24,6 +24,7 @@ module faststrip_command_batch
                                          usage_error, exit_bad_input, exit_usage
     use faststrip_command_files, only: trouble_t
     use faststrip_command_gap_cache, only: gap_cache_t, start_cache, tidy_cache
+    use faststrip_command_gap_sums, only: take_sums, put_sums, changed_file
     use faststrip_command_joined, only: joined_t, check_parts, put_parts
     use faststrip_command_machine, only: compiler_name, compiler_flags
     use faststrip_command_manifest, only: manifest_t, set_value, number_of, number_text_of, &
@@ -283,7 +284,7 @@ contains
         type(status_t) :: status
         character(len=:), allocatable :: path, unlike
         integer :: part, i
-        logical :: is_busy, is_there
+        logical :: is_busy, is_there, by_length
 
         path = option_text(job%command, '-o', '-')
         work = work_of(job, 1, 1)
@@ -292,8 +293,10 @@ contains
             names(i)%text = part_name(path, i, size(names))
         end do
         call start_parts(parts, size(names))
+        call is_made(path, made, is_there)
+        ! A manifest that is not that of what is there: then length says nothing.
+        by_length = len(value_of(made, 'bytes')) == 0
         do
-            call is_made(path, made, is_there)
             if (is_there) exit
             part = next_part(parts)
             if (part == 0) then
@@ -302,19 +305,24 @@ contains
                 if (.not. is_busy) exit
                 ! Another process joins them.
                 call wait_for_others()
-                cycle
+            else
+                call make_part(job, names(part)%text, part, size(names), .true., counts, is_busy)
+                call mark_part(parts, part, is_busy)
             end if
-            call make_part(job, names(part)%text, part, size(names), .true., counts, is_busy)
-            call mark_part(parts, part, is_busy)
+            call is_made(path, made, is_there, by_length)
         end do
         ! Somebody else may have joined them between the two looks.
-        if (.not. is_there) call is_made(path, made, is_there)
+        if (.not. is_there) call is_made(path, made, is_there, by_length)
         if (is_there) then
             unlike = unlike_value(made, work)
             if (len(unlike) > 0) &
                 call fail(exit_bad_input, path // ' is there, and its ' // unlike // ' was ' &
                           // value_of(made, unlike) // ', not ' // value_of(work, unlike) &
                           // ': remove ' // path // '.manifest to make it anew')
+            if (len(changed_gap(job, made)) > 0) &
+                call fail(exit_bad_input, path // ' is there, and the gap file ' &
+                          // changed_gap(job, made) // ' has changed: remove ' // path &
+                          // '.manifest to make it anew')
             counts = status_counts_t()
             call add_counts(counts, made)
         else
@@ -370,7 +378,8 @@ contains
         is_resumed = .false.
         is_whole = .false.
         if (job%choice%resumes) then
-            call resume_store(store, work, with_manifest, is_resumed, is_whole, status)
+            call resume_store(store, work, with_manifest, is_resumed, is_whole, status, &
+                              by_length=job%choice%is_shared)
             call fail_on_error(status)
             if (job%choice%is_shared .and. .not. (is_resumed .or. is_whole)) then
                 ! It is gone if somebody has joined all parts meanwhile.
@@ -381,6 +390,10 @@ contains
                 end if
             end if
             call add_counts(counts, work)
+            if (len(changed_gap(job, work)) > 0) &
+                call fail(exit_bad_input, 'cannot resume ' // path // ': the gap file ' &
+                          // changed_gap(job, work) // ' has changed; without --resume all of' &
+                          // ' it is made anew')
             if (is_resumed) job%resumed = number_of(work, 'done')
             if (job%resumed > 0 .and. .not. is_whole) then
                 call go_to_row(job%stream, row_place_t(first - 1 + job%resumed, place_t( &
@@ -399,6 +412,17 @@ contains
         call finish_store(store, with_manifest, status)
         call fail_on_error(status)
     end subroutine make_part
+
+    !> A gap file that is no longer what rows of a manifest were solved with, or what this run has
+    !> read; empty: there is none.
+    function changed_gap(job, work) result(path)
+        type(job_t), intent(inout) :: job
+        type(manifest_t), intent(in) :: work
+        character(len=:), allocatable :: path
+
+        call take_sums(job%cache%sums, work, path)
+        if (len(path) == 0) path = changed_file(job%cache%sums)
+    end function changed_gap
 
     !> Solve all rows from a chunk on.
     subroutine make_rows(job, store, work, chunks, first, last, is_resumed, counts)
@@ -447,6 +471,7 @@ contains
             if (trouble%code /= 0) call fail(trouble%code, trouble%words)
             call collect_results(job, chunks(now), counts)
             call put_counts(work, counts)
+            call put_sums(job%cache%sums, work)
             call tidy_cache(job%cache)
             call choose_size(job, chunks(now)%n, 1.0e-6_wp*microseconds(from, to))
             call tell(job, work, first, chunks(now)%first + chunks(now)%n - 1, begun)

@@ -9,7 +9,9 @@ module faststrip_command_gap_cache
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_gap, only: read_gap_file
     use faststrip_geometry_gap, only: gap_t
+    use faststrip_command_console, only: exit_bad_input
     use faststrip_command_files, only: trouble_t, check_input
+    use faststrip_command_gap_sums, only: gap_sums_t, add_sum, sum_of_file
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: ready_gap_t, make_ready
     implicit none
@@ -33,13 +35,13 @@ module faststrip_command_gap_cache
 
     !> Gaps that are kept for all rows.
     type :: gap_cache_t
-        private
-        type(kept_t), allocatable :: kept(:)
-        integer :: n = 0
-        integer :: first(0:n_lists - 1) = 0 ! of each list; 0: none
-        integer :: points = 0               ! of all
-        integer(int64) :: asked = 0         ! how often
-        integer(int64) :: made = 0          ! how many were ever kept
+        type(gap_sums_t) :: sums            !! of files that were read
+        type(kept_t), allocatable, private :: kept(:)
+        integer, private :: n = 0
+        integer, private :: first(0:n_lists - 1) = 0 ! of each list; 0: none
+        integer, private :: points = 0               ! of all
+        integer(int64), private :: asked = 0         ! how often
+        integer(int64), private :: made = 0          ! how many were ever kept
     end type gap_cache_t
 
     !> A thread's own gap: the one it made last and could not leave.
@@ -69,7 +71,9 @@ contains
         type(trouble_t), intent(out) :: trouble           !! why the run has to end, if it has to
 
         type(gap_t) :: gap
+        character(len=:), allocatable :: sum
         integer :: i
+        logical :: is_like
 
         ready => null()
         !$omp critical (gap_cache)
@@ -83,6 +87,15 @@ contains
         end if
         call check_input(path, trouble)
         if (trouble%code /= 0) return
+        sum = sum_of_file(path)
+        !$omp critical (gap_cache)
+        call add_sum(cache%sums, path, sum, is_like)
+        !$omp end critical (gap_cache)
+        if (.not. is_like) then
+            trouble%code = exit_bad_input
+            trouble%words = 'the gap file has changed since other rows were solved: ' // path
+            return
+        end if
         call read_gap_file(path, gap, status)
         if (is_error(status)) return
         own%ready = ready_gap_t()

@@ -7,6 +7,7 @@ module faststrip_command_joined
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t
     use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose, c_fseek
+    use faststrip_command_gap_sums, only: gap_sums_t, take_sums, put_sums
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
                                           unlike_value, status_counts_t, add_counts, put_counts, &
                                           read_manifest
@@ -38,7 +39,8 @@ contains
                                                  !! wrong with which file
 
         type(manifest_t) :: manifest
-        character(len=:), allocatable :: unlike
+        type(gap_sums_t) :: sums
+        character(len=:), allocatable :: unlike, changed
         integer(int64) :: part
         integer :: i
         logical :: is_there
@@ -58,10 +60,13 @@ contains
                 if (is_error(status)) return
                 unlike = unlike_value(joined%manifest, manifest, but_for='part')
                 part = number_of(manifest, 'part')
+                call take_sums(sums, manifest, changed)
                 if (len(unlike) > 0) then
                     call refuse(unlike // ' of ' // names(1)%text // ' is ' &
                                 // value_of(joined%manifest, unlike) // ', of ' // name // ' ' &
                                 // value_of(manifest, unlike))
+                else if (len(changed) > 0) then
+                    call refuse('the gap file ' // changed // ' was another one for ' // name)
                 else if (number_of(manifest, 'header_bytes') /= joined%header) then
                     call refuse('columns of ' // names(1)%text // ' and ' // name // ' differ')
                 else if (part < 1 .or. part > size(joined%names)) then
@@ -88,6 +93,7 @@ contains
         call set_value(joined%manifest, 'to_do', number_of(joined%manifest, 'items'))
         call set_value(joined%manifest, 'done', number_of(joined%manifest, 'items'))
         call put_counts(joined%manifest, joined%counts)
+        call put_sums(sums, joined%manifest)
 
     contains
 

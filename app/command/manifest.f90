@@ -13,7 +13,7 @@ module faststrip_command_manifest
     private
 
     public :: manifest_t, set_value, value_of, number_of, number_text_of, write_manifest
-    public :: read_manifest, unlike_value
+    public :: read_manifest, unlike_value, names_with
     public :: status_counts_t, count_status, add_counts, put_counts, counted
 
     !> Names that say what a run makes, in the order in which they are compared.
@@ -109,6 +109,24 @@ contains
         i = index_of(manifest, name)
         if (i > 0) value = manifest%values(i)%text
     end function value_of
+
+    !> The names that begin with some words, in the order in which they were set.
+    pure function names_with(manifest, words) result(names)
+        type(manifest_t), intent(in) :: manifest !! any
+        character(len=*), intent(in) :: words    !! that they begin with
+        type(csv_text_t), allocatable :: names(:)
+
+        integer :: i, n
+
+        allocate (names(manifest%n))
+        n = 0
+        do i = 1, manifest%n
+            if (index(manifest%names(i)%text, words) /= 1) cycle
+            n = n + 1
+            names(n)%text = manifest%names(i)%text
+        end do
+        names = names(:n)
+    end function names_with
 
     !> The value of a name as a whole number from 0 on; -1 if it is none.
     pure integer(int64) function number_of(manifest, name) result(number)

@@ -179,13 +179,14 @@ contains
     end subroutine let_go
 
     !> Go on where a run before was ended, if there was one that did the same work.
-    subroutine resume_store(store, work, with_manifest, found, is_whole, status)
+    subroutine resume_store(store, work, with_manifest, found, is_whole, status, by_length)
         type(store_t), intent(inout) :: store     !! opened
         type(manifest_t), intent(inout) :: work   !! what is to be done; becomes the journal
         logical, intent(in) :: with_manifest      !! as for `finish_store`
         logical, intent(out) :: found             !! is there anything?
         logical, intent(out) :: is_whole          !! is it all there is to do? Then it is finished
         type(status_t), intent(out) :: status     !! `st_file_write`: it is other work, or broken
+        logical, intent(in), optional :: by_length !! as of `is_made`
 
         type(manifest_t) :: journal
         character(len=:), allocatable :: unlike
@@ -196,7 +197,7 @@ contains
         is_whole = .false.
         if (.not. store%is_kept) return
         if (c_length(store%final // journal_word // c_null_char) < 0) then
-            if (with_manifest) call find_made(store%final, work, is_whole)
+            if (with_manifest) call find_made(store%final, work, is_whole, by_length)
             found = is_whole
             return
         end if
@@ -239,30 +240,39 @@ contains
     end subroutine resume_store
 
     !> Is an output there, whole, and of this work? Then its manifest is taken.
-    subroutine find_made(path, work, is_there)
+    subroutine find_made(path, work, is_there, by_length)
         character(len=*), intent(in) :: path
         type(manifest_t), intent(inout) :: work
         logical, intent(out) :: is_there
+        logical, intent(in), optional :: by_length
 
         type(manifest_t) :: manifest
 
-        call is_made(path, manifest, is_there)
+        call is_made(path, manifest, is_there, by_length)
         if (is_there) is_there = len(unlike_value(manifest, work)) == 0
         if (is_there) work = manifest
     end subroutine find_made
 
     !> Is an output with a manifest there, and is it what the manifest says?
-    subroutine is_made(path, manifest, is_there)
+    subroutine is_made(path, manifest, is_there, by_length)
         character(len=*), intent(in) :: path      !! name of the output
         type(manifest_t), intent(out) :: manifest !! of it
         logical, intent(out) :: is_there
+        logical, intent(in), optional :: by_length
+            !! is it enough that it is as long? Many processes must not read all of it, each
 
         type(status_t) :: status
 
         call read_manifest(manifest_path(path), manifest, status)
         is_there = .not. is_error(status)
-        if (is_there) call check_bytes(path, number_of(manifest, 'bytes'), &
-                                       value_of(manifest, 'sha256'), is_there)
+        if (.not. is_there) return
+        if (present(by_length)) then
+            if (by_length) then
+                is_there = c_length(final_path(path) // c_null_char) == number_of(manifest, 'bytes')
+                return
+            end if
+        end if
+        call check_bytes(path, number_of(manifest, 'bytes'), value_of(manifest, 'sha256'), is_there)
     end subroutine is_made
 
     !> Name of the manifest of an output.

@@ -1,6 +1,7 @@
 """`faststrip batch` with threads, in parts, ended and resumed, and `faststrip merge`: the same
 bytes whatever happens."""
 
+import hashlib
 import os
 import random
 import resource
@@ -158,6 +159,41 @@ class Parts(Scale):
         stamps = [line[2:] for line in self.bytes_of("whole.csv").decode().splitlines()[:2]]
         self.assertEqual([manifest["revision"], f"compiler {manifest['compiler']}"], stamps)
 
+    def gap_cases(self, count=60):
+        """Half of the rows name one gap in this folder, half another one."""
+        lines = [f"{k},{'ab'[2 * k // count]}.csv,209920,0.28,0.3,{50000 + k},0.001,0,0"
+                 for k in range(count)]
+        self.write("cases.csv", "\n".join([BATCH_COLUMNS, *lines]) + "\n")
+        self.write("a.csv", gap_text(parabola))
+        self.write("b.csv", gap_text(lambda y: 1.1 * parabola(y)))
+
+    def test_gaps_that_are_no_longer_those(self):
+        self.gap_cases()
+        parts = self.make_parts(3)
+        manifest = {row["name"]: row["value"] for row in self.read("part_2.csv.manifest")}
+        for name in ("a.csv", "b.csv"):
+            self.assertEqual(manifest[f"gap_sha256 {name}"],
+                             hashlib.sha256(self.bytes_of(name)).hexdigest())
+        self.solve("cases.csv", "-o", "merged.csv", "--parts", "3", code=0)
+        joined = {row["name"]: row["value"] for row in self.read("merged.csv.manifest")}
+        for name in ("a.csv", "b.csv"):
+            self.assertEqual(joined[f"gap_sha256 {name}"], manifest[f"gap_sha256 {name}"])
+        self.write("b.csv", gap_text(lambda y: 1.2 * parabola(y)))
+        self.refused(1, "batch", "cases.csv", "-o", "merged.csv", "--parts", "3",
+                     says=["merged.csv is there", "b.csv has changed"])
+        # The first part never saw it.
+        self.solve("cases.csv", "-o", parts[0], "--part", "1/3", "--resume", code=0)
+        for part, words in ((parts[1], ("--part", "2/3")), (parts[2], ("--part", "3/3"))):
+            kept = self.bytes_of(part)
+            self.refused(1, "batch", "cases.csv", *words, "--resume", "-o", part,
+                         says=["cannot resume", part, "b.csv has changed"])
+            self.assertEqual(self.bytes_of(part), kept)
+        self.run_program("batch", "cases.csv", "--part", "3/3", "-o", parts[2])
+        self.refused_and_untouched("merge", *parts, says=["gap file b.csv", parts[2]])
+        (self.folder / "b.csv").unlink()
+        self.refused(1, "batch", "cases.csv", "--part", "3/3", "--resume", "-o", parts[2],
+                     says=["b.csv has changed"])
+
     def test_parts_that_do_not_fit(self):
         parts = self.make_parts(3)
         other = self.make_parts(3, "--chain", "2", name="other")
@@ -198,6 +234,10 @@ class Parts(Scale):
         done = self.run_program(*words[1:])
         self.assertEqual((done.returncode, done.stderr), (1, last + "\n"))
         self.refused(1, *words[1:], "--chain", "2", says=["options", "out.csv.manifest"])
+        # What was changed and is as long as before is made anew.
+        (self.folder / "out.csv").write_bytes(self.bytes_of("whole.csv").replace(b"20", b"21", 1))
+        self.run_program(*words[1:])
+        self.assertEqual(self.bytes_of("out.csv"), self.bytes_of("whole.csv"))
 
     def test_a_lost_process(self):
         words = [str(PROGRAM), "batch", "cases.csv", "--parts", "5", "-o", "out.csv",
@@ -246,6 +286,24 @@ class Ended(Scale):
                 process.kill()
                 process.communicate()
             self.resume()
+
+    def test_a_gap_that_changes_meanwhile(self):
+        # Two gaps for which there is not room enough: one of them is read again and again.
+        self.write("cases.csv", "\n".join([BATCH_COLUMNS] + [
+            f"{k},{'ab'[k % 2]}.csv,209920,0.28,0.3,50000,0,0,0" for k in range(600)]) + "\n")
+        for name in ("a.csv", "b.csv"):
+            self.write(name, gap_text(parabola, n=110001))
+        process = self.start("--normal", "hertz", "--tangential", "none")
+        self.begun(process)
+        self.write("c.csv", gap_text(lambda y: 1.1 * parabola(y), n=110001))
+        os.replace(self.folder / "c.csv", self.folder / "a.csv")
+        self.write("c.csv", gap_text(lambda y: 1.1 * parabola(y), n=110001))
+        os.replace(self.folder / "c.csv", self.folder / "b.csv")
+        said = without_progress(process.communicate()[1]).splitlines()
+        self.assertEqual(process.returncode, 1, said)
+        self.assertRegex(said[-1], r"gap file has changed since other rows were solved: [ab]\.csv")
+        self.refused(1, "batch", "cases.csv", "-o", "out.csv", "--resume", "--normal", "hertz",
+                     "--tangential", "none", says=["cannot resume out.csv", "has changed"])
 
     def test_what_was_done_is_not_done_again(self):
         process = self.start()
