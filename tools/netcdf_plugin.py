@@ -44,6 +44,13 @@ def sources(module, found):
     found.update(dict.fromkeys([beside, path] if beside.exists() else [path]))
 
 
+def plugin_sources():
+    """Names of all sources, as from the root of the project."""
+    found = {}
+    sources(FIRST, found)
+    return tuple(str(path.relative_to(ROOT)) for path in found)
+
+
 def where_netcdf_is():
     """Words for the compiler. Its folder of modules may be one that C looks into anyway."""
     done = subprocess.run(["pkg-config", "--cflags", "--libs", "netcdf-fortran"],

@@ -46,7 +46,7 @@ import threading
 import time
 import tomllib
 
-from netcdf_plugin import where_netcdf_is
+from netcdf_plugin import plugin_sources, where_netcdf_is
 
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
 FLAGS = "-Og -fopenmp -fPIC -frecursive -fimplicit-none -std=f2018"
@@ -104,7 +104,6 @@ PROGRAMS = {
 LIBRARY = ("src/faststrip/",)
 # What the program loads to write NetCDF: bin/faststrip_netcdf.so.
 NETCDF_PACKAGE = "src/netcdf/"
-NETCDF = (NETCDF_PACKAGE, "src/files/", "src/faststrip/base/")
 
 
 class Unfit(Exception):
@@ -392,8 +391,9 @@ class Job:
             call(["gfortran", "-fopenmp", "-o", self.folder / "bin" / name,
                   *self.object_paths(beginnings), *self.base.libraries], self.folder)
         if self.object_paths((NETCDF_PACKAGE,)):
-            call(["gfortran", "-shared", "-o", self.folder / "bin" / "faststrip_netcdf.so",
-                  *self.object_paths(NETCDF), *where_netcdf_is()], self.folder)
+            call(["gfortran", "-shared", "-Wl,--no-undefined", "-o",
+                  self.folder / "bin" / "faststrip_netcdf.so",
+                  *self.object_paths(plugin_sources()), *where_netcdf_is()], self.folder)
 
     def install(self):
         """Install as ./run install does, from the objects of the mutant."""
