@@ -419,7 +419,6 @@ contains
             do
                 call next_run(row, first, last, .true.)
                 if (first > row%n) exit
-                if (is_neck(row, first, last)) cycle
                 parts = (fewest_strips + last - first)/(last - first + 1)
                 possible = n + parts*(last - first + 1) <= workspace%max_strips &
                            .and. patches%n < max_patches
@@ -445,15 +444,6 @@ contains
         call remember(workspace, patches)
         possible = patches%n > 0
     end subroutine hand_to_strips
-
-    !> Is a run one cell between two patches?
-    pure logical function is_neck(row, first, last)
-        type(row_t), intent(in) :: row
-        integer, intent(in) :: first, last ! of the run
-
-        is_neck = first == last .and. first > 1 .and. last < row%n
-        if (is_neck) is_neck = row%presses(first - 1) .and. row%presses(last + 1)
-    end function is_neck
 
     !> How far the contact goes on beyond a cell, mm: to where the squared length runs out; a cell
     !> that is longer than the one before it is at the end.
