@@ -3,7 +3,9 @@
 module faststrip_command_lookup_wheel_fill
     use, intrinsic :: iso_fortran_env, only: int64, real32
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, clear_status, number_text
+    use faststrip_base_status, only: status_t, is_error, clear_status, number_text, &
+                                     status_word, st_ok, first_error
+    use faststrip_base_text, only: integer_text
     use faststrip_command_console, only: progress
     use faststrip_command_lookup_direct, only: note_failure
     use faststrip_command_lookup_parts, only: forget_values, is_solved, write_work
@@ -38,11 +40,13 @@ module faststrip_command_lookup_wheel_fill
 contains
 
     !> A table of which the contacts are there, and no creep force is.
-    subroutine begin_wheel_table(solvers, axes, lookup, sources, status)
+    subroutine begin_wheel_table(solvers, axes, lookup, sources, limited, status)
         type(wheel_solver_t), intent(inout) :: solvers(:) !! one for each thread
         type(lookup_axis_t), intent(in) :: axes(5)  !! q, ratio, y, yaw, load
         type(lookup_t), intent(out) :: lookup       !! to be filled
         type(set_source_t), allocatable, intent(out) :: sources(:) !! of the sets of faces
+        character(len=:), allocatable, intent(out) :: limited
+            !! what limits solutions of contacts, and of how many; empty: nothing
         type(status_t), intent(out) :: status
             !! of the first place that fails, which is named; too many contacts
 
@@ -66,12 +70,38 @@ contains
         if (is_error(status)) return
         call find_slots(found, sizes, slot_of, lookup%wheel%slots, status)
         if (is_error(status)) return
+        call name_limitations(found, limited)
         call put_contacts(found, slot_of, lookup, sources)
         call spread_contacts(sizes, lookup)
         allocate (lookup%values(2_int64*n_forces*n_faces*lookup%q%n*lookup%ratio%n**2 &
                                 *lookup%wheel%sets))
         call forget_values(lookup)
     end subroutine begin_wheel_table
+
+    ! Say how many contacts have a solution with a limitation.
+    subroutine name_limitations(found, limited)
+        type(found_contacts_t), intent(in) :: found(:)
+        character(len=:), allocatable, intent(out) :: limited
+
+        integer :: counts(st_ok + 1:first_error - 1), i, k
+
+        counts = 0
+        do i = 1, size(found)
+            do k = 1, found(i)%n
+                if (found(i)%code(k) > st_ok) counts(found(i)%code(k)) = counts(found(i)%code(k)) &
+                    + 1
+            end do
+        end do
+        limited = ''
+        do i = lbound(counts, 1), ubound(counts, 1)
+            if (counts(i) == 0) cycle
+            if (len(limited) > 0) limited = limited // ', '
+            limited = limited // trim(status_word(i)) // ' ' // integer_text(counts(i))
+        end do
+        if (len(limited) > 0) &
+            limited = 'limitations of ' // integer_text(sum(counts)) // ' of ' &
+                      // integer_text(sum(found%n)) // ' contacts: ' // limited
+    end subroutine name_limitations
 
     !> The place of a node.
     pure function place_of(lookup, node) result(place)

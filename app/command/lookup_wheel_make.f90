@@ -316,13 +316,15 @@ contains
         type(set_source_t), allocatable, intent(out) :: sources(:)
 
         type(status_t) :: status
+        character(len=:), allocatable :: limited
 
         if (2.0_wp*n_faces*axes(1)%n*real(axes(2)%n, wp)**2*product(real(axes(3:)%n, wp)) &
             > most_nodes) &
             call fail(exit_no_convergence, 'a table as good as asked for has more than ' // &
                       trim(number_text(most_nodes)) // ' nodes')
-        call begin_wheel_table(solvers, axes, lookup, sources, status)
+        call begin_wheel_table(solvers, axes, lookup, sources, limited, status)
         call fail_on_error(status)
         lookup%text = version_text() // new_line('a') // wanted%words // new_line('a')
+        if (len(limited) > 0) lookup%text = lookup%text // limited // new_line('a')
     end subroutine begin
 end module faststrip_command_lookup_wheel_make

@@ -7,7 +7,7 @@ module faststrip_command_lookup_wheel_solver
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
-    use faststrip_base_status, only: status_t, clear_status, is_error
+    use faststrip_base_status, only: status_t, clear_status, is_error, st_ok
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
                                                release_workers, solve_strips
     use faststrip_command_lookup_states, only: shape_scale
@@ -45,6 +45,7 @@ module faststrip_command_lookup_wheel_solver
         integer :: n = 0                                            !! how many
         real(wp) :: numbers(n_contact_numbers, most_contacts) = 0.0_wp
             !! of each, as `look_up_contacts` has them
+        integer :: code(most_contacts) = st_ok                      !! how each was solved
     end type found_contacts_t
 
     !> A wheel on its rail with all that solving needs, one for a thread.
@@ -124,6 +125,7 @@ contains
                 call take_numbers(wheel%contact(i), wheel%z, solver%nu, found%numbers(:, found%n), &
                                   status)
                 if (is_error(status)) return
+                found%code(found%n) = wheel%contact(i)%status%code
                 ! Where it stands among the contacts of the solution.
                 solver%result%wheel(side_right)%contact(found%n) = wheel%contact(i)
                 if (found%n < i) call copy_workspace(solver, i, found%n)

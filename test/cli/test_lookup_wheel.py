@@ -78,6 +78,17 @@ class LookupWheel(ProgramTest):
             self.assertIn(words, text)
         self.assertNotIn("slot 3", text)
 
+    def test_limitations_of_the_contacts_are_told(self):
+        self.assertNotIn("limitations", self.good("lookup", "info", self.table()))
+        self.write("steep.nml", CASE.replace("cone.csv", "s1002"))
+        self.good("lookup", "wheel", "steep.nml", "-o", "steep.fslt", "--error", "0.9", "--y",
+                  "5:7", "--tests", "299")
+        text = self.good("lookup", "info", "steep.fslt")
+        told, of = re.search(r"^limitations of (\d+) of (\d+) contacts: conformal \1$", text,
+                             re.MULTILINE).groups()
+        self.assertIn(f", {of} contacts, ", text)
+        self.assertTrue(0 < int(told) < int(of))
+
     def test_a_table_is_as_good_as_asked_for(self):
         table = self.table()
         rows = rows_of(self.good("lookup", "test", table, "--case", "cone.nml", "--tests", "400",
