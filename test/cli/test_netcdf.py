@@ -225,8 +225,11 @@ class Outputs(Netcdf):
         self.assertFalse((self.folder / "b.nc").exists())
         self.assertTrue((self.folder / "b.nc.partial").exists())
         self.program = good
-        # The gap is no longer needed.
+        # It would be of a gap that is gone.
+        gap = (self.folder / "gap.csv").read_text()
         (self.folder / "gap.csv").write_text("none")
+        self.refused(1, "batch", "b.csv", "-o", "b.nc", "--resume", says=["gap.csv has changed"])
+        (self.folder / "gap.csv").write_text(gap)
         done = self.run_program("batch", "b.csv", "-o", "b.nc", "--resume")
         self.assertIn("1 of 9 contacts failed", done.stderr)
         self.assertEqual((self.folder / "b.nc").read_bytes(), whole)
