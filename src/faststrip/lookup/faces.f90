@@ -18,7 +18,7 @@ module faststrip_lookup_faces
     implicit none
     private
 
-    public :: faces_cell_t, find_faces_cell, add_faces, sum_faces, finish_faces, creepages_at
+    public :: faces_cell_t, find_faces_cell, sum_faces, finish_faces, creepages_at
     public :: n_faces, n_forces, lookup_linear, lookup_cubic, force_signs
 
     !> Faces of a table, and forces at each node.
@@ -87,118 +87,151 @@ contains
         end if
     end subroutine find_faces_cell
 
-    !> Add Phi and its derivatives by q, s, t, times a weight; and times another one Phi alone.
-    pure subroutine add_faces(values, faces, n_q, n_ratio, cell, weight, slope_weight, phi, slope)
+    !> Phi on some sets of faces, weighted: with its derivatives by q, s, t, and by the coordinates
+    !> along which the sets lie.
+    pure subroutine sum_faces(values, sets, w, n_q, n_ratio, cell, phi, slopes)
         real(real32), intent(in), contiguous :: values(:) !! all values of a table
-        integer, intent(in) :: faces          !! number of the set of faces, from 1
-        integer, intent(in) :: n_q, n_ratio   !! nodes of the axes
-        type(faces_cell_t), intent(in) :: cell !! of `find_faces_cell`
-        real(wp), intent(in) :: weight        !! of Phi and its derivatives
-        real(wp), intent(in) :: slope_weight  !! of what goes to `slope`
-        real(wp), intent(inout) :: phi(3, 4)  !! Phi; its derivatives by q, s, t
-        real(wp), intent(inout) :: slope(3)   !! derivative by a coordinate of the set of faces
-
-        real(wp) :: v(3, 4)
-
-        call sum_faces(values, faces, n_q, n_ratio, cell, v)
-        phi = phi + weight*v
-        slope = slope + slope_weight*v(:, 1)
-    end subroutine add_faces
-
-    !> Phi and its derivatives by q, s, t on one set of faces.
-    pure subroutine sum_faces(values, faces, n_q, n_ratio, cell, v)
-        real(real32), intent(in), contiguous :: values(:) !! all values of a table
-        integer, intent(in) :: faces           !! number of the set of faces, from 1
-        integer, intent(in) :: n_q, n_ratio    !! nodes of the axes
-        type(faces_cell_t), intent(in) :: cell !! of `find_faces_cell`
-        real(wp), intent(out) :: v(3, 4)       !! Phi; its derivatives
+        integer, intent(in) :: sets(:)           !! numbers of the sets of faces, from 1
+        real(wp), intent(in), contiguous :: w(0:, :)
+            !! weights of the sets: in Phi, in its derivative by each coordinate
+        integer, intent(in) :: n_q, n_ratio      !! nodes of the axes
+        type(faces_cell_t), intent(in) :: cell   !! of `find_faces_cell`
+        real(wp), intent(out) :: phi(3, 4)       !! Phi; its derivatives by q, s, t
+        real(wp), intent(out) :: slopes(n_forces, ubound(w, 1))
+            !! its derivatives by the coordinates
 
         integer(int64) :: first, row, sheet
 
         row = n_forces*int(n_q, int64)
         sheet = n_ratio*row
-        first = ((faces - 1_int64)*n_faces + cell%face - 1)*n_ratio*sheet &
-                + (cell%in_t%first - 1)*sheet + (cell%in_s%first - 1)*row &
-                + n_forces*(cell%in_q%first - 1)
+        first = (cell%face - 1)*n_ratio*sheet + (cell%in_t%first - 1)*sheet &
+                + (cell%in_s%first - 1)*row + n_forces*(cell%in_q%first - 1)
         if (cell%width == 2) then
-            call sum_linear(values(first + 1:), row, sheet, cell, v)
+            call sum_linear(values, sets, w, first, row, sheet, n_faces*n_ratio*sheet, cell, phi, &
+                            slopes)
         else
-            call sum_cubic(values(first + 1:), row, sheet, cell, v)
+            call sum_cubic(values, sets, w, first, row, sheet, n_faces*n_ratio*sheet, cell, phi, &
+                           slopes)
         end if
     end subroutine sum_faces
 
-    !> Phi and its derivatives from the eight nodes of a cell.
-    pure subroutine sum_linear(values, row, sheet, cell, v)
-        real(real32), intent(in) :: values(*)      ! from the cell's first node on
-        integer(int64), intent(in) :: row, sheet   ! numbers from one row, or sheet, to the next
+    ! From the eight nodes of a cell of each set: their mean over the sets has the derivatives by
+    ! q, s, t; the derivatives by the coordinates need each set's own Phi.
+    pure subroutine sum_linear(values, sets, w, first, row, sheet, set, cell, phi, slopes)
+        real(real32), intent(in), contiguous :: values(:)
+        integer, intent(in) :: sets(:)
+        real(wp), intent(in), contiguous :: w(0:, :)
+        integer(int64), intent(in) :: first            ! numbers before the cell's first node
+        integer(int64), intent(in) :: row, sheet, set  ! numbers from one of them to the next
         type(faces_cell_t), intent(in) :: cell
-        real(wp), intent(out) :: v(3, 4)
+        real(wp), intent(out) :: phi(3, 4), slopes(n_forces, ubound(w, 1))
 
-        real(wp) :: a, b, c, d, by_q(4), one, two
-        integer :: i
+        ! Both nodes along q; rows, sheets.
+        real(wp) :: mean(2*n_forces, 4), node(2*n_forces), own(2*n_forces), at_st(4)
+        real(wp) :: by_q(4), one, two
+        integer(int64) :: at, of_node(4)
+        integer :: i, k, m
 
+        of_node = [0_int64, row, sheet, sheet + row]
+        at_st = [cell%in_s%w(1)*cell%in_t%w(1), cell%in_s%w(2)*cell%in_t%w(1), &
+                 cell%in_s%w(1)*cell%in_t%w(2), cell%in_s%w(2)*cell%in_t%w(2)]
+        mean = 0.0_wp
+        slopes = 0.0_wp
+        do i = 1, size(sets)
+            own = 0.0_wp
+            do k = 1, 4
+                at = first + (sets(i) - 1)*set + of_node(k)
+                node = values(at + 1:at + 2*n_forces)
+                mean(:, k) = mean(:, k) + w(0, i)*node
+                own = own + at_st(k)*node
+            end do
+            own(:3) = own(:3) + cell%in_q%w(2)*(own(4:) - own(:3))
+            do m = 1, ubound(w, 1)
+                slopes(:, m) = slopes(:, m) + w(m, i)*own(:3)
+            end do
+        end do
         do i = 1, n_forces
-            a = values(i)
-            b = values(row + i)
-            c = values(sheet + i)
-            d = values(sheet + row + i)
-            by_q = [values(i + n_forces) - a, values(row + i + n_forces) - b, &
-                    values(sheet + i + n_forces) - c, values(sheet + row + i + n_forces) - d]
-            a = a + cell%in_q%w(2)*by_q(1)
-            b = b + cell%in_q%w(2)*by_q(2)
-            c = c + cell%in_q%w(2)*by_q(3)
-            d = d + cell%in_q%w(2)*by_q(4)
-            one = a + cell%in_s%w(2)*(b - a)
-            two = c + cell%in_s%w(2)*(d - c)
-            v(i, 1) = one + cell%in_t%w(2)*(two - one)
-            v(i, 4) = cell%in_t%dw(2)*(two - one)
-            v(i, 3) = cell%in_s%dw(2)*(b - a + cell%in_t%w(2)*(d - c - (b - a)))
+            by_q = mean(i + n_forces, :) - mean(i, :)
+            associate (mean => mean(i, :) + cell%in_q%w(2)*by_q)
+                one = mean(1) + cell%in_s%w(2)*(mean(2) - mean(1))
+                two = mean(3) + cell%in_s%w(2)*(mean(4) - mean(3))
+                phi(i, 1) = one + cell%in_t%w(2)*(two - one)
+                phi(i, 4) = cell%in_t%dw(2)*(two - one)
+                phi(i, 3) = cell%in_s%dw(2)*(mean(2) - mean(1) + cell%in_t%w(2)*(mean(4) &
+                                             - mean(3) - (mean(2) - mean(1))))
+            end associate
             one = by_q(1) + cell%in_s%w(2)*(by_q(2) - by_q(1))
             two = by_q(3) + cell%in_s%w(2)*(by_q(4) - by_q(3))
-            v(i, 2) = cell%in_q%dw(2)*(one + cell%in_t%w(2)*(two - one))
+            phi(i, 2) = cell%in_q%dw(2)*(one + cell%in_t%w(2)*(two - one))
         end do
     end subroutine sum_linear
 
-    !> The same from 64 nodes.
-    pure subroutine sum_cubic(values, row, sheet, cell, v)
-        real(real32), intent(in) :: values(*)      ! from the first node on
-        integer(int64), intent(in) :: row, sheet   ! numbers from one row, or sheet, to the next
+    ! The same from 64 nodes of each set.
+    pure subroutine sum_cubic(values, sets, w, first, row, sheet, set, cell, phi, slopes)
+        real(real32), intent(in), contiguous :: values(:)
+        integer, intent(in) :: sets(:)
+        real(wp), intent(in), contiguous :: w(0:, :)
+        integer(int64), intent(in) :: first            ! numbers before the first node
+        integer(int64), intent(in) :: row, sheet, set  ! numbers from one of them to the next
         type(faces_cell_t), intent(in) :: cell
-        real(wp), intent(out) :: v(3, 4)
+        real(wp), intent(out) :: phi(3, 4), slopes(n_forces, ubound(w, 1))
 
-        real(wp) :: line(3), line_q(3), plane(3), plane_q(3), plane_s(3)
+        ! Four nodes along q; rows; sheets.
+        real(wp) :: mean(4*n_forces, 4, 4), node(4*n_forces), own(4*n_forces)
+        real(wp) :: plane(4*n_forces), plane_s(4*n_forces), along_q(4*n_forces), along_s(4*n_forces)
+        real(wp) :: along_t(4*n_forces)
         integer(int64) :: at
-        integer :: j, k, i
+        integer :: i, j, k, m
 
-        v = 0.0_wp
+        mean = 0.0_wp
+        slopes = 0.0_wp
+        do i = 1, size(sets)
+            own = 0.0_wp
+            do k = 1, 4
+                do j = 1, 4
+                    at = first + (sets(i) - 1)*set + (k - 1)*sheet + (j - 1)*row
+                    node = values(at + 1:at + 4*n_forces)
+                    mean(:, j, k) = mean(:, j, k) + w(0, i)*node
+                    own = own + cell%in_s%w(j)*cell%in_t%w(k)*node
+                end do
+            end do
+            own(:3) = along(own, cell%in_q%w)
+            do m = 1, ubound(w, 1)
+                slopes(:, m) = slopes(:, m) + w(m, i)*own(:3)
+            end do
+        end do
+        along_q = 0.0_wp
+        along_s = 0.0_wp
+        along_t = 0.0_wp
         do k = 1, 4
             plane = 0.0_wp
-            plane_q = 0.0_wp
             plane_s = 0.0_wp
             do j = 1, 4
-                at = (k - 1)*sheet + (j - 1)*row
-                line = 0.0_wp
-                line_q = 0.0_wp
-                do i = 1, 4
-                    line = line + cell%in_q%w(i)*values(at + 1:at + 3)
-                    line_q = line_q + cell%in_q%dw(i)*values(at + 1:at + 3)
-                    at = at + n_forces
-                end do
-                plane = plane + cell%in_s%w(j)*line
-                plane_q = plane_q + cell%in_s%w(j)*line_q
-                plane_s = plane_s + cell%in_s%dw(j)*line
+                plane = plane + cell%in_s%w(j)*mean(:, j, k)
+                plane_s = plane_s + cell%in_s%dw(j)*mean(:, j, k)
             end do
-            v(:, 1) = v(:, 1) + cell%in_t%w(k)*plane
-            v(:, 2) = v(:, 2) + cell%in_t%w(k)*plane_q
-            v(:, 3) = v(:, 3) + cell%in_t%w(k)*plane_s
-            v(:, 4) = v(:, 4) + cell%in_t%dw(k)*plane
+            along_q = along_q + cell%in_t%w(k)*plane
+            along_s = along_s + cell%in_t%w(k)*plane_s
+            along_t = along_t + cell%in_t%dw(k)*plane
         end do
+        phi(:, 1) = along(along_q, cell%in_q%w)
+        phi(:, 2) = along(along_q, cell%in_q%dw)
+        phi(:, 3) = along(along_s, cell%in_q%w)
+        phi(:, 4) = along(along_t, cell%in_q%w)
     end subroutine sum_cubic
+
+    ! Forces of four nodes along q, weighted.
+    pure function along(nodes, w) result(forces)
+        real(wp), intent(in) :: nodes(4*n_forces), w(4)
+        real(wp) :: forces(n_forces)
+
+        forces = w(1)*nodes(1:3) + w(2)*nodes(4:6) + w(3)*nodes(7:9) + w(4)*nodes(10:12)
+    end function along
 
     !> Forces over mu N and their derivatives by the creepages from Phi and its derivatives.
     pure subroutine finish_faces(cell, phi, f, by_creepage)
         type(faces_cell_t), intent(in) :: cell
-        real(wp), intent(in) :: phi(3, 4)            !! of `add_faces`
+        real(wp), intent(in) :: phi(3, 4)            !! of `sum_faces`
         real(wp), intent(out) :: f(3)                !! Fx, Fy, Mz/c over mu N
         real(wp), intent(out) :: by_creepage(3, 3)   !! derivative of the first by the second
 

@@ -11,7 +11,7 @@ module faststrip_lookup_hertz
     use faststrip_base_status, only: status_t, set_status, number_text, st_ok, &
                                      st_bad_argument, st_not_finite, st_out_of_range, st_bad_load
     use faststrip_lookup_axis, only: stencil_t, linear_stencil, cubic_stencil
-    use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, add_faces, finish_faces, &
+    use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
                                       force_signs, n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
     implicit none
@@ -44,9 +44,9 @@ contains
 
         type(faces_cell_t) :: cell
         type(stencil_t) :: stencil
-        real(wp) :: c, force, linear, x(3), scale(3), scale_slope(3), shape, phi(3, 4), slope(3)
-        real(wp) :: f(3), by_creepage(3, 3)
-        integer :: k
+        real(wp) :: c, force, linear, x(3), scale(3), scale_slope(3), shape, phi(3, 4)
+        real(wp) :: f(3), by_creepage(3, 3), w(0:1, 4), slope(3, 1)
+        integer :: k, sets(4)
 
         status%code = st_ok
         forces = 0.0_wp
@@ -83,18 +83,18 @@ contains
             return
         end if
         call find_faces_cell(lookup%q, lookup%ratio, order, x, cell)
-        phi = 0.0_wp
-        slope = 0.0_wp
-        do k = 1, cell%width
-            call add_faces(lookup%values, stencil%first + k - 1, lookup%q%n, lookup%ratio%n, cell, &
-                           stencil%w(k), stencil%dw(k), phi, slope)
-        end do
+        w(0, :) = stencil%w
+        w(1, :) = stencil%dw
+        sets = stencil%first + [0, 1, 2, 3]
+        call sum_faces(lookup%values, sets(:cell%width), w(:, :cell%width), lookup%q%n, &
+                       lookup%ratio%n, cell, phi, slope)
         call finish_faces(cell, phi, f, by_creepage)
         forces = force*f
         forces(3) = c*forces(3)
         if (present(jacobian)) then
-            slope = cell%q*slope*force_signs(cell) + times(by_creepage, scale_slope)
-            call find_jacobian(state, c, force, linear*scale, x, f, by_creepage, slope, jacobian)
+            slope(:, 1) = cell%q*slope(:, 1)*force_signs(cell) + times(by_creepage, scale_slope)
+            call find_jacobian(state, c, force, linear*scale, x, f, by_creepage, slope(:, 1), &
+                               jacobian)
         end if
     end subroutine look_up_hertz
 

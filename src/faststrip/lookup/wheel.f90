@@ -218,18 +218,15 @@ contains
         integer, intent(in) :: slot, first, last
         real(wp), intent(inout) :: numbers(n_contact_numbers, 0:n_wheel_place)
 
-        real(wp) :: number
+        real(wp) :: sums(0:n_wheel_place)
         integer :: i, j
 
-        numbers(first:last, :) = 0.0_wp
-        do i = 1, cell%n
-            do j = first, last
-                number = lookup%wheel%contacts(j, slot, cell%node(i))
-                numbers(j, 0) = numbers(j, 0) + cell%w(0, i)*number
-                numbers(j, 1) = numbers(j, 1) + cell%w(1, i)*number
-                numbers(j, 2) = numbers(j, 2) + cell%w(2, i)*number
-                numbers(j, 3) = numbers(j, 3) + cell%w(3, i)*number
+        do j = first, last
+            sums = 0.0_wp
+            do i = 1, cell%n
+                sums = sums + cell%w(:, i)*lookup%wheel%contacts(j, slot, cell%node(i))
             end do
+            numbers(j, :) = sums
         end do
     end subroutine sum_numbers
 
@@ -241,21 +238,15 @@ contains
         type(faces_cell_t), intent(in) :: cell
         real(wp), intent(out) :: phi(3, 4), by_place(3, n_wheel_place)
 
-        real(wp) :: v(3, 4)
-        integer :: i, m, mirrored
+        integer :: sets(most_about), mirrored, i
 
         mirrored = 0
         if (cell%sign_of(1)*cell%sign_of(3) < 0.0_wp) mirrored = 1
-        phi = 0.0_wp
-        by_place = 0.0_wp
         do i = 1, place%n
-            call sum_faces(lookup%values, 2*lookup%wheel%set(slot, place%node(i)) - 1 + mirrored, &
-                           lookup%q%n, lookup%ratio%n, cell, v)
-            phi = phi + place%w(0, i)*v
-            do m = 1, n_wheel_place
-                by_place(:, m) = by_place(:, m) + place%w(m, i)*v(:, 1)
-            end do
+            sets(i) = 2*lookup%wheel%set(slot, place%node(i)) - 1 + mirrored
         end do
+        call sum_faces(lookup%values, sets(:place%n), place%w(:, :place%n), lookup%q%n, &
+                       lookup%ratio%n, cell, phi, by_place)
     end subroutine sum_places
 
     !> Numbers of a contact from those of a table: times their powers of N.
