@@ -39,6 +39,7 @@ PROMISES = "reference/promises/promises.csv"
 ESTIMATED = "reference/promises/estimates.csv"
 SPEED = "reference/speed.csv"
 PAINTED = "reference/page.csv"
+SCALE = "reference/scale.csv"
 SPREAD = ("median", "p95", "worst")
 # What the README tells of it.
 TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
@@ -380,6 +381,27 @@ def page_table(figures):
                   for k, slider in enumerate(given.words("slider"))])
 
 
+def scale_table(figures):
+    """What `./run scale` has measured."""
+    names = ("contacts_per_core_s", "efficiency", "peak_MB", "size_MB")
+    given = read_table(str(figures.root / SCALE),
+                       ("group", "what", "contacts", "processes", "threads", "hours", "cores",
+                        *names))
+    numbers = {name: given.numbers(name, missing=True)
+               for name in ("contacts", "processes", "threads", "hours", "cores", *names)}
+    rows = []
+    for k, (group, what) in enumerate(zip(given.words("group"), given.words("what"))):
+        cell = {name: values[k] for name, values in numbers.items()}
+        shared = "–"
+        if not math.isnan(cell["processes"]):
+            shared = f"{cell['processes']:.0f} x {cell['threads']:.0f}"
+        rows.append([f"{group}: {what}", f"{cell['contacts']:.0e}".replace("e+0", "e"), shared,
+                     *(known(cell[name]) for name in names),
+                     known(cell["hours"] * cell["cores"])])
+    return table(["", "contacts", "processes x threads", "contacts / s / core", "efficiency",
+                  "memory, MB", "size, MB", "core hours"], rows)
+
+
 def statements_table(figures):
     return table(["verdict", "statements"],
                  [[row, figures.measured.word("statements", row, "count")]
@@ -420,6 +442,7 @@ TABLES = {
     "speed": speed_table,
     "tails": tails,
     "page": page_table,
+    "scale": scale_table,
     "extremes": extremes_table,
     "certificate": certificate_table,
     "promises": promises_table,
@@ -482,6 +505,11 @@ SECTIONS = (
      "Processor time of one contact, step, state or row each; ratios of the same contact each, to"
      " FASTSIM in the same run and to the time recorded for CONTACT, on another machine; its KPEC"
      " and ANALYN were given the penetration (`./run speed`, `./run stored speed`).", "speed"),
+    ("A million contacts",
+     "`batch` on the paper's gaps in turn, each row with a load and creepages of its own: rows a"
+     " second of processor, elapsed time of one thread over that of n times n (or the cores there"
+     " are, two), peak memory, sizes of input and results, and a thousand million contacts by"
+     " division (`./run scale`, `./run stored scale`).", "scale"),
     ("The paper's statements",
      "The report tests the paper's statements one by one and gives each a verdict.", "statements"),
 )

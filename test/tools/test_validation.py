@@ -78,7 +78,7 @@ class InACopy(unittest.TestCase):
         self.root = Path(folder.name)
         for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
                      validation.PROMISES, validation.ESTIMATED, validation.SPEED,
-                     validation.PAINTED):
+                     validation.PAINTED, validation.SCALE):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         shutil.copytree(ROOT / "docs", self.root / "docs")
