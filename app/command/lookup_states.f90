@@ -10,7 +10,7 @@ module faststrip_command_lookup_states
     implicit none
     private
 
-    public :: shape_scale, phi_at, fresh_state, fresh_coordinates
+    public :: shape_scale, phi_at, fresh_state, fresh_coordinates, drawn_creepages
 
     !> Coordinates of a point that make a fresh state.
     !> Given: what it draws.
@@ -68,8 +68,29 @@ contains
         phi = forces/(node_mu*node_load*[1.0_wp, 1.0_wp, node_size])/part
     end subroutine phi_at
 
-    !> A fresh contact: a/b, size, load, friction evenly in their logarithms, size of the normalised
-    !> creepages from 0.01 to 100, of any direction; two of five lack one of them, one of five two.
+    !> Normalised creepages of any direction, a hundredth to a hundred times what makes mu N by the
+    !> linear theory; two of five lack one of them, one of five two.
+    pure function drawn_creepages(point) result(x)
+        real(wp), intent(in) :: point(4) !! from 0 to 1
+        real(wp) :: x(3)
+
+        real(wp) :: height, angle
+
+        height = 2.0_wp*point(2) - 1.0_wp
+        angle = 2.0_wp*pi*point(3)
+        x = [height, sqrt(1.0_wp - height**2)*cos(angle), sqrt(1.0_wp - height**2)*sin(angle)]
+        select case (int(15.0_wp*point(4)))
+        case (0, 1, 2); x(3) = 0.0_wp
+        case (3, 4, 5); x(1) = 0.0_wp
+        case (6); x(2:3) = 0.0_wp
+        case (7); x([1, 3]) = 0.0_wp
+        case (8); x(1:2) = 0.0_wp
+        end select
+        x = x*exp(log_10*(4.0_wp*point(1) - 2.0_wp))
+    end function drawn_creepages
+
+    !> A fresh contact: a/b, size, load, friction evenly in their logarithms; creepages that were
+    !> drawn.
     function fresh_state(point, first, last, nu, status) result(state)
         real(wp), intent(in) :: point(fresh_coordinates) !! from 0 to 1
         real(wp), intent(in) :: first, last   !! least and largest ln(a/b)
@@ -77,20 +98,10 @@ contains
         type(status_t), intent(out) :: status !! of `shape_scale`
         real(wp) :: state(n_lookup_state)
 
-        real(wp) :: log_ratio, height, angle, x(3), c
+        real(wp) :: log_ratio, x(3), c
 
         log_ratio = first + point(1)*(last - first)
-        height = 2.0_wp*point(3) - 1.0_wp
-        angle = 2.0_wp*pi*point(4)
-        x = [height, sqrt(1.0_wp - height**2)*cos(angle), sqrt(1.0_wp - height**2)*sin(angle)]
-        select case (int(15.0_wp*point(5)))
-        case (0, 1, 2); x(3) = 0.0_wp
-        case (3, 4, 5); x(1) = 0.0_wp
-        case (6); x(2:3) = 0.0_wp
-        case (7); x([1, 3]) = 0.0_wp
-        case (8); x(1:2) = 0.0_wp
-        end select
-        x = x*exp(log_10*(4.0_wp*point(2) - 2.0_wp))
+        x = drawn_creepages(point(2:5))
         c = exp(log_10*1.5_wp*point(6))
         state(1) = c*exp(0.5_wp*log_ratio)
         state(2) = c*exp(-0.5_wp*log_ratio)

@@ -9,7 +9,8 @@ module faststrip_command_lookup_wheel_grid
     use faststrip_command_console, only: progress
     use faststrip_command_lookup_direct, only: note_failure
     use faststrip_command_lookup_points, only: scattered_point
-    use faststrip_command_lookup_wheel_judge, only: sums_of, n_sums, creepage_direction
+    use faststrip_command_lookup_states, only: drawn_creepages
+    use faststrip_command_lookup_wheel_judge, only: sums_of, n_sums
     use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, found_contacts_t, &
                                                      solve_place, take_contact, solve_creep
     use faststrip_lookup_axis, only: lookup_axis_t, make_axis, make_point
@@ -228,7 +229,7 @@ contains
         do k = 1, found%n
             call take_contact(solver, k)
             do j = 1, n_creepages
-                creepages = creepage_direction(scattered_point(n_creepages*line + j, axis%along, 4))
+                creepages = drawn_creepages(scattered_point(n_creepages*line + j, axis%along, 4))
                 creepages = creepages*sample_mu*load/(usual_stiffness*solver%shear*c**2) &
                             *[1.0_wp, 1.0_wp, 1.0_wp/c]
                 call solve_creep(solver, sample_mu, creepages, forces(:, j, k), status)

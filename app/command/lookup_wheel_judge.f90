@@ -6,12 +6,13 @@
 !> moment about the normals with that of the forces ahead about the mean place of contact; and the
 !> lateral part of the normal forces, which shows how well contacts are placed.
 module faststrip_command_lookup_wheel_judge
-    use faststrip_base_kinds, only: wp, pi, log_10
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_base_text, only: integer_text
     use faststrip_command_console, only: progress, note, fail_on_error
     use faststrip_command_lookup_points, only: scattered_point
     use faststrip_command_lookup_scatter, only: scatter_of, percentile_bound
+    use faststrip_command_lookup_states, only: drawn_creepages
     use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, found_contacts_t, &
                                                      solve_place, take_contact, solve_creep
     use faststrip_lookup_axis, only: lookup_axis_t
@@ -24,7 +25,6 @@ module faststrip_command_lookup_wheel_judge
     private
 
     public :: judged_t, judge_table, judge_wheel, draw_wheel_states, sums_of, n_sums
-    public :: creepage_direction
 
     !> Sums over the contacts of a wheel: ahead; across, along y and z of the track; moment; lateral
     !> part of the normal forces.
@@ -126,27 +126,6 @@ contains
         place = min(max(place, axis%x(1)), axis%x(axis%n))
     end function place_on
 
-    !> Normalised creepages of any direction, a hundredth to a hundred times what makes mu N by the
-    !> linear theory; two of five lack one of them, one of five two.
-    pure function creepage_direction(point) result(x)
-        real(wp), intent(in) :: point(4) !! from 0 to 1
-        real(wp) :: x(3)
-
-        real(wp) :: height, angle
-
-        height = 2.0_wp*point(2) - 1.0_wp
-        angle = 2.0_wp*pi*point(3)
-        x = [height, sqrt(1.0_wp - height**2)*cos(angle), sqrt(1.0_wp - height**2)*sin(angle)]
-        select case (int(15.0_wp*point(4)))
-        case (0, 1, 2); x(3) = 0.0_wp
-        case (3, 4, 5); x(1) = 0.0_wp
-        case (6); x(2:3) = 0.0_wp
-        case (7); x([1, 3]) = 0.0_wp
-        case (8); x(1:2) = 0.0_wp
-        end select
-        x = x*exp(log_10*(4.0_wp*point(1) - 2.0_wp))
-    end function creepage_direction
-
     ! Creepages of a state, normalised by one of its contacts, which is drawn, too.
     subroutine take_creepages(lookup, point, state)
         type(lookup_t), intent(in) :: lookup
@@ -166,7 +145,7 @@ contains
         end do
         if (n == 0) return
         slot = slots(min(1 + int(n*point(5)), n))
-        state%state(5:7) = creepage_direction(point(:4))*state%state(4)*contacts(at_load, slot) &
+        state%state(5:7) = drawn_creepages(point(:4))*state%state(4)*contacts(at_load, slot) &
                            /(lookup%wheel%shear*contacts(at_creep:at_spin, slot))
     end subroutine take_creepages
 
