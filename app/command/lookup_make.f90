@@ -63,9 +63,10 @@ contains
             // new_line('a') // 'materials. Nodes are put where forces bend, until the 99th' &
             // ' percentile of the' // new_line('a') // 'interpolation''s error in Fx, Fy (over' &
             // ' mu N) and Mz (over mu N c, c = sqrt(ab))' // new_line('a') &
-            // 'is at most --error: fresh contacts tell it at 95 %. Mean, percentile and worst go into' &
-            // new_line('a') // 'the table: lookup info. On given nodes work can be shared by' &
-            // ' processes: --part,' // new_line('a') // 'then lookup join.' // new_line('a')
+            // 'is at most --error: fresh contacts tell it at 95 %. Mean, percentile and worst' &
+            // new_line('a') // 'go into the table: lookup info. On given nodes work can be' &
+            // ' shared by' // new_line('a') // 'processes: --part, then lookup join.' &
+            // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
             option_t('--error', 'E', '99th percentile, over mu N and mu N c (default 0.01)'), &
