@@ -22,7 +22,6 @@ module faststrip_command_gap_sums
         private
         type(csv_text_t), allocatable :: names(:), sums(:)
         integer :: n = 0
-        logical :: are_new = .false. ! since `put_sums`?
     end type gap_sums_t
 
 contains
@@ -60,7 +59,6 @@ contains
             sums%names(i)%text = path
             sums%sums(i)%text = sum
             sums%n = sums%n + 1
-            sums%are_new = .true.
         end if
     end subroutine add_sum
 
@@ -85,18 +83,17 @@ contains
         end do
     end subroutine take_sums
 
-    !> Tell a manifest, if there is anything new.
+    !> Tell a manifest what it does not have yet.
     subroutine put_sums(sums, manifest)
-        type(gap_sums_t), intent(inout) :: sums      !! any
+        type(gap_sums_t), intent(in) :: sums         !! any
         type(manifest_t), intent(inout) :: manifest  !! gets them
 
         integer :: i
 
-        if (.not. sums%are_new) return
+        if (size(names_with(manifest, sum_prefix)) == sums%n) return
         do i = 1, sums%n
             call set_value(manifest, sum_prefix // sums%names(i)%text, sums%sums(i)%text)
         end do
-        sums%are_new = .false.
     end subroutine put_sums
 
     !> The first file whose sum is another one now, or that is gone; empty: none.
