@@ -104,8 +104,8 @@ class Try:
 # The families: each makes one input from a random number generator and a counter.
 
 BAD_NUMBERS = ["1e5x", "abc", "'1e5'", "1,5", "NaN", "Infinity", "-Inf", "1e400", "", "..", "1e",
-               "0x10", "--1", "1e5 2e5", "2*3", ".true.", "1_8", "\x1b[31m", "é", "1e5;", "=", "\"",
-               "1 000"]
+               "0x10", "--1", "1e5 2e5", "2*3", ".true.", "1_8", "\x1b[31m", "é", "1e5;", "=",
+               "\"", "1 000"]
 BAD_TEXTS = ["guess", "NORM ", "", "strip,hertz", "\x1b]0;x\x07", "ü" * 20, "x" * 600, "'"]
 
 
