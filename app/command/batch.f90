@@ -24,7 +24,7 @@ module faststrip_command_batch
                                          usage_error, exit_bad_input, exit_usage
     use faststrip_command_files, only: trouble_t
     use faststrip_command_gap_cache, only: gap_cache_t, start_cache, tidy_cache
-    use faststrip_command_gap_sums, only: take_sums, put_sums, changed_file
+    use faststrip_command_gap_digests, only: take_digests, put_digests, changed_file
     use faststrip_command_joined, only: joined_t, check_parts, put_parts
     use faststrip_command_machine, only: compiler_name, compiler_flags
     use faststrip_command_manifest, only: manifest_t, set_value, number_of, number_text_of, &
@@ -319,10 +319,8 @@ contains
                 call fail(exit_bad_input, path // ' is there, and its ' // unlike // ' was ' &
                           // value_of(made, unlike) // ', not ' // value_of(work, unlike) &
                           // ': remove ' // path // '.manifest to make it anew')
-            if (len(changed_gap(job, made)) > 0) &
-                call fail(exit_bad_input, path // ' is there, and the gap file ' &
-                          // changed_gap(job, made) // ' has changed: remove ' // path &
-                          // '.manifest to make it anew')
+            call check_gaps(job, made, path // ' is there', 'remove ' // path // '.manifest to' &
+                            // ' make it anew')
             counts = status_counts_t()
             call add_counts(counts, made)
         else
@@ -390,10 +388,8 @@ contains
                 end if
             end if
             call add_counts(counts, work)
-            if (len(changed_gap(job, work)) > 0) &
-                call fail(exit_bad_input, 'cannot resume ' // path // ': the gap file ' &
-                          // changed_gap(job, work) // ' has changed; without --resume all of' &
-                          // ' it is made anew')
+            call check_gaps(job, work, 'cannot resume ' // path, 'without --resume all of it is' &
+                            // ' made anew')
             if (is_resumed) job%resumed = number_of(work, 'done')
             if (job%resumed > 0 .and. .not. is_whole) then
                 call go_to_row(job%stream, row_place_t(first - 1 + job%resumed, place_t( &
@@ -413,16 +409,22 @@ contains
         call fail_on_error(status)
     end subroutine make_part
 
-    !> A gap file that is no longer what rows of a manifest were solved with, or what this run has
-    !> read; empty: there is none.
-    function changed_gap(job, work) result(path)
+    !> End the program if a gap file is no longer what rows of a manifest were solved with, or what
+    !> this run has read.
+    subroutine check_gaps(job, work, what, way_out)
         type(job_t), intent(inout) :: job
         type(manifest_t), intent(in) :: work
-        character(len=:), allocatable :: path
+        character(len=*), intent(in) :: what    ! cannot be had
+        character(len=*), intent(in) :: way_out ! what the user may do
 
-        call take_sums(job%cache%sums, work, path)
-        if (len(path) == 0) path = changed_file(job%cache%sums)
-    end function changed_gap
+        character(len=:), allocatable :: changed
+
+        call take_digests(job%cache%digests, work, changed)
+        if (len(changed) == 0) changed = changed_file(job%cache%digests)
+        if (len(changed) > 0) &
+            call fail(exit_bad_input, what // ', but the gap file ' // changed &
+                      // ' has changed: ' // way_out)
+    end subroutine check_gaps
 
     !> Solve all rows from a chunk on.
     subroutine make_rows(job, store, work, chunks, first, last, is_resumed, counts)
@@ -471,7 +473,7 @@ contains
             if (trouble%code /= 0) call fail(trouble%code, trouble%words)
             call collect_results(job, chunks(now), counts)
             call put_counts(work, counts)
-            call put_sums(job%cache%sums, work)
+            call put_digests(job%cache%digests, work)
             call tidy_cache(job%cache)
             call choose_size(job, chunks(now)%n, 1.0e-6_wp*microseconds(from, to))
             call tell(job, work, first, chunks(now)%first + chunks(now)%n - 1, begun)

@@ -11,7 +11,8 @@ module faststrip_command_gap_cache
     use faststrip_geometry_gap, only: gap_t
     use faststrip_command_console, only: exit_bad_input
     use faststrip_command_files, only: trouble_t, check_input
-    use faststrip_command_gap_sums, only: gap_sums_t, add_sum, sum_of_file
+    use faststrip_command_gap_digests, only: gap_digests_t, wants_digest, add_digest, &
+                                           digest_of_gap
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: ready_gap_t, make_ready
     implicit none
@@ -35,7 +36,7 @@ module faststrip_command_gap_cache
 
     !> Gaps that are kept for all rows.
     type :: gap_cache_t
-        type(gap_sums_t) :: sums            !! of files that were read
+        type(gap_digests_t) :: digests      !! of files that were read
         type(kept_t), allocatable, private :: kept(:)
         integer, private :: n = 0
         integer, private :: first(0:n_lists - 1) = 0 ! of each list; 0: none
@@ -71,9 +72,9 @@ contains
         type(trouble_t), intent(out) :: trouble           !! why the run has to end, if it has to
 
         type(gap_t) :: gap
-        character(len=:), allocatable :: sum
+        character(len=:), allocatable :: digest
         integer :: i
-        logical :: is_like
+        logical :: is_wanted, is_like
 
         ready => null()
         !$omp critical (gap_cache)
@@ -87,10 +88,16 @@ contains
         end if
         call check_input(path, trouble)
         if (trouble%code /= 0) return
-        sum = sum_of_file(path)
         !$omp critical (gap_cache)
-        call add_sum(cache%sums, path, sum, is_like)
+        is_wanted = wants_digest(cache%digests, path)
         !$omp end critical (gap_cache)
+        is_like = .true.
+        if (is_wanted) then
+            digest = digest_of_gap(path)
+            !$omp critical (gap_cache)
+            call add_digest(cache%digests, path, digest, is_like)
+            !$omp end critical (gap_cache)
+        end if
         if (.not. is_like) then
             trouble%code = exit_bad_input
             trouble%words = 'the gap file has changed since other rows were solved: ' // path

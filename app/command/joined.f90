@@ -7,7 +7,7 @@ module faststrip_command_joined
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t
     use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose, c_fseek
-    use faststrip_command_gap_sums, only: gap_sums_t, take_sums, put_sums
+    use faststrip_command_gap_digests, only: gap_digests_t, take_digests, put_digests
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
                                           unlike_value, status_counts_t, add_counts, put_counts, &
                                           read_manifest
@@ -39,7 +39,7 @@ contains
                                                  !! wrong with which file
 
         type(manifest_t) :: manifest
-        type(gap_sums_t) :: sums
+        type(gap_digests_t) :: digests
         character(len=:), allocatable :: unlike, changed
         integer(int64) :: part
         integer :: i
@@ -60,7 +60,7 @@ contains
                 if (is_error(status)) return
                 unlike = unlike_value(joined%manifest, manifest, but_for='part')
                 part = number_of(manifest, 'part')
-                call take_sums(sums, manifest, changed)
+                call take_digests(digests, manifest, changed)
                 if (len(unlike) > 0) then
                     call refuse(unlike // ' of ' // names(1)%text // ' is ' &
                                 // value_of(joined%manifest, unlike) // ', of ' // name // ' ' &
@@ -93,7 +93,7 @@ contains
         call set_value(joined%manifest, 'to_do', number_of(joined%manifest, 'items'))
         call set_value(joined%manifest, 'done', number_of(joined%manifest, 'items'))
         call put_counts(joined%manifest, joined%counts)
-        call put_sums(sums, joined%manifest)
+        call put_digests(digests, joined%manifest)
 
     contains
 
