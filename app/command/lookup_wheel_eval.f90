@@ -25,7 +25,7 @@ module faststrip_command_lookup_wheel_eval
         'Fx_N', 'Fy_N', 'Mz_Nmm']
     character(len=4), parameter :: by(n_wheel_state) = [character(len=4) :: &
         'y', 'yaw', 'load', 'mu', 'cksi', 'ceta', 'cphi']
-    !> Of a column.
+    !> Characters of the name of a column, at most.
     !> Given: the longest.
     integer, parameter :: name_length = 17
 
