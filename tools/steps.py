@@ -22,6 +22,8 @@
                 build, then measure batch on many contacts: rates, threads, parts, memory, CSV and
                 NetCDF; table and picture in out/; some minutes and 20 GB of disk (--quick: half a
                 minute)
+  net [--keep]  build, install below build/, then run all methods, examples and hosts and say which
+                output is another one than was kept; with --keep keep today's; in out/net/
   lookup [--quick]
                 build, install below build/, then make a table of creep forces and say what it
                 is worth: errors, size, time, look-ups a second; in out/lookup/
@@ -635,6 +637,12 @@ def measured(tool, *words):
     do(sys.executable, tool, *from_start(words))
 
 
+def net(*words):
+    if not {"-h", "--help"} & set(words):
+        install_below(ROOT / "build" / "embed")
+    do(sys.executable, "tools/net.py", "--installed", "build/embed", *words)
+
+
 def lookup(*words):
     if not {"-h", "--help"} & set(words):
         install_below(ROOT / "build" / "embed")
@@ -737,12 +745,12 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs, embed,
-    tables, compilers, clean)}
+    net, lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs,
+    embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
          "hostile": None, "stored": None, "report": None, "speed": None, "scale": None,
-         "lookup": None, "page": None, "release": None}
+         "net": None, "lookup": None, "page": None, "release": None}
 
 
 def main(command="", *words):
