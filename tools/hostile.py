@@ -29,6 +29,8 @@ import tempfile
 import threading
 import time
 
+from side_files import tries
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROGRAM = ROOT / "bin" / "faststrip"
 LAB = ROOT / "bin" / "faststrip-lab"
@@ -84,6 +86,7 @@ class Try:
     may_pass: bool = False      # changed by chance
     silent: bool = False        # nobody can read stderr
     user: int | None = None
+    makes: tuple = ()           # may be there afterwards, and what was there if all goes well
 
     def in_the_child(self):
         """Signals that a parent ignores are not ignored by the program."""
@@ -531,10 +534,18 @@ def endless_work(rng, i):
     return Try("endless work", ["contact", "case.nml", *words], codes=(1, 3))
 
 
+def side_files(_, i):
+    """What lies where the program makes files of its own: all of them in turn, mixed by chance."""
+    side = ORDER_OF_SIDES[i % len(ORDER_OF_SIDES)]
+    return Try("side files", side.words, codes=side.codes, prepare=side.prepare, makes=side.makes)
+
+
+ORDER_OF_SIDES = random.Random(0).sample(tries(), len(tries()))
+
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
             "conicities": (conicities, 8), "batches": (batches, 12), "options": (options, 16),
-            "paths": (paths, 10), "permissions": (permissions, 2),
+            "paths": (paths, 10), "side files": (side_files, 10), "permissions": (permissions, 2),
             "special files": (special_files, 2), "signals": (signals, 3),
             "endless work": (endless_work, 1)}
 
@@ -565,7 +576,7 @@ def judge(attempt, code, seconds, err, changes, limit):
         wrong.append("the runtime speaks")
     if changes and not (code == 0 and attempt.may_pass):
         wrong.append("changed: " + ", ".join(sorted(changes)))
-    if code == 0 and attempt.may_pass:
+    if code == 0 and (attempt.may_pass or 0 in attempt.codes and attempt.makes):
         wrong += ["an unclear note" for line in lines if not line.startswith(speaker)]
         return wrong
     if code not in attempt.codes:
@@ -608,8 +619,9 @@ def run(attempt, limit):
                    if before.get(name) != after.get(name)}
         # What a batch has done stays for who resumes it.
         changes -= {"kept.csv.partial", "kept.csv.journal"}
-        err = err.decode("utf-8", "backslashreplace")
         code = process.returncode
+        changes -= {name for name in attempt.makes if code == 0 or name not in before}
+        err = err.decode("utf-8", "backslashreplace")
         return judge(attempt, code, seconds, err, changes, limit), code, err
 
 

@@ -22,7 +22,7 @@ module faststrip_command_batch
     use faststrip_command_clock, only: microseconds
     use faststrip_command_console, only: fail, fail_on_error, note, put_origin, version_text, &
                                          usage_error, exit_bad_input, exit_usage
-    use faststrip_command_files, only: trouble_t
+    use faststrip_command_files, only: trouble_t, take_beside, clear_leftovers
     use faststrip_command_gap_cache, only: gap_cache_t, start_cache, tidy_cache
     use faststrip_command_gap_digests, only: take_digests, put_digests, changed_file
     use faststrip_command_joined, only: joined_t, check_parts, put_parts
@@ -36,11 +36,12 @@ module faststrip_command_batch
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer, given, given_options
     use faststrip_command_parts, only: part_options, part_choice_t, take_part_options, share_of, &
-                                       part_name, parts_t, start_parts, next_part, mark_part, &
+                                       part_beginning, part_name, parts_t, start_parts, next_part, mark_part, &
                                        wait_for_others
     use faststrip_command_result_csv, only: result_columns, put_notes
-    use faststrip_command_store, only: store_t, open_store, resume_store, append_to_store, &
-                                       finish_store, release_store, is_made, remove_made
+    use faststrip_command_store, only: store_t, take_store, open_store, resume_store, &
+                                       append_to_store, finish_store, release_store, is_made, &
+                                       remove_made, check_store_of_part
     use faststrip_command_system, only: file_kind, kind_file, set_progress, be_quiet, &
                                         use_one_thread_each
     implicit none
@@ -118,6 +119,7 @@ contains
         end if
         call close_stream(job%stream)
         call release_workers(job%workers)
+        call clear_leftovers()
         if (counted(counts, first_error) > 0) &
             call fail(exit_bad_input, number_text_of(counted(counts, first_error)) // ' of ' &
                       // number_text_of(counted(counts, 0)) // ' contacts failed')
@@ -125,6 +127,8 @@ contains
 
     subroutine read_command(job)
         type(job_t), intent(inout) :: job
+
+        integer :: i
 
         associate (command => job%command)
             command%name = 'batch'
@@ -172,6 +176,16 @@ contains
                 call usage_error('--single needs -o with a file that ends with .nc', command%name)
             end if
             if (given(command, '--single')) call use_single_precision()
+            if (.not. given(command, '-o')) return
+            call take_store(option_text(command, '-o', '-'), '-o', job%is_file, &
+                            job%choice%is_part .or. job%choice%is_shared)
+            if (.not. job%choice%is_shared) return
+            associate (path => option_text(command, '-o', '-'), n => job%choice%parts)
+                call take_beside(part_beginning(path), '-o', is_beginning=.true.)
+                do i = 1, n
+                    call check_store_of_part(part_name(path, i, n), '-o')
+                end do
+            end associate
         end associate
     end subroutine read_command
 
@@ -296,11 +310,17 @@ contains
         call is_made(path, made, is_there)
         ! A manifest that is not that of what is there: then length says nothing.
         by_length = len(value_of(made, 'bytes')) == 0
+        if (.not. is_there) then
+            ! What is in the way shall be told before anything is solved.
+            call open_store(store, path, .true., .true., status, is_busy)
+            call fail_on_error(status)
+            call release_store(store)
+        end if
         do
             if (is_there) exit
             part = next_part(parts)
             if (part == 0) then
-                call open_store(store, path, .true., status, is_busy)
+                call open_store(store, path, .true., .true., status, is_busy)
                 call fail_on_error(status)
                 if (.not. is_busy) exit
                 ! Another process joins them.
@@ -328,7 +348,7 @@ contains
             call fail_on_error(status)
             call put_parts(joined, store, status)
             call fail_on_error(status)
-            call finish_store(store, .true., status)
+            call finish_store(store, status)
             call fail_on_error(status)
             counts = joined%counts
         end if
@@ -368,7 +388,8 @@ contains
         job%resumed = 0
         if (.not. job%choice%resumes) call read_chunk(job, chunks(1), last, status)
         if (.not. job%choice%resumes) call fail_on_error(status)
-        call open_store(store, path, job%is_file, status, is_busy)
+        call open_store(store, path, job%is_file, with_manifest, status, is_busy, &
+                        is_part=job%choice%is_shared)
         call fail_on_error(status)
         if (present(is_busy)) then
             if (is_busy) return
@@ -376,7 +397,7 @@ contains
         is_resumed = .false.
         is_whole = .false.
         if (job%choice%resumes) then
-            call resume_store(store, work, with_manifest, is_resumed, is_whole, status, &
+            call resume_store(store, work, is_resumed, is_whole, status, &
                               by_length=job%choice%is_shared)
             call fail_on_error(status)
             if (job%choice%is_shared .and. .not. (is_resumed .or. is_whole)) then
@@ -405,7 +426,7 @@ contains
         if (job%choice%resumes) call read_chunk(job, chunks(1), last, status)
         call fail_on_error(status)
         call make_rows(job, store, work, chunks, first, last, is_resumed, counts)
-        call finish_store(store, with_manifest, status)
+        call finish_store(store, status)
         call fail_on_error(status)
     end subroutine make_part
 

@@ -5,6 +5,7 @@
 module faststrip_command_gap_digests
     use faststrip_files_csv, only: csv_text_t
     use faststrip_files_digest, only: digest_of_file
+    use faststrip_command_files, only: spare_input
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, names_with
     use faststrip_command_system, only: file_kind, kind_file
     implicit none
@@ -33,6 +34,7 @@ contains
         character(len=:), allocatable :: digest
 
         digest = ''
+        call spare_input(path)
         if (file_kind(path) == kind_file) digest = digest_of_file(path)
     end function digest_of_gap
 

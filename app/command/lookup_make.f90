@@ -6,6 +6,7 @@ module faststrip_command_lookup_make
     use faststrip_base_text, only: parse_real, integer_text
     use faststrip_command_console, only: fail, fail_on_error, usage_error, version_text, &
                                          exit_bad_input, exit_no_convergence
+    use faststrip_command_files, only: take_beside
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
                                                release_workers
     use faststrip_command_lookup_file, only: read_table, write_table
@@ -13,7 +14,7 @@ module faststrip_command_lookup_make
     use faststrip_command_lookup_grid, only: sampled_axis_t, start_axis, refine_axis, nodes_of
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
                                                 take_threads, take_part, choice_text
-    use faststrip_command_lookup_parts, only: forget_values, solve_part, take_values, work_name
+    use faststrip_command_lookup_parts, only: forget_values, solve_part, take_work, work_name
     use faststrip_command_lookup_scatter, only: least_drawn
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word, refuse_value
@@ -84,6 +85,8 @@ contains
         call parse_command(command, 0)
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
+        if (given(command, '--axes-of') .and. len(work_name(option_text(command, '-o', ''))) > 0) &
+            call take_beside(work_name(option_text(command, '-o', '')), '-o')
         call take_direct_options(command, choice)
         choice%nu = option_number(command, '--nu', choice%nu, least=0)
         if (choice%nu > 0.5_wp) call refuse_value(command, '--nu', 'a number from 0 to 0.5')
@@ -133,10 +136,8 @@ contains
 
         work = work_name(option_text(command, '-o', ''))
         call begin(workers(1), lookup%q%x, lookup%ratio%x, lookup%shape%x, begun)
-        if (given(command, '--resume')) then
-            call take_values(work, begun, status)
-            call fail_on_error(status)
-        end if
+        call take_work(work, begun, given(command, '--resume'), status)
+        call fail_on_error(status)
         call solve_part(workers, part, parts, work, begun, status)
         call fail_on_error(status)
         lookup = begun

@@ -6,10 +6,13 @@
 module faststrip_command_lookup_parts
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
     use, intrinsic :: iso_fortran_env, only: int8, int64, real32
-    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_bad_argument
+    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, &
+                                     st_bad_argument, st_file_write
+    use faststrip_base_text, only: integer_text
     use faststrip_command_console, only: progress
     use faststrip_command_lookup_direct, only: direct_t
     use faststrip_command_lookup_fill, only: fill_shape
+    use faststrip_command_system, only: name_kind, kind_none, kind_file
     use faststrip_files_bytes, only: read_bytes, write_bytes
     use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_bytes, only: open_lookup, pack_lookup
@@ -18,6 +21,7 @@ module faststrip_command_lookup_parts
     private
 
     public :: forget_values, solve_part, take_values, is_solved, units_of, write_work, work_name
+    public :: take_work
 
 contains
 
@@ -29,6 +33,38 @@ contains
         name = ''
         if (index(path, '/dev/') /= 1) name = path // '.unfinished'
     end function work_name
+
+    !> Note the file of work that goes on, before any is opened. What is there must be unfinished work,
+    !> which is taken if it is wanted.
+    subroutine take_work(path, lookup, is_wanted, status)
+        character(len=*), intent(in) :: path    !! file of the work; empty: none is kept
+        type(lookup_t), intent(inout) :: lookup !! begun
+        logical, intent(in) :: is_wanted        !! is it gone on with?
+        type(status_t), intent(out) :: status
+            !! of the file; `st_file_write`: something else; `st_bad_argument`: of other work
+
+        type(lookup_t) :: other
+        integer(int8), allocatable :: bytes(:)
+        logical :: is_work
+
+        call clear_status(status)
+        if (len(path) == 0) return
+        if (name_kind(path) == kind_none) return
+        is_work = name_kind(path) == kind_file
+        if (is_work) then
+            call read_bytes(path, bytes, status)
+            if (.not. is_error(status)) call open_lookup(bytes, other, status, may_lack=.true.)
+            is_work = .not. is_error(status)
+            ! Work that is done is judged, and is no work any more.
+            if (is_work) is_work = other%tested == 0 .and. all(other%wheel%tested == 0)
+        end if
+        if (.not. is_work) then
+            call set_status(status, st_file_write, 'what is unfinished must not be kept in the ' &
+                            // 'place of another file, got ' // path)
+        else if (is_wanted) then
+            call take_values(path, lookup, status)
+        end if
+    end subroutine take_work
 
     !> A table of which nothing is solved.
     subroutine forget_values(lookup)
@@ -94,7 +130,8 @@ contains
         character(len=*), intent(in) :: path    !! of a part, or of unfinished work
         type(lookup_t), intent(inout) :: lookup !! begun
         type(status_t), intent(out) :: status
-            !! of the file; `st_bad_argument`: of another table, method or revision
+            !! of the file; `st_bad_argument`: of another table, method or revision, or some of it
+            !! is solved already
 
         type(lookup_t) :: other
         integer(int8), allocatable :: bytes(:)
@@ -115,6 +152,12 @@ contains
         end if
         do i = 1, units_of(lookup)
             if (.not. is_solved(other, i)) cycle
+            if (is_solved(lookup, i)) then
+                call set_status(status, st_bad_argument, 'a part must have nothing that another ' &
+                                // 'one has, got number ' // integer_text(i) // ' of ' &
+                                // integer_text(units_of(lookup)) // ' again in ' // path)
+                return
+            end if
             last = i*(size(lookup%values, kind=int64)/units_of(lookup))
             first = last - size(lookup%values, kind=int64)/units_of(lookup) + 1
             lookup%values(first:last) = other%values(first:last)

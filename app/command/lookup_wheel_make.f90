@@ -6,6 +6,7 @@ module faststrip_command_lookup_wheel_make
     use faststrip_base_text, only: integer_text
     use faststrip_command_console, only: fail, fail_on_error, note, usage_error, version_text, &
                                          exit_bad_input, exit_no_convergence
+    use faststrip_command_files, only: take_beside
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, direct_fastsim, &
                                                make_workers, release_workers
     use faststrip_command_lookup_file, only: read_table, write_table
@@ -13,7 +14,7 @@ module faststrip_command_lookup_wheel_make
                                              axis_q, axis_ratio
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
                                                 take_threads, take_ends, take_part, choice_text
-    use faststrip_command_lookup_parts, only: take_values, work_name
+    use faststrip_command_lookup_parts, only: take_work, work_name
     use faststrip_command_lookup_wheel_case, only: read_wheel_case, wheel_text
     use faststrip_command_lookup_wheel_fill, only: set_source_t, begin_wheel_table, solve_sets
     use faststrip_command_lookup_wheel_grid, only: wheel_axis_t, wheel_limits_t, &
@@ -113,6 +114,8 @@ contains
         call parse_command(command, 1)
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
+        if (given(command, '--axes-of') .and. len(work_name(option_text(command, '-o', ''))) > 0) &
+            call take_beside(work_name(option_text(command, '-o', '')), '-o')
         call take_wanted(command, wanted)
         call read_wheel_case(command%arguments(1)%text, model)
         wanted%words = wheel_text(command%arguments(1)%text) // choice_text(wanted%choice)
@@ -177,10 +180,8 @@ contains
         work = work_name(option_text(command, '-o', ''))
         call begin(solvers, [other%q, other%ratio, other%wheel%y, other%wheel%yaw, &
                              other%wheel%load], wanted, lookup, sources)
-        if (given(command, '--resume')) then
-            call take_values(work, lookup, status)
-            call fail_on_error(status)
-        end if
+        call take_work(work, lookup, given(command, '--resume'), status)
+        call fail_on_error(status)
         call solve_sets(solvers, sources, wanted%part, wanted%parts, work, lookup, status)
         call fail_on_error(status)
         if (wanted%parts == 1) call judge_table(solvers, wanted%tests, first_seed, lookup)

@@ -3,10 +3,11 @@ module faststrip_command_merge
     use faststrip_base_status, only: status_t, first_error
     use faststrip_files_csv, only: csv_text_t
     use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
+    use faststrip_command_files, only: take_input, clear_leftovers
     use faststrip_command_joined, only: joined_t, check_parts, put_parts
     use faststrip_command_manifest, only: counted, number_text_of
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text
-    use faststrip_command_store, only: store_t, open_store, finish_store
+    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text
+    use faststrip_command_store, only: store_t, take_store, open_store, finish_store, manifest_path
     implicit none
     private
 
@@ -40,15 +41,19 @@ contains
         allocate (names(size(command%arguments)))
         do i = 1, size(names)
             names(i)%text = command%arguments(i)%text
+            call take_input(manifest_path(names(i)%text))
         end do
+        if (given(command, '-o')) &
+            call take_store(option_text(command, '-o', '-'), '-o', .false., .false.)
         call check_parts(names, joined, status)
         call fail_on_error(status)
-        call open_store(store, option_text(command, '-o', '-'), .false., status)
+        call open_store(store, option_text(command, '-o', '-'), .false., .false., status)
         call fail_on_error(status)
         call put_parts(joined, store, status)
         call fail_on_error(status)
-        call finish_store(store, .false., status)
+        call finish_store(store, status)
         call fail_on_error(status)
+        call clear_leftovers()
         if (counted(joined%counts, first_error) > 0) &
             call fail(exit_bad_input, number_text_of(counted(joined%counts, first_error)) &
                       // ' of ' // number_text_of(counted(joined%counts, 0)) // ' contacts failed')

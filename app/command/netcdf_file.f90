@@ -7,8 +7,7 @@ module faststrip_command_netcdf_file
                                      set_status, st_file_format, st_file_write
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_columns, only: is_variable_name
-    use faststrip_files_csv, only: csv_text_t, failure_words, finish_tables, most_temporaries, &
-                                   temporary_name
+    use faststrip_files_csv, only: csv_text_t, failure_words, finish_tables, free_temporary
     use faststrip_files_stdio, only: c_remove, c_rename
     use faststrip_files_temporary, only: final_path
     use faststrip_command_console, only: note, progress, version_text
@@ -124,7 +123,7 @@ contains
         call load_library(table_procedure, path, found, status)
         if (is_error(status)) return
         call c_f_procpointer(found, write_table)
-        target = free_name(path)
+        target = free_temporary(path)
         said = path
         if (present(called)) said = called
         status%code = write_table(source // c_null_char, said // c_null_char, &
@@ -151,7 +150,7 @@ contains
         call load_library(lookup_procedure, path, found, status)
         if (is_error(status)) return
         call c_f_procpointer(found, write_table)
-        target = free_name(path)
+        target = free_temporary(path)
         status%code = write_table(source // c_null_char, target // c_null_char, &
                                   path // c_null_char, version_text() // c_null_char, words)
         status%message = transfer(words, status%message)
@@ -196,21 +195,6 @@ contains
         call set_status(status, st_file_write, 'cannot write NetCDF: ' &
                         // words(:index(words, c_null_char) - 1))
     end subroutine load_library
-
-    ! Where nothing lies yet of what this run is writing.
-    function free_name(path) result(name)
-        character(len=*), intent(in) :: path
-        character(len=:), allocatable :: name
-
-        integer :: i
-        logical :: is_there
-
-        do i = 1, most_temporaries
-            name = temporary_name(path, i)
-            inquire (file=name, exist=is_there)
-            if (.not. is_there) return
-        end do
-    end function free_name
 
     subroutine tell(rows, total) bind(c)
         integer(c_int), value :: rows, total

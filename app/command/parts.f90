@@ -10,7 +10,8 @@ module faststrip_command_parts
     implicit none
     private
 
-    public :: part_options, part_choice_t, take_part_options, share_of, part_name
+    public :: part_options, part_choice_t, take_part_options, share_of
+    public :: part_beginning, part_name
     public :: parts_t, start_parts, next_part, mark_part, wait_for_others
 
     !> Most parts of a work.
@@ -101,6 +102,15 @@ contains
         end function bound
     end subroutine share_of
 
+    !> How the names of the outputs of shared parts, and of what is made beside them, begin; a digit
+    !> follows.
+    pure function part_beginning(path) result(name)
+        character(len=*), intent(in) :: path !! of all of it
+        character(len=:), allocatable :: name
+
+        name = path // '.part'
+    end function part_beginning
+
     !> What the output of a part is called where the parts are shared.
     pure function part_name(path, part, parts) result(name)
         character(len=*), intent(in) :: path !! of all of it
@@ -111,7 +121,7 @@ contains
 
         number = integer_text(part)
         most = integer_text(parts)
-        name = path // '.part' // repeat('0', len(most) - len(number)) // number // 'of' // most
+        name = part_beginning(path) // repeat('0', len(most) - len(number)) // number // 'of' // most
     end function part_name
 
     !> Begin with parts of which none is known to be made.

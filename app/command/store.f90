@@ -2,35 +2,43 @@
 !> takes up.
 !>
 !> Beside the output OUT stand, while it is being made, OUT.lock (which process makes it), and from
-!> the first piece on OUT.partial (what there is of it) and OUT.journal (a manifest of that, renamed
-!> into place after each piece). At the end OUT.partial becomes OUT, and OUT.journal OUT.manifest or
-!> nothing. An output that is to be NetCDF is made of OUT.partial, which goes last, and has no
-!> manifest. Whatever lies between two of these steps is found by the next run.
+!> the first piece on OUT.journal (a manifest of what there is, renamed into place after each piece)
+!> and OUT.partial (what there is; the first piece of it is named behind the journal). At the end
+!> OUT.partial becomes OUT, and OUT.journal OUT.manifest or nothing. An output that is to be NetCDF is
+!> made of OUT.partial and has no manifest. Whatever lies between two of these steps is found by the
+!> next run.
+!>
+!> None of these names is ever taken from somebody else: what has it must be none of the run's
+!> inputs, no link, and what a run has left there, which its words or its digest tell; or the output
+!> is refused.
 module faststrip_command_store
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_file_write
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_text, close_csv, failure_words, &
-                                   final_path
+                                   final_path, free_temporary
     use faststrip_files_digest, only: hash_file
     use faststrip_files_lines, only: is_folder
     use faststrip_files_sha256, only: sha256_t, sha256_start, sha256_add, sha256_digest
     use faststrip_files_stdio, only: c_rename, c_remove
+    use faststrip_command_files, only: take_beside, check_beside
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
                                           write_manifest, read_manifest, unlike_value
     use faststrip_command_netcdf_file, only: is_netcdf, write_netcdf
-    use faststrip_command_system, only: keep_in_mind, forget_file
+    use faststrip_command_system, only: keep_in_mind, forget_file, name_kind, kind_none, kind_file
     implicit none
     private
 
     public :: store_t, open_store, resume_store, append_to_store, finish_store, release_store
-    public :: is_made, manifest_path, remove_made
+    public :: take_store, check_store_of_part, is_made, manifest_path, remove_made
 
     !> Words of the names beside an output.
     character(len=*), parameter :: lock_word = '.lock', partial_word = '.partial', &
                                    journal_word = '.journal', manifest_word = '.manifest'
     !> Seconds between two times when what was written is brought to the disk.
     integer, parameter :: synchronised_every = 2
+    ! What `faststrip_lock` gives where something lies that is no lock.
+    integer(c_int), parameter :: lock_of_others = -3
 
     !> An output being made.
     type :: store_t
@@ -38,6 +46,8 @@ module faststrip_command_store
         character(len=:), allocatable :: path  ! as it was given
         character(len=:), allocatable :: final ! where links lead to
         logical :: is_kept = .false.           ! can another run take it up?
+        logical :: with_manifest = .false.     ! does a manifest of it stay?
+        character(len=:), allocatable :: temporary ! name of `file` until the journal is there
         logical :: is_begun = .false.          ! is `file` or `writer` open?
         type(csv_writer_t) :: writer           ! if not kept
         integer(c_int) :: file = -1, lock = -1
@@ -47,9 +57,10 @@ module faststrip_command_store
     end type store_t
 
     interface
-        function c_lock(path, holder, capacity) bind(c, name='faststrip_lock') result(file)
+        function c_lock(path, temporary, holder, capacity) bind(c, name='faststrip_lock') &
+            result(file)
             import :: c_char, c_int
-            character(kind=c_char), intent(in) :: path(*)
+            character(kind=c_char), intent(in) :: path(*), temporary(*)
             character(kind=c_char), intent(out) :: holder(*)
             integer(c_int), value :: capacity
             integer(c_int) :: file
@@ -60,6 +71,18 @@ module faststrip_command_store
             integer(c_int), value :: file
             character(kind=c_char), intent(in) :: path(*)
         end subroutine c_unlock
+
+        function c_create(path) bind(c, name='faststrip_create') result(file)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int) :: file
+        end function c_create
+
+        function c_name_new(old, new) bind(c, name='faststrip_name_new') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: old(*), new(*)
+            integer(c_int) :: code
+        end function c_name_new
 
         function c_open_behind(path, bytes) bind(c, name='faststrip_open_behind') result(file)
             import :: c_char, c_int, c_int64_t
@@ -97,24 +120,60 @@ module faststrip_command_store
 
 contains
 
+    !> Note the files that a store will need beside its output, before any is opened. Ends the program
+    !> with a usage error if one of them is an input or an output.
+    subroutine take_store(path, option, can_resume, with_manifest)
+        character(len=*), intent(in) :: path     !! name of the output
+        character(len=*), intent(in) :: option   !! that names it
+        logical, intent(in) :: can_resume, with_manifest !! as for `open_store`
+
+        if (is_stream(path)) return
+        call take_beside(final_path(path) // lock_word, option)
+        if (.not. can_resume) return
+        call take_beside(final_path(path) // journal_word, option)
+        call take_beside(final_path(path) // partial_word, option)
+        if (with_manifest) call take_beside(manifest_path(path), option)
+    end subroutine take_store
+
+    !> The same for a part that may be made, whose names are noted as a beginning: by another name, too,
+    !> nothing that is there may be an input.
+    subroutine check_store_of_part(path, option)
+        character(len=*), intent(in) :: path   !! name of the part
+        character(len=*), intent(in) :: option !! that names the output
+
+        call check_beside(path, option)
+        call check_beside(path // lock_word, option)
+        call check_beside(path // journal_word, option)
+        call check_beside(path // partial_word, option)
+        call check_beside(path // manifest_word, option)
+    end subroutine check_store_of_part
+
     !> Take hold of an output. Nothing is written yet.
-    subroutine open_store(store, path, can_resume, status, is_busy)
+    subroutine open_store(store, path, can_resume, with_manifest, status, is_busy, is_part)
         type(store_t), intent(out) :: store   !! to be ended by `finish_store` or `release_store`
         character(len=*), intent(in) :: path  !! name of the file, `-`, or `/dev/...`
         logical, intent(in) :: can_resume     !! can another run go on? Else, and of what is no
                                               !! file, what is written is gone if the run is ended
-        type(status_t), intent(out) :: status !! `st_file_write`: another run has it, or its folder
-                                              !! cannot be written to
+        logical, intent(in) :: with_manifest  !! shall a manifest stay beside what is kept?
+        type(status_t), intent(out) :: status !! `st_file_write`: another run has it, its folder
+                                              !! cannot be written to, or something lies there that
+                                              !! no run has left
         logical, intent(out), optional :: is_busy !! has another run it? Then this is no error
+        logical, intent(in), optional :: is_part  !! is it itself a file beside an output, in the
+                                                  !! place of which nothing else may be?
 
         character(len=:), allocatable :: holder
+        logical :: is_beside
 
         call clear_status(status)
         if (present(is_busy)) is_busy = .false.
         store%path = path
         store%final = final_path(path)
-        if (path == '-' .or. index(path, '/dev/') == 1 .or. index(store%final, '/dev/') == 1 &
-            .or. len_trim(path) == 0) then
+        store%with_manifest = with_manifest
+        is_beside = .false.
+        if (present(is_part)) is_beside = is_part
+        if (is_beside) store%final = path
+        if (is_stream(path)) then
             call open_csv(store%writer, path, status)
             store%is_begun = .true.
             return
@@ -126,7 +185,9 @@ contains
             return
         end if
         call hold_lock(store%final // lock_word, store%lock, holder, status)
-        if (is_error(status)) then
+        if (store%lock == lock_of_others) then
+            call refuse_place(store, lock_word, status)
+        else if (is_error(status)) then
             call set_status(status, st_file_write, 'cannot write the file: ' // path // ': ' &
                             // status%message)
         else if (store%lock < 0 .and. present(is_busy)) then
@@ -136,15 +197,80 @@ contains
             call set_status(status, st_file_write, 'another run is writing the file: ' // path &
                             // ': ' // holder)
         end if
-        if (is_error(status) .or. store%is_kept) return
+        if (is_error(status)) return
+        if (store%is_kept) then
+            call check_places(store, is_beside, status)
+            if (is_error(status)) call release_store(store)
+            return
+        end if
         call open_csv(store%writer, path, status)
         store%is_begun = .true.
     end subroutine open_store
 
+    !> Is an output written directly, or without a name?
+    logical function is_stream(path)
+        character(len=*), intent(in) :: path
+
+        is_stream = path == '-' .or. index(path, '/dev/') == 1 .or. &
+                    index(final_path(path), '/dev/') == 1 .or. len_trim(path) == 0
+    end function is_stream
+
+    !> What lies where this run will write must be what a run has left.
+    subroutine check_places(store, is_beside, status)
+        type(store_t), intent(in) :: store
+        logical, intent(in) :: is_beside       ! is the output itself such a place?
+        type(status_t), intent(inout) :: status
+
+        associate (journal => store%final // journal_word, partial => store%final // partial_word, &
+                   manifest => store%final // manifest_word)
+            if (.not. is_left(journal, is_manifest(journal))) then
+                call refuse_place(store, journal_word, status)
+            else if (.not. is_left(partial, is_manifest(journal))) then
+                call refuse_place(store, partial_word, status)
+            else if (store%with_manifest .and. .not. is_left(manifest, is_manifest(manifest))) then
+                call refuse_place(store, manifest_word, status)
+            else if (is_beside) then
+                if (.not. is_left(store%final, is_manifest(journal) .or. is_manifest(manifest))) &
+                    call refuse_place(store, '', status)
+            end if
+        end associate
+    end subroutine check_places
+
+    !> Has nothing a name, or a file that a run has left there?
+    logical function is_left(path, is_ours)
+        character(len=*), intent(in) :: path
+        logical, intent(in) :: is_ours ! if it is a file
+
+        is_left = name_kind(path) == kind_none .or. name_kind(path) == kind_file .and. is_ours
+    end function is_left
+
+    !> Is there a manifest by that very name?
+    logical function is_manifest(path)
+        character(len=*), intent(in) :: path
+
+        type(manifest_t) :: manifest
+        type(status_t) :: status
+
+        is_manifest = name_kind(path) == kind_file
+        if (.not. is_manifest) return
+        call read_manifest(path, manifest, status)
+        is_manifest = .not. is_error(status)
+    end function is_manifest
+
+    subroutine refuse_place(store, word, status)
+        type(store_t), intent(in) :: store
+        character(len=*), intent(in) :: word ! of the place
+        type(status_t), intent(out) :: status
+
+        call set_status(status, st_file_write, 'cannot write the file: ' // store%path &
+                        // ': in its way is what no run has left there: ' // store%final // word)
+    end subroutine refuse_place
+
     !> Take a lock, a file that goes with the run.
     subroutine hold_lock(path, lock, holder, status)
         character(len=*), intent(in) :: path   !! name of the file
-        integer(c_int), intent(out) :: lock    !! for `let_go`; negative if another process has it
+        integer(c_int), intent(out) :: lock    !! for `let_go`; negative if another process has it,
+                                               !! `lock_of_others` if it is no lock
         character(len=:), allocatable, intent(out) :: holder !! which one; empty if not known
         type(status_t), intent(out) :: status  !! `st_file_write`: the words of the system
 
@@ -154,9 +280,11 @@ contains
 
         call clear_status(status)
         holder = ''
-        lock = c_lock(path // c_null_char, words, longest)
+        lock = c_lock(path // c_null_char, free_temporary(path) // c_null_char, words, longest)
         if (lock >= 0) then
             call keep_in_mind(path)
+        else if (lock == lock_of_others) then
+            return
         else if (lock < -1) then
             call set_status(status, st_file_write, failure_words())
         else
@@ -179,10 +307,9 @@ contains
     end subroutine let_go
 
     !> Go on where a run before was ended, if there was one that did the same work.
-    subroutine resume_store(store, work, with_manifest, found, is_whole, status, by_length)
+    subroutine resume_store(store, work, found, is_whole, status, by_length)
         type(store_t), intent(inout) :: store     !! opened
         type(manifest_t), intent(inout) :: work   !! what is to be done; becomes the journal
-        logical, intent(in) :: with_manifest      !! as for `finish_store`
         logical, intent(out) :: found             !! is there anything?
         logical, intent(out) :: is_whole          !! is it all there is to do? Then it is finished
         type(status_t), intent(out) :: status     !! `st_file_write`: it is other work, or broken
@@ -190,14 +317,14 @@ contains
 
         type(manifest_t) :: journal
         character(len=:), allocatable :: unlike
-        integer(int64) :: bytes, there
+        integer(int64) :: bytes
 
         call clear_status(status)
         found = .false.
         is_whole = .false.
         if (.not. store%is_kept) return
         if (c_length(store%final // journal_word // c_null_char) < 0) then
-            if (with_manifest) call find_made(store%final, work, is_whole, by_length)
+            if (store%with_manifest) call find_made(store%final, work, is_whole, by_length)
             found = is_whole
             return
         end if
@@ -211,19 +338,17 @@ contains
             return
         end if
         bytes = number_of(journal, 'bytes')
-        if (c_length(store%final // partial_word // c_null_char) < 0 .and. &
-            number_of(journal, 'done') == number_of(journal, 'to_do')) then
-            ! Ended after the file had got its name.
-            call check_bytes(store%final, bytes, value_of(journal, 'sha256'), found)
+        if (c_length(store%final // partial_word // c_null_char) < 0) then
+            ! Ended after the file had got its name, or before the first piece had one.
+            if (number_of(journal, 'done') == number_of(journal, 'to_do')) &
+                call check_bytes(store%final, bytes, value_of(journal, 'sha256'), found)
             is_whole = found
             if (.not. found) return
             work = journal
-            call name_journal(store, with_manifest, status)
+            call name_journal(store, status)
             return
         end if
-        call hash_file(store%final // partial_word, bytes, store%hash, found, there)
-        if (found) found = there == bytes .and. &
-                           sha256_digest(store%hash) == value_of(journal, 'sha256')
+        call check_partial(store, journal, found)
         if (found) then
             store%file = c_open_behind(store%final // partial_word // c_null_char, bytes)
             found = store%file >= 0
@@ -238,6 +363,20 @@ contains
         store%bytes = bytes
         work = journal
     end subroutine resume_store
+
+    !> Does what there is begin as the journal says? Then `hash` is of that.
+    subroutine check_partial(store, journal, is_right)
+        type(store_t), intent(inout) :: store
+        type(manifest_t), intent(in) :: journal
+        logical, intent(out) :: is_right
+
+        integer(int64) :: there
+
+        call hash_file(store%final // partial_word, number_of(journal, 'bytes'), store%hash, &
+                       is_right, there)
+        if (is_right) is_right = there == number_of(journal, 'bytes') .and. &
+                                 sha256_digest(store%hash) == value_of(journal, 'sha256')
+    end subroutine check_partial
 
     !> Is an output there, whole, and of this work? Then its manifest is taken.
     subroutine find_made(path, work, is_there, by_length)
@@ -263,6 +402,8 @@ contains
 
         type(status_t) :: status
 
+        is_there = name_kind(manifest_path(path)) == kind_file
+        if (.not. is_there) return
         call read_manifest(manifest_path(path), manifest, status)
         is_there = .not. is_error(status)
         if (.not. is_there) return
@@ -272,7 +413,8 @@ contains
                 return
             end if
         end if
-        call check_bytes(path, number_of(manifest, 'bytes'), value_of(manifest, 'sha256'), is_there)
+        call check_bytes(final_path(path), number_of(manifest, 'bytes'), &
+                         value_of(manifest, 'sha256'), is_there)
     end subroutine is_made
 
     !> Name of the manifest of an output.
@@ -283,15 +425,20 @@ contains
         name = final_path(path) // manifest_word
     end function manifest_path
 
-    !> Remove an output with its manifest.
+    !> Remove an output with its manifest, if it is no link and as long as that says.
     subroutine remove_made(path)
         character(len=*), intent(in) :: path !! name of the output
 
+        type(manifest_t) :: manifest
         integer(c_int) :: code
+        logical :: is_there
 
-        ! Without its manifest it is no whole part for anybody.
-        code = c_remove(manifest_path(path) // c_null_char)
-        code = c_remove(path // c_null_char)
+        if (all(name_kind(path) /= [kind_none, kind_file])) return
+        call is_made(path, manifest, is_there, by_length=.true.)
+        if (is_there) code = c_remove(path // c_null_char)
+        ! What has a manifest of its own is nobody else's: the manifest goes last.
+        if (name_kind(path) == kind_none .and. is_manifest(path // manifest_word)) &
+            code = c_remove(path // manifest_word // c_null_char)
     end subroutine remove_made
 
     !> Add a piece, and let the journal tell of it. The first piece makes the files.
@@ -330,24 +477,68 @@ contains
         end if
         call set_value(journal, 'bytes', store%bytes)
         call set_value(journal, 'sha256', sha256_digest(store%hash))
-        call write_manifest(store%final // journal_word, journal, status)
+        if (is_left(store%final // journal_word, .true.)) then
+            call write_manifest(store%final // journal_word, journal, status)
+        else
+            call refuse_place(store, journal_word, status)
+        end if
+        if (.not. is_error(status) .and. allocated(store%temporary)) call name_partial(store, status)
     end subroutine append_to_store
 
     subroutine begin(store, status)
         type(store_t), intent(inout) :: store
         type(status_t), intent(inout) :: status
 
-        integer(c_int) :: code
-
-        ! Of a run that is not taken up.
-        code = c_remove(store%final // journal_word // c_null_char)
-        store%file = c_open_behind(store%final // partial_word // c_null_char, 0_c_int64_t)
+        call drop_leftover(store, status)
+        if (is_error(status)) return
+        store%temporary = free_temporary(store%final)
+        store%file = c_create(store%temporary // c_null_char)
         if (store%file < 0) call refuse(store, status)
         if (is_error(status)) return
+        call keep_in_mind(store%temporary)
         call sha256_start(store%hash)
         store%bytes = 0
         store%is_begun = .true.
     end subroutine begin
+
+    !> Remove what is there of a run that is not taken up.
+    subroutine drop_leftover(store, status)
+        type(store_t), intent(inout) :: store
+        type(status_t), intent(inout) :: status
+
+        type(manifest_t) :: journal
+        integer(c_int) :: code
+        logical :: is_right
+
+        if (name_kind(store%final // journal_word) == kind_none) return
+        call read_manifest(store%final // journal_word, journal, status)
+        if (is_error(status)) return
+        if (name_kind(store%final // partial_word) /= kind_none) then
+            call check_partial(store, journal, is_right)
+            if (is_right) is_right = c_remove(store%final // partial_word // c_null_char) == 0
+            if (.not. is_right) call refuse_place(store, partial_word, status)
+            if (is_error(status)) return
+        end if
+        code = c_remove(store%final // journal_word // c_null_char)
+        if (code /= 0) call refuse(store, status)
+    end subroutine drop_leftover
+
+    !> Let the first piece have its name, now that the journal tells of it.
+    subroutine name_partial(store, status)
+        type(store_t), intent(inout) :: store
+        type(status_t), intent(inout) :: status
+
+        integer(c_int) :: code
+
+        if (c_name_new(store%temporary // c_null_char, &
+                       store%final // partial_word // c_null_char) /= 0) then
+            call refuse_place(store, partial_word, status)
+            code = c_remove(store%final // journal_word // c_null_char)
+            code = c_remove(store%temporary // c_null_char)
+        end if
+        call forget_file(store%temporary)
+        deallocate (store%temporary)
+    end subroutine name_partial
 
     subroutine refuse(store, status)
         type(store_t), intent(in) :: store
@@ -358,9 +549,8 @@ contains
     end subroutine refuse
 
     !> Give the output its name.
-    subroutine finish_store(store, with_manifest, status)
+    subroutine finish_store(store, status)
         type(store_t), intent(inout) :: store  !! all of it was appended
-        logical, intent(in) :: with_manifest   !! shall the manifest stay?
         type(status_t), intent(out) :: status  !! `st_file_write`
 
         integer(c_int) :: code
@@ -377,9 +567,9 @@ contains
                               store%final // c_null_char) /= 0) then
                 call refuse(store, status)
             end if
-            if (.not. is_error(status)) call name_journal(store, with_manifest, status)
             if (is_netcdf(store%path) .and. .not. is_error(status)) &
                 code = c_remove(store%final // partial_word // c_null_char)
+            if (.not. is_error(status)) call name_journal(store, status)
         else
             call close_csv(store%writer, status)
         end if
@@ -387,18 +577,21 @@ contains
     end subroutine finish_store
 
     !> The last step: the journal becomes the manifest, or nothing.
-    subroutine name_journal(store, with_manifest, status)
+    subroutine name_journal(store, status)
         type(store_t), intent(in) :: store
-        logical, intent(in) :: with_manifest
         type(status_t), intent(inout) :: status
 
         integer(c_int) :: code
 
-        if (with_manifest) then
+        if (.not. store%with_manifest) then
+            code = c_remove(store%final // journal_word // c_null_char)
+        else if (is_left(store%final // manifest_word, &
+                         is_manifest(store%final // manifest_word))) then
             code = c_rename(store%final // journal_word // c_null_char, &
                             store%final // manifest_word // c_null_char)
         else
-            code = c_remove(store%final // journal_word // c_null_char)
+            call refuse_place(store, manifest_word, status)
+            return
         end if
         if (code /= 0) call refuse(store, status)
     end subroutine name_journal

@@ -52,6 +52,16 @@ int faststrip_identify(const char *path, long long identity[2])
     return S_ISFIFO(about.st_mode) ? kind_pipe : kind_other;
 }
 
+/* The kind of what has a name; a link is of no other kind. */
+int faststrip_name_kind(const char *path)
+{
+    struct stat about;
+
+    if (lstat(path, &about) != 0)
+        return kind_none;
+    return S_ISREG(about.st_mode) ? kind_file : S_ISDIR(about.st_mode) ? kind_folder : kind_other;
+}
+
 /* A path without links and dots; what does not exist yet keeps its name in its folder. Returns
  * the length, 0 if there is no such path. */
 int faststrip_resolve(const char *path, char *out, int capacity)
@@ -116,6 +126,9 @@ void faststrip_keep_in_mind(const char *path)
 {
     int i;
 
+    for (i = 0; i < n_temporaries; i++)
+        if (strcmp(temporaries[i], path) == 0)
+            return;
     for (i = 0; i < n_temporaries && temporaries[i][0]; i++)
         ;
     if (i >= most_temporaries || strlen(path) >= PATH_MAX)
@@ -144,15 +157,19 @@ static void remove_temporaries(void)
             unlink(temporaries[i]);
 }
 
-/* Remove what killed runs on this host left in a folder: files called prefix, number of the
- * process, underscore, number, ending. */
-void faststrip_remove_leftovers(const char *folder, const char *prefix, const char *ending)
+/* Remove what killed runs of this user on this host left in a folder: files with no other name,
+ * called prefix, number of the process, underscore, number, ending; but for n of them, by device and
+ * file. */
+void faststrip_remove_leftovers(const char *folder, const char *prefix, const char *ending,
+                                const long long *spared, int n)
 {
     DIR *stream = opendir(folder);
     struct dirent *entry;
+    struct stat about;
     char path[2 * PATH_MAX], *end;
     const char *name;
     long process;
+    int i;
 
     if (!stream)
         return;
@@ -171,7 +188,15 @@ void faststrip_remove_leftovers(const char *folder, const char *prefix, const ch
             continue;
         if (process != getpid() && (kill((pid_t)process, 0) == 0 || errno != ESRCH))
             continue;
-        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < (int)sizeof path)
+        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) >= (int)sizeof path
+            || lstat(path, &about) != 0 || !S_ISREG(about.st_mode) || about.st_nlink != 1
+            || about.st_uid != geteuid())
+            continue;
+        for (i = 0; i < n; i++)
+            if (spared[2 * i] == (long long)about.st_dev
+                && spared[2 * i + 1] == (long long)about.st_ino)
+                break;
+        if (i == n)
             unlink(path);
     }
     closedir(stream);

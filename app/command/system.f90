@@ -5,7 +5,7 @@ module faststrip_command_system
     implicit none
     private
 
-    public :: file_kind, identity_t, identify, resolved, is_fed, keep_in_mind, forget_file
+    public :: file_kind, name_kind, identity_t, identify, resolved, is_fed, keep_in_mind, forget_file
     public :: remove_leftovers, start_signals, set_progress, set_detail, set_speaker, is_printed
     public :: be_quiet, use_one_thread_each, become
     public :: kind_none, kind_file, kind_folder, kind_pipe
@@ -42,6 +42,12 @@ module faststrip_command_system
             integer(c_int) :: kind
         end function c_identify
 
+        function c_name_kind(path) bind(c, name='faststrip_name_kind') result(kind)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int) :: kind
+        end function c_name_kind
+
         function c_resolve(path, out, capacity) bind(c, name='faststrip_resolve') result(length)
             import :: c_char, c_int
             character(kind=c_char), intent(in) :: path(*)
@@ -75,10 +81,12 @@ module faststrip_command_system
         subroutine use_one_thread_each() bind(c, name='faststrip_use_one_thread_each')
         end subroutine use_one_thread_each
 
-        subroutine c_remove_leftovers(folder, prefix, ending) &
+        subroutine c_remove_leftovers(folder, prefix, ending, spared, n) &
             bind(c, name='faststrip_remove_leftovers')
-            import :: c_char
+            import :: c_char, c_int, c_long_long
             character(kind=c_char), intent(in) :: folder(*), prefix(*), ending(*)
+            integer(c_long_long), intent(in) :: spared(2, *)
+            integer(c_int), value :: n
         end subroutine c_remove_leftovers
 
         subroutine c_start_signals(text) bind(c, name='faststrip_start_signals')
@@ -130,6 +138,13 @@ contains
 
         file_kind = c_identify(path // c_null_char, numbers)
     end function file_kind
+
+    !> What has a name: `kind_none` only if nothing has it, and a link is no file.
+    integer function name_kind(path)
+        character(len=*), intent(in) :: path !! a name
+
+        name_kind = c_name_kind(path // c_null_char)
+    end function name_kind
 
     !> Which file a path means, or would mean once it is written.
     function identify(path) result(identity)
@@ -184,15 +199,16 @@ contains
         call c_forget(path // c_null_char)
     end subroutine forget_file
 
-    !> Remove what killed runs left in a folder: files `PREFIX<process>_<number>ENDING` of
-    !> processes that are gone.
-    subroutine remove_leftovers(folder, prefix, ending)
+    !> Remove what killed runs of this user left in a folder: files `PREFIX<process>_<number>ENDING`
+    !> of processes that are gone, which have no other name.
+    subroutine remove_leftovers(folder, prefix, ending, spared)
         character(len=*), intent(in) :: folder !! where
         character(len=*), intent(in) :: prefix !! names begin so
         character(len=*), intent(in) :: ending !! and end so
+        integer(c_long_long), intent(in) :: spared(:, :) !! `numbers` of files that stay
 
         call c_remove_leftovers(folder // c_null_char, prefix // c_null_char, &
-                                ending // c_null_char)
+                                ending // c_null_char, spared, size(spared, 2, c_int))
     end subroutine remove_leftovers
 
     !> From now on a signal ends the program with one line and leaves no file half-written, and

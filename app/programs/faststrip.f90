@@ -2,6 +2,7 @@
 program faststrip_main
     use faststrip_command_console, only: say, usage_error, version_text
     use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
+    use faststrip_command_files, only: clear_leftovers
     use faststrip_command_integral, only: run_integral
     use faststrip_command_contact, only: run_contact
     use faststrip_command_batch, only: run_batch
@@ -41,6 +42,7 @@ program faststrip_main
     case default
         call refuse_subcommand()
     end select
+    call clear_leftovers()
 
 contains
 

@@ -5,7 +5,8 @@ module faststrip_files_temporary
     implicit none
     private
 
-    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name, final_path
+    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
+    public :: free_temporary, final_path
 
     !> What is written goes to a file of the name `faststrip_HOST_PROCESS_NUMBER.tmp` beside its
     !> place first; by host and process a file that a killed run left is told from that of a run
@@ -66,6 +67,21 @@ contains
         name = name(:index(name, '/', back=.true.)) // temporary_prefix() &
                // integer_text(int(c_getpid())) // '_' // integer_text(number) // temporary_ending
     end function temporary_name
+
+    !> A name of those of a file that nothing has yet; the last one if all are taken.
+    function free_temporary(path) result(name)
+        character(len=*), intent(in) :: path !! name of the file
+        character(len=:), allocatable :: name
+
+        integer :: number
+        logical :: is_there
+
+        do number = 1, most_temporaries
+            name = temporary_name(path, number)
+            inquire (file=final_path(name), exist=is_there)
+            if (.not. is_there .and. final_path(name) == name) return
+        end do
+    end function free_temporary
 
     !> Where symbolic links lead to, also to what is not there yet.
     function final_path(path) result(final)

@@ -266,7 +266,7 @@ class Ended(Scale):
 
     def begun(self, process):
         """Wait until something is written."""
-        while process.poll() is None and "out.csv.journal" not in self.names():
+        while process.poll() is None and "out.csv.partial" not in self.names():
             time.sleep(0.002)
 
     def resume(self, *words):
@@ -380,6 +380,53 @@ class Ended(Scale):
         self.refused(1, "batch", "cases.csv", "-o", "out.csv", "--resume", says=["is not what"])
         (self.folder / "out.csv.partial").write_bytes(kept)
         self.resume()
+
+    def test_what_lies_behind_the_last_piece_is_dropped(self):
+        process = self.start()
+        self.begun(process)
+        process.kill()
+        process.communicate()
+        with open(self.folder / "out.csv.partial", "ab") as stream:
+            stream.write(b"a piece of which no journal tells\n" * 100000)
+        self.resume()
+        self.solve("cases.csv", "-o", "out.csv", "--part", "1/9")
+        self.assertLess(len(self.bytes_of("out.csv")), len(self.bytes_of("whole.csv")) / 5)
+
+    def test_ended_between_the_name_and_the_end_of_the_journal(self):
+        for words, names in ((("--part", "1/1"), ["out.csv", "out.csv.manifest"]),
+                             ((), ["out.csv"])):
+            self.solve("cases.csv", "-o", "out.csv", "--part", "1/1")
+            (self.folder / "out.csv.manifest").rename(self.folder / "out.csv.journal")
+            made = os.stat(self.folder / "out.csv")
+            said = self.solve("cases.csv", "-o", "out.csv", "--resume", *words)
+            self.assertEqual(said, "faststrip: 100 of 900 contacts failed\n")
+            self.assertEqual(os.stat(self.folder / "out.csv").st_mtime_ns, made.st_mtime_ns)
+            self.assertEqual(self.bytes_of("out.csv"), self.bytes_of("whole.csv"))
+            self.assertEqual(self.names(), ["cases.csv", *names, "whole.csv"])
+        # What has another content by then is no output of that journal.
+        self.solve("cases.csv", "-o", "out.csv", "--part", "1/1")
+        (self.folder / "out.csv.manifest").rename(self.folder / "out.csv.journal")
+        (self.folder / "out.csv").write_bytes(self.bytes_of("whole.csv")[:-2] + b"9\n")
+        self.resume()
+
+    def test_ended_before_the_first_piece_had_its_name(self):
+        process = self.start()
+        self.begun(process)
+        process.kill()
+        process.communicate()
+        (self.folder / "out.csv.partial").unlink()
+        self.resume()
+
+    def test_an_output_of_other_options_is_not_taken_as_made(self):
+        for first, second in (((), ("--chain", "3")), (("--chain", "3"), ())):
+            self.solve("cases.csv", "-o", "wanted.csv", "--part", "2/9", *second)
+            self.solve("cases.csv", "-o", "part.csv", "--part", "2/9", *first)
+            self.solve("cases.csv", "-o", "part.csv", "--part", "2/9", "--resume", *second)
+            self.assertEqual(self.bytes_of("part.csv"), self.bytes_of("wanted.csv"))
+            self.assertEqual(self.bytes_of("part.csv.manifest"),
+                             self.bytes_of("wanted.csv.manifest"))
+        self.solve("cases.csv", "-o", "part.csv", "--part", "3/9", "--resume")
+        self.assertNotEqual(self.bytes_of("part.csv"), self.bytes_of("wanted.csv"))
 
     def test_a_part_that_is_made_is_not_made_again(self):
         words = ("cases.csv", "-o", "part.csv", "--part", "2/9", "--resume")

@@ -81,6 +81,11 @@ class Lookup(ProgramTest):
         self.good("lookup", "join", *parts[::-1], "-o", "joined.fslt", "--tests", "500")
         self.assertEqual((self.folder / "joined.fslt").read_bytes(), whole)
         self.refused(1, "lookup", "join", *parts[1:], "-o", "x", says=["parts are missing"])
+        for names, again in (((parts[0], *parts), parts[0]), ((*parts, parts[1]), parts[1]),
+                             ((parts[0], "whole.fslt"), "whole.fslt"),
+                             (("whole.fslt", "whole.fslt"), "whole.fslt")):
+            self.refused(1, "lookup", "join", *names, "-o", "x",
+                         says=["nothing that another one has", f"again in {again}"])
         self.refused(1, "lookup", "join", parts[0], table, "-o", "x", "--strips", "14",
                      says=["method faststrip, 14 strips"])
         # What a killed run leaves is a part that is not whole.
@@ -91,7 +96,9 @@ class Lookup(ProgramTest):
         self.assertFalse(unfinished.exists())
         unfinished.write_bytes((self.folder / parts[1]).read_bytes()[:-1])
         self.refused(1, *on_axes, "-o", "again.fslt", "--resume", says=["again.fslt.unfinished"])
-        self.refused(1, *on_axes, "-o", "none.fslt", "--resume", says=["none.fslt.unfinished"])
+        # Where nothing is left yet, all of it is made.
+        self.good(*on_axes, "-o", "none.fslt", "--resume")
+        self.assertEqual((self.folder / "none.fslt").read_bytes(), whole)
         unfinished.write_bytes((self.folder / parts[1]).read_bytes())
         self.refused(1, *on_axes, "-o", "again.fslt", "--resume", "--points", "14",
                      says=["the same nodes, method"])
@@ -99,6 +106,25 @@ class Lookup(ProgramTest):
         self.good(*on_axes, "-o", "/dev/null")
         self.assertTrue(pathlib.Path("/dev/null").is_char_device())
         self.assertFalse(pathlib.Path("/dev/null.unfinished").exists())
+
+    def test_a_table_is_not_where_work_is_kept(self):
+        content = (self.folder / self.table()).read_bytes()
+        place = self.folder / "q.fslt.unfinished"
+        on_axes = ("lookup", "make", "--tests", "300", "-o", "q.fslt", "--axes-of")
+        place.write_bytes(content)
+        for name in ("q.fslt.unfinished", "./q.fslt.unfinished"):
+            self.refused(2, *on_axes, name, says=["-o", "q.fslt.unfinished"])
+        self.refused(1, *on_axes, "table.fslt", says=["q.fslt.unfinished"])
+        self.refused(1, *on_axes, "table.fslt", "--resume", says=["q.fslt.unfinished"])
+        self.assertEqual(place.read_bytes(), content)
+        place.unlink()
+        place.symlink_to("table.fslt")
+        self.refused(2, *on_axes, "table.fslt", says=["q.fslt.unfinished"])
+        place.unlink()
+        place.write_text("somebody's\n")
+        self.refused(1, *on_axes, "table.fslt", says=["q.fslt.unfinished"])
+        self.assertEqual(place.read_text(), "somebody's\n")
+        self.assertEqual((self.folder / "table.fslt").read_bytes(), content)
 
     def test_a_killed_run_loses_one_step_at_most(self):
         table = self.table()

@@ -126,10 +126,12 @@ class Signals(ProgramTest):
         left = [name for name in self.names() if name.endswith(".tmp")]
         self.assertEqual(len(left), 1)
         going_on, stream = start()
-        self.assertNotIn(left[0], self.names())
-        own = [name for name in self.names() if name not in names]
+        own = [name for name in self.names() if name not in [*names, *left]]
         self.write("notes_1.tmp", "not ours\n")
+        self.refused(1, "contact", "none.nml", "-o", "other.csv")
+        self.assertIn(left[0], self.names())
         self.good("contact", "case.nml", "-o", "other.csv")
+        self.assertNotIn(left[0], self.names())
         for name in (*own, "notes_1.tmp"):
             self.assertIn(name, self.names())
         going_on.terminate()

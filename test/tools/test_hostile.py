@@ -9,6 +9,7 @@ from harness import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
 import hostile  # noqa: E402
+import side_files  # noqa: E402
 
 # Generous: the machine may be ten times slower.
 SECONDS = "200"
@@ -20,6 +21,14 @@ class Hostile(unittest.TestCase):
         with contextlib.redirect_stdout(said):
             code = hostile.main(["100", "--seed", "20", "--seconds", SECONDS])
         self.assertEqual(code, 0, said.getvalue())
+
+    def test_files_of_its_own(self):
+        """Whatever lies where the program makes files, in each role, place and spelling."""
+        wrong = [(str(attempt), *found) for i in range(len(side_files.tries()))
+                 if (found := hostile.run(attempt := hostile.side_files(None, i),
+                                          float(SECONDS)))[0]]
+        self.assertGreater(len(side_files.tries()), 700)
+        self.assertEqual(wrong, [])
 
     def test_the_same_seed_gives_the_same_inputs(self):
         one, two = ([(attempt.words, attempt.files) for _, attempt in hostile.attempts(60, seed)]

@@ -12,7 +12,7 @@ module faststrip_lab_promises
                                    put_header, put_cell, end_row, close_csv
     use faststrip_command_clock, only: cpu_microseconds, median
     use faststrip_command_console, only: fail_on_error, progress, put_origin
-    use faststrip_command_files, only: take_input
+    use faststrip_command_files, only: take_input, take_output, take_beside
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
@@ -78,6 +78,13 @@ contains
         call take_input(methods)
         folder = option_text(command, '--cases', '')
         call read_method_list(methods, entries)
+        if (folder /= '') then
+            call take_output(folder // '/cases.csv', '--cases')
+            do i = 1, size(promise_kinds)
+                call take_beside(folder // '/' // trim(promise_kinds(i)) // '_', '--cases', &
+                                 is_beginning=.true.)
+            end do
+        end if
         call read_contacts(truth, thinning, contacts)
         if (folder /= '') then
             call put_cases(folder, contacts)
