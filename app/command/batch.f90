@@ -128,6 +128,7 @@ contains
     subroutine read_command(job)
         type(job_t), intent(inout) :: job
 
+        character(len=:), allocatable :: path
         integer :: i
 
         associate (command => job%command)
@@ -180,12 +181,11 @@ contains
             call take_store(option_text(command, '-o', '-'), '-o', job%is_file, &
                             job%choice%is_part .or. job%choice%is_shared)
             if (.not. job%choice%is_shared) return
-            associate (path => option_text(command, '-o', '-'), n => job%choice%parts)
-                call take_beside(part_beginning(path), '-o', is_beginning=.true.)
-                do i = 1, n
-                    call check_store_of_part(part_name(path, i, n), '-o')
-                end do
-            end associate
+            path = option_text(command, '-o', '-')
+            call take_beside(part_beginning(path), '-o', is_beginning=.true.)
+            do i = 1, job%choice%parts
+                call check_store_of_part(part_name(path, i, job%choice%parts), '-o')
+            end do
         end associate
     end subroutine read_command
 

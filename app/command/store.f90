@@ -221,19 +221,20 @@ contains
         logical, intent(in) :: is_beside       ! is the output itself such a place?
         type(status_t), intent(inout) :: status
 
-        associate (journal => store%final // journal_word, partial => store%final // partial_word, &
-                   manifest => store%final // manifest_word)
-            if (.not. is_left(journal, is_manifest(journal))) then
-                call refuse_place(store, journal_word, status)
-            else if (.not. is_left(partial, is_manifest(journal))) then
-                call refuse_place(store, partial_word, status)
-            else if (store%with_manifest .and. .not. is_left(manifest, is_manifest(manifest))) then
-                call refuse_place(store, manifest_word, status)
-            else if (is_beside) then
-                if (.not. is_left(store%final, is_manifest(journal) .or. is_manifest(manifest))) &
-                    call refuse_place(store, '', status)
-            end if
-        end associate
+        character(len=:), allocatable :: journal, manifest
+
+        journal = store%final // journal_word
+        manifest = store%final // manifest_word
+        if (.not. is_left(journal, is_manifest(journal))) then
+            call refuse_place(store, journal_word, status)
+        else if (.not. is_left(store%final // partial_word, is_manifest(journal))) then
+            call refuse_place(store, partial_word, status)
+        else if (store%with_manifest .and. .not. is_left(manifest, is_manifest(manifest))) then
+            call refuse_place(store, manifest_word, status)
+        else if (is_beside) then
+            if (.not. is_left(store%final, is_manifest(journal) .or. is_manifest(manifest))) &
+                call refuse_place(store, '', status)
+        end if
     end subroutine check_places
 
     !> Has nothing a name, or a file that a run has left there?
