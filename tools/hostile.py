@@ -13,7 +13,6 @@ table of what went wrong and a summary; exit code 1 if anything did.
 import argparse
 import collections
 import dataclasses
-import functools
 import os
 import pathlib
 import random
@@ -29,6 +28,7 @@ import tempfile
 import threading
 import time
 
+import other_user
 from side_files import tries
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -41,7 +41,6 @@ OF_THE_LAB = ("bench", "fuzz", "scenes", "errata")
 PROGRESS = re.compile(r"faststrip(-lab)?: .*, \d+ s")
 NEVER = ("Fortran runtime error", "Backtrace", "Error termination", "At line", "Segmentation",
          "Traceback", "core dumped", "terminate called")
-NOBODY = 65534
 
 COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
@@ -85,8 +84,9 @@ class Try:
     rows: bool = False          # a batch: its rows may fail each with a line of its own
     may_pass: bool = False      # changed by chance
     silent: bool = False        # nobody can read stderr
-    user: int | None = None
     makes: tuple = ()           # may be there afterwards, and what was there if all goes well
+    rights: bool = True         # False: run as a user whom permissions bind
+    environment: dict = dataclasses.field(default_factory=dict)
 
     def in_the_child(self):
         """Signals that a parent ignores are not ignored by the program."""
@@ -97,11 +97,17 @@ class Try:
 
     @property
     def program(self):
-        return LAB if self.words and self.words[0] in OF_THE_LAB else PROGRAM
+        program = LAB if self.words and self.words[0] in OF_THE_LAB else PROGRAM
+        return program if self.rights else other_user.runnable(program)
+
+    @property
+    def user(self):
+        return None if self.rights else other_user.without_rights()
 
     def __str__(self):
+        settings = [f"{name}={value}" for name, value in self.environment.items()]
         return " ".join(repr(word)[1:-1] if word.isprintable() else repr(word)
-                        for word in map(str, self.words))
+                        for word in (*settings, *map(str, self.words)))
 
 
 # The families: each makes one input from a random number generator and a counter.
@@ -399,7 +405,7 @@ def paths(rng, i):
 
 
 def permissions(rng, i):
-    if not may_be_run_by_nobody():
+    if other_user.why_not(PROGRAM):
         return paths(rng, i)
 
     def unreadable(folder):
@@ -426,15 +432,7 @@ def permissions(rng, i):
         (["contact", "dir/case.nml"], hidden_folder),
         (["contact", "case.nml", "-o", "dir/x.csv"], hidden_folder),
     ][i % 7]
-    return Try("permissions", words, prepare=prepare, user=NOBODY, rows=words[0] == "batch")
-
-
-@functools.cache
-def may_be_run_by_nobody():
-    if os.geteuid() != 0:
-        return False
-    done = subprocess.run([PROGRAM, "--version"], user=NOBODY, capture_output=True, check=False)
-    return done.returncode == 0
+    return Try("permissions", words, prepare=prepare, rights=False, rows=words[0] == "batch")
 
 
 def special_files(rng, i):
@@ -542,12 +540,33 @@ def side_files(_, i):
 
 ORDER_OF_SIDES = random.Random(0).sample(tries(), len(tries()))
 
+# What Fortran's run-time library reads, and what it may be told.
+RUN_TIME = {"STDIN_UNIT": ["6", "7", "0", "-1"], "STDOUT_UNIT": ["7", "0", "5", "-9", "x"],
+            "STDERR_UNIT": ["7", "6", "99", "x"], "UNBUFFERED_ALL": ["y", "1"],
+            "UNBUFFERED_PRECONNECTED": ["y"], "SHOW_LOCUS": ["n"], "OPTIONAL_PLUS": ["y"],
+            "LIST_SEPARATOR": [";", " , ", "xyz"], "DEFAULT_RECL": ["10", "1", "-1", "x"],
+            "CONVERT_UNIT": ["swap", "big_endian", "native;swap:10-20", "x"],
+            "ERROR_BACKTRACE": ["y", "n"], "FORMATTED_BUFFER_SIZE": ["1", "-1", "x"],
+            "UNFORMATTED_BUFFER_SIZE": ["1", "-1", "x"], "TMPDIR": ["/nowhere", ""]}
+
+
+def environments(rng, i):
+    names = rng.sample(sorted(RUN_TIME), rng.choice([1, 1, 2, 4])) if i % 4 else ["STDOUT_UNIT"]
+    settings = {f"GFORTRAN_{name}": rng.choice(RUN_TIME[name]) for name in names}
+    if i % 2:
+        return Try("environments", rng.choice([["contact", "none.nml"], ["batch", "gap.csv"]]),
+                   environment=settings)
+    words = rng.choice([["contact", "case.nml"], ["batch", "ok.csv"], ["profile", "w.txt"],
+                        ["table"], ["--help"]])
+    return Try("environments", words, codes=(0,), may_pass=True, environment=settings)
+
+
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
             "conicities": (conicities, 8), "batches": (batches, 12), "options": (options, 16),
             "paths": (paths, 10), "side files": (side_files, 10), "permissions": (permissions, 2),
             "special files": (special_files, 2), "signals": (signals, 3),
-            "endless work": (endless_work, 1)}
+            "endless work": (endless_work, 1), "environments": (environments, 3)}
 
 
 def snapshot(folder):
@@ -556,13 +575,19 @@ def snapshot(folder):
     for path in sorted(folder.rglob("*")):
         about = path.lstat()
         if stat.S_ISREG(about.st_mode):
-            found[str(path.relative_to(folder))] = (
-                about.st_mode, path.read_bytes() if about.st_size < 1 << 20 else about.st_size)
+            found[str(path.relative_to(folder))] = (about.st_mode, content(path, about))
         elif stat.S_ISLNK(about.st_mode):
             found[str(path.relative_to(folder))] = (about.st_mode, os.readlink(path))
         else:
             found[str(path.relative_to(folder))] = (about.st_mode, None)
     return found
+
+
+def content(path, about):
+    """What a file holds, as far as it is small and oneself may read it."""
+    if about.st_size >= 1 << 20 or not os.access(path, os.R_OK):
+        return about.st_size
+    return path.read_bytes()
 
 
 def judge(attempt, code, seconds, err, changes, limit):
@@ -605,7 +630,7 @@ def run(attempt, limit):
             [attempt.program, *words], cwd=folder, stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, user=attempt.user,
             preexec_fn=attempt.in_the_child,
-            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1", **attempt.environment})
         if attempt.during:
             attempt.during(process, folder)
         try:
@@ -663,6 +688,9 @@ def main(words=None):
                 print("number  family          what is wrong")
             print(f"{number:6}  {attempt.family:14}  {'; '.join(wrong)}\n"
                   f"{'':24}{str(attempt)[:200]}\n{'':24}{err[-400:]!r}", flush=True)
+    why = other_user.why_not(PROGRAM)
+    if why and arguments.family in "permissions":
+        print(f"in the place of permissions other paths were tried: {why}")
     ends = ", ".join(f"{count} x {code}" for code, count in sorted(codes.items()))
     print(f"{arguments.n} hostile inputs with seed {arguments.seed}: {bad} wrong;"
           f" exit codes {ends}")

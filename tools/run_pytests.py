@@ -53,6 +53,11 @@ class Counts(unittest.TestResult):
         if err is not None:
             self.tell(test, f"{subtest}\n{self._exc_info_to_string(err, subtest)}")
 
+    def addSkip(self, test, reason):
+        super().addSkip(test, reason)
+        self.started.add(test.id())
+        print(f"skipped {test.id()}: {reason}", flush=True)
+
     def addUnexpectedSuccess(self, test):
         super().addUnexpectedSuccess(test)
         self.tell(test, "passed although it was expected to fail\n")

@@ -66,6 +66,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -206,15 +207,64 @@ def do(*words, output=None):
         sys.exit(code)
 
 
-def quietly(name, words, trouble, environment=None):
-    """Run a command in silence; what it said is in its log, and told only if it fails."""
+def quietly(name, words, trouble, environment=None, work=""):
+    """Run a command in silence; what it said is in its log, and told only if it fails. Of work that
+    has a name it is told how far it is, once it takes long."""
     LOGS.mkdir(parents=True, exist_ok=True)
     log = LOGS / f"{name}.log"
-    with open(log, "wb") as stream:
-        code = subprocess.run(words, stdout=stream, stderr=subprocess.STDOUT,
-                              env=environment, check=False).returncode
+    with open(log, "wb") as stream, subprocess.Popen(
+            words, stdout=stream, stderr=subprocess.STDOUT, env=environment) as process:
+        try:
+            code = Progress(work, log).wait(process) if work else process.wait()
+        except BaseException:
+            process.kill()
+            raise
     if code != 0:
         raise Trouble(trouble, log.read_text(encoding="utf-8", errors="replace"))
+
+
+class Progress:
+    """Tells on stderr how far a build by fpm is, by its log: on a terminal in one line that
+    changes, elsewhere in a line from time to time. A build that is soon done is not told of."""
+
+    FIRST, EVERY = 2.0, 15.0  # s
+
+    def __init__(self, work, log):
+        self.work, self.log = work, log
+        self.start = self.told = time.monotonic()
+        self.said = False
+        self.terminal = sys.stderr.isatty()
+
+    def wait(self, process):
+        while True:
+            try:
+                code = process.wait(timeout=0.5)
+            except subprocess.TimeoutExpired:
+                self.tell()
+                continue
+            if self.said:
+                self.say("done" if code == 0 else "failed")
+                if self.terminal:
+                    print(file=sys.stderr)
+            return code
+
+    def tell(self):
+        now = time.monotonic()
+        pause = (1.0 if self.terminal else self.EVERY) if self.said else self.FIRST
+        if now - self.told < pause:
+            return
+        if not self.said and not self.terminal:
+            print(f"run: building {self.work} (log: {self.log})", file=sys.stderr)
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        shares = re.findall(r"^\[ *(\d+)%\]", text, re.MULTILINE)
+        self.say(f"{shares[-1] if shares else 0} %, {text.count('  done.')} compiled")
+        self.told, self.said = now, True
+
+    def say(self, words):
+        minutes, seconds = divmod(int(time.monotonic() - self.start), 60)
+        line = f"run: {self.work}: {words}, {minutes}:{seconds:02}"
+        print(f"\r{line}\x1b[K" if self.terminal else line, end="" if self.terminal else "\n",
+              file=sys.stderr, flush=True)
 
 
 def pipeline(text, **names):
@@ -290,6 +340,10 @@ def compiler():
     return {**os.environ, "PATH": f"{COMPILER.resolve()}{os.pathsep}{os.environ['PATH']}"}
 
 
+# What fpm builds in its packages, in words.
+WORK = {"app": "the programs", "test": "the Fortran tests", ".": "the library"}
+
+
 def fpm(name, package, command, flags, *words, trouble, twin=""):
     """Let fpm build; what the package `twin` has already compiled the same is taken from there.
     After a build that was not finished fpm takes what it had not yet come to for finished too: it
@@ -307,14 +361,16 @@ def fpm(name, package, command, flags, *words, trouble, twin=""):
                 path.unlink()
         unfinished.touch()
         quietly(name, [FPM, "update", "-C", package], trouble, compiler())
+        # Without a buffer the log tells at any time how far fpm is.
         quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags,
                        *words], trouble,
-                compiler() | ({"FASTSTRIP_TWIN": str(ROOT / twin / "build")} if twin else {}))
+                compiler() | {"GFORTRAN_UNBUFFERED_ALL": "y"}
+                | ({"FASTSTRIP_TWIN": str(ROOT / twin / "build")} if twin else {}), WORK[package])
         unfinished.unlink()
 
 
-def fpm_build(name, package, flags):
-    fpm(name, package, "build", flags, trouble="the build failed")
+def fpm_build(name, package, flags, twin=""):
+    fpm(name, package, "build", flags, trouble="the build failed", twin=twin)
 
 
 def built(package, flags, target):
@@ -469,9 +525,8 @@ def test(text=""):
     if counts.passed + counts.failed == 0:
         print("no test ran")
         counts.failed = 1
-    if counts.skipped > 0:
-        print(f"\n{counts.skipped} skipped")
-    print(f"\n{counts.passed} passed, {counts.failed} failed", flush=True)
+    skipped = f", {counts.skipped} skipped" if counts.skipped else ""
+    print(f"\n{counts.passed} passed, {counts.failed} failed{skipped}", flush=True)
     sys.exit(counts.failed > 0)
 
 

@@ -35,6 +35,27 @@ static char doing[2][longest_text];
 static volatile sig_atomic_t doing_now;
 static volatile sig_atomic_t told, told_at, seconds, quiet;
 
+#if defined(__GNUC__) && defined(__linux__)
+/* Fortran's run-time library takes units, buffers and forms from GFORTRAN_* variables, before the
+ * program begins. None of them is meant for this program, which could not even say what is wrong
+ * with them: they go before any library is started. */
+static void forget_run_time_variables(int argc, char **argv, char **environment)
+{
+    static const char prefix[] = "GFORTRAN_";
+    char **kept = environment;
+
+    (void)argc;
+    (void)argv;
+    for (; *environment; environment++)
+        if (strncmp(*environment, prefix, sizeof prefix - 1) != 0)
+            *kept++ = *environment;
+    *kept = NULL;
+}
+
+static void (*before_libraries)(int, char **, char **)
+    __attribute__((section(".preinit_array"), used)) = forget_run_time_variables;
+#endif
+
 /* The kind of what a path leads to, and the numbers that tell it from all other files. */
 int faststrip_identify(const char *path, long long identity[2])
 {

@@ -1,7 +1,9 @@
 """No output is an input or another output; what is read and what is solved has an end."""
 
 import os
+import sys
 import threading
+from unittest import mock
 
 from cli_program import (
     BATCH_COLUMNS,
@@ -13,9 +15,39 @@ from cli_program import (
     gap_text,
     parabola,
     profile_case,
+    rows_of,
 )
 
+sys.path.insert(0, str(ROOT / "tools"))
+
+import hostile  # noqa: E402
+
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
+
+
+class Environment(ProgramTest):
+    def test_settings_of_fortran_s_run_time_change_nothing(self):
+        """They move units, sizes and signs of a program, or end it."""
+        self.write("gap.csv", gap_text(parabola, n=61))
+        self.write("case.nml", gap_case())
+        self.write("ok.csv", f"{BATCH_COLUMNS}\n{ROW}\n")
+        runs = (("contact", "case.nml"), ("batch", "ok.csv"), ("--help",), ("contact", "no.nml"))
+        wanted = [self.ended(*words) for words in runs]
+        self.assertEqual([code for code, _, _ in wanted], [0, 0, 0, 1])
+        for name, values in hostile.RUN_TIME.items():
+            for value in values:
+                with mock.patch.dict(os.environ, {f"GFORTRAN_{name}": value}):
+                    for words, ended in zip(runs, wanted, strict=True):
+                        self.assertEqual(self.ended(*words), ended, (name, value, words))
+
+    def ended(self, *words):
+        """Exit code, what was printed but for the times, and what was said."""
+        done = self.run_program(*words)
+        rows = rows_of(done.stdout) if done.stdout.startswith("#") else done.stdout
+        for row in rows if isinstance(rows, list) else ():
+            for name in ("normal_us", "tangential_us"):
+                del row[name]
+        return done.returncode, rows, done.stderr
 
 
 class Outputs(ProgramTest):

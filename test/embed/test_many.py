@@ -32,6 +32,8 @@ class FromC(HostTest):
         found = self.findings("./many errors")
         self.assertEqual((found.get("line", []), found["wrong"]), ([], [0]))
         self.assertEqual(sum(found["checked"]), 22)
+        # Numbers in messages are the library's own, whatever Fortran's run time is told.
+        self.assertEqual(self.findings("./many errors", GFORTRAN_OPTIONAL_PLUS="y"), found)
 
     def test_a_fork_after_a_call_does_not_hang(self):
         self.assertEqual(self.findings("./many forked"), {"wrong": [0]})

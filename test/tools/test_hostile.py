@@ -2,13 +2,18 @@
 
 import contextlib
 import io
+import pathlib
+import shutil
 import sys
+import tempfile
 import unittest
+from unittest import mock
 
 from harness import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
 import hostile  # noqa: E402
+import other_user  # noqa: E402
 import side_files  # noqa: E402
 
 # Generous: the machine may be ten times slower.
@@ -16,11 +21,38 @@ SECONDS = "200"
 
 
 class Hostile(unittest.TestCase):
-    def test_a_hundred(self):
+    def tried(self, *words):
+        """What is said of inputs of which none may be wrong."""
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
-            code = hostile.main(["100", "--seed", "20", "--seconds", SECONDS])
+            code = hostile.main([*words, "--seconds", SECONDS])
         self.assertEqual(code, 0, said.getvalue())
+        return said.getvalue()
+
+    def test_a_hundred(self):
+        self.tried("100", "--seed", "20")
+
+    def test_settings_of_the_run_time_library(self):
+        self.tried("24", "--family", "environments")
+
+    def test_permissions_in_a_checkout_that_others_cannot_enter(self):
+        why = other_user.why_not(hostile.PROGRAM)
+        if why:
+            self.skipTest(why)
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(hostile.PROGRAM.parent, pathlib.Path(folder, "bin"))
+            pathlib.Path(folder).chmod(0o700)
+            program = pathlib.Path(folder, "bin", hostile.PROGRAM.name)
+            with mock.patch.object(hostile, "PROGRAM", program):
+                said = self.tried("14", "--family", "permissions")
+        self.assertIn("14 hostile inputs", said)
+        self.assertNotIn("in the place of permissions", said)
+
+    def test_where_no_other_user_can_run_the_program_it_is_said(self):
+        with mock.patch.object(other_user, "why_not", return_value="not here"):
+            said = self.tried("3", "--family", "permissions")
+        self.assertIn("\nin the place of permissions other paths were tried: not here\n",
+                      f"\n{said}")
 
     def test_files_of_its_own(self):
         """Whatever lies where the program makes files, in each role, place and spelling."""

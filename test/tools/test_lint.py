@@ -59,12 +59,19 @@ class Lint(unittest.TestCase):
         self.assertRegex(done.stdout, r"all modules together: +" + (
             r"5 passed, 0 failed\n\Z" if shell else r"4 passed, 0 failed, 1 skipped\n\Z"))
 
+    @unittest.skipUnless(shutil.which("git"), "no git")
     def test_with_git_the_files_that_git_would_take(self):
         subprocess.run(["git", "init", "-q", self.folder], check=True)
         self.write(".gitignore", "ignored.py\nbuild/\n")
         self.write("ignored.py", "import os, sys\n" + "x" * 200 + "\n")
         self.assertEqual(self.lint().returncode, 0)
         self.found("ruff", "new.py", "import os\n", "new.py:1:8: F401")
+
+    def test_without_git_all_but_what_was_built(self):
+        self.write(".gitignore", "ignored.py\n")
+        self.assertEqual(self.lint("ruff", env={"PATH": "/nowhere"}).returncode, 0)
+        self.write("new.py", "import os\n")
+        self.assertEqual(self.lint("ruff", env={"PATH": "/nowhere"}).returncode, 1)
 
     def test_columns(self):
         for name, most in (("a.py", 100), ("src/a.f90", 100), ("run", 100), ("x.sh", 100),

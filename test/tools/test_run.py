@@ -318,8 +318,7 @@ class FromNothing(Building):
 
     def test_all_stages_are_counted(self):
         disabled = PASSING.replace("@test", "@test\n@disable").replace("passes", "waits")
-        result = self.check(PASSING + disabled, 0, "3 passed, 0 failed")
-        self.assertIn("\n1 skipped\n", result.stdout)
+        self.check(PASSING + disabled, 0, "3 passed, 0 failed, 1 skipped")
         program = subprocess.run([self.folder / "bin/faststrip"], stdout=subprocess.PIPE, text=True)
         self.assertEqual(program.stdout, "revision unknown\n")
         program = subprocess.run([self.folder / "bin/faststrip-lab"], stdout=subprocess.PIPE,
@@ -352,8 +351,7 @@ class Testing(Building):
     def test_lint_counts(self):
         self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
                                     "raise SystemExit(1)\n")
-        result = self.check(PASSING, 1, "6 passed, 2 failed")
-        self.assertIn("\n3 skipped\n", result.stdout)
+        self.check(PASSING, 1, "6 passed, 2 failed, 3 skipped")
         self.write("tools/lint.py", "raise SystemExit(1)\n")
         self.check(PASSING, 1, "2 passed, 1 failed")
 

@@ -98,6 +98,15 @@ class Runs(unittest.TestCase):
         said = self.check({"a/test_mixed.py": MIXED}, 1, "1 passed, 5 failed, 1 skipped")
         self.assertIn("ValueError: on purpose", said)
 
+    def test_a_skip_says_why(self):
+        said = self.check({"a/test_mixed.py": MIXED}, 1, "0 passed, 0 failed, 1 skipped",
+                          "--filter", "is_skipped")
+        self.assertRegex(said, r"(?m)^skipped \S+\.test_is_skipped: on purpose$")
+        whole = GOOD.replace("    def", "    @classmethod\n    def setUpClass(cls):\n"
+                             "        raise unittest.SkipTest('not here')\n\n    def")
+        said = self.check({"a/test_good.py": whole}, 1, "0 passed, 0 failed, 1 skipped")
+        self.assertRegex(said, r"(?m)^skipped setUpClass \S+: not here$")
+
     def test_same_name_in_two_folders(self):
         files = {"a/test_same.py": GOOD, "b/test_same.py": GOOD}
         self.check(files, 0, "2 passed, 0 failed")

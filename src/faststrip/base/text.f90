@@ -276,7 +276,7 @@ contains
         integer, intent(in) :: value           !! any
         character(len=number_length(value)) :: text !! sign and digits
 
-        write (text, '(i0)') value
+        write (text, '(ss, i0)') value
     end function integer_text
 
     !> Record an error in a file as `<what>, got <value> (<file>:<line>)`.

@@ -68,7 +68,7 @@ contains
             return
         end if
         if (n < -table_last_distance .or. n > table_last_distance) then
-            write (words, '(a, i0)') 'the table ends at strip distance 20: ', n
+            write (words, '(ss, a, i0)') 'the table ends at strip distance 20: ', n
             call set_status(status, st_out_of_range, words)
             return
         end if

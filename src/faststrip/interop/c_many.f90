@@ -292,7 +292,7 @@ contains
         character(len=message_length + 40) :: words
         integer(c_int) :: ignored
 
-        write (words, '(a, i0, 2a)') 'contacts[', many%failed - 1, ']: ', many%failure%message
+        write (words, '(ss, a, i0, 2a)') 'contacts[', many%failed - 1, ']: ', many%failure%message
         ignored = put_text(trim(words), text, length)
     end subroutine tell_failure
 end module faststrip_interop_c_many

@@ -137,12 +137,12 @@ contains
         if (.not. c_associated(address)) then
             call set_status(status, st_bad_argument, 'the case is missing')
         else if (length > known) then
-            write (got, '(i0)') length
+            write (got, '(ss, i0)') length
             call set_status(status, st_bad_argument, 'the case must have at most the ' // &
                             trim(count_text(int(known))) // ' bytes that this library knows, ' // &
                             'got ' // trim(got) // ': the header is newer')
         else if (length < least_case .or. mod(length, piece) /= 0) then
-            write (got, '(i0)') length
+            write (got, '(ss, i0)') length
             call set_status(status, st_bad_argument, 'the case must have the size that ' // &
                             'faststrip_default_case set, at most ' // &
                             trim(count_text(int(known))) // ' bytes, got ' // got)

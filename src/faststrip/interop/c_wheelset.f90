@@ -236,7 +236,7 @@ contains
         character(len=20) :: got
 
         call clear_status(status)
-        write (got, '(i0)') length
+        write (got, '(ss, i0)') length
         if (.not. c_associated(setup)) then
             call set_status(status, st_bad_argument, 'the setup of the wheelset is missing')
         else if (length > setup_size) then
