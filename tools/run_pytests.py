@@ -164,13 +164,13 @@ def main():
 
 
 def run_files(options):
-    files = [(folder, path) for folder in options.folders
+    files = [path for folder in options.folders
              for path in ([folder] if folder.is_file() else sorted(folder.glob("test_*.py")))]
     if options.jobs == 1:
-        together = run_here([path for _, path in files], options.filter, options.times)
+        together = run_here(files, options.filter, options.times)
     else:
-        whole = [path for folder, path in files if folder == options.whole]
-        units = [[path] for folder, path in files if folder != options.whole]
+        whole = [path for path in files if path.parent == options.whole]
+        units = [[path] for path in files if path.parent != options.whole]
         if whole:
             # The longest first.
             units.insert(0, whole)

@@ -2,7 +2,9 @@
 """usage: ./run COMMAND
 
   build         build the release; the programs are then bin/faststrip and bin/faststrip-lab
-  test [TEXT]   run all tests and lint, or those whose room/module::test contains TEXT
+  test [TEXT] [--quick]
+                run all tests and lint, or those whose room/module::test contains TEXT; --quick:
+                rooms and interfaces only, by the release, and nothing that takes long
   lint [TEXT]   check the form of the sources: ruff, shellcheck, line lengths
   mutants [ROOM] [--only ID] [--jobs N] [--quick]
                 change one thing at a time in a copy and say which changes no test notices;
@@ -451,13 +453,18 @@ def told(*words):
     return process.returncode, "".join(said)
 
 
-def fortran_tests(text):
+def fortran_tests(text, flags=TEST_FLAGS, twin="", left_out=()):
     pathlib.Path("build/tests").mkdir(parents=True, exist_ok=True)
     code, said = told(sys.executable, "tools/pf2f90.py")
     if code != 0:
         return code, said
-    fpm_build("build-tests", "test", TEST_FLAGS)
-    return told(built("test", TEST_FLAGS, "run-tests"), text)
+    fpm_build("build-tests", "test", flags, twin)
+    return told(built("test", flags, "run-tests"), text, ",".join(left_out))
+
+
+def quick_fortran_tests(text):
+    """Compiled as the programs are, of which they take all that is no test."""
+    return fortran_tests(text, PROGRAM_FLAGS, "app", QUICK_WITHOUT)
 
 
 def release_build(_):
@@ -506,6 +513,11 @@ def python_tests(text):
                 "--times", "--whole", "test/embed", *folders)
 
 
+def quick_python_tests(text):
+    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", "2", "--times",
+                "--whole", "test/embed", *QUICK)
+
+
 def lint_checks(text):
     return told(sys.executable, "tools/lint.py", "--filter", text)
 
@@ -516,12 +528,20 @@ def build_step():
     build()
 
 
-def test(text=""):
+def test(*words):
+    text, *more = [word for word in words if word != "--quick"] or [""]
+    if more:
+        raise Trouble(f"test takes one TEXT, got {' '.join([text, *more])}", code=2)
     counts = Counts(text)
     counts.stage("lint", "form of the sources", lint_checks)
-    counts.stage("fortran", "Fortran tests, warnings as errors and traps on", fortran_tests)
-    counts.stage("release", "release build", release_build)
-    counts.stage("python", "Python tests", python_tests)
+    if "--quick" in words:
+        counts.stage("release", "release build", release_build)
+        counts.stage("fortran", "Fortran tests, of the release", quick_fortran_tests)
+        counts.stage("python", "tests of the interfaces", quick_python_tests)
+    else:
+        counts.stage("fortran", "Fortran tests, warnings as errors and traps on", fortran_tests)
+        counts.stage("release", "release build", release_build)
+        counts.stage("python", "Python tests", python_tests)
     if counts.passed + counts.failed == 0:
         print("no test ran")
         counts.failed = 1
@@ -790,6 +810,15 @@ def clean(what=""):
             shutil.rmtree(path)
 
 
+# Modules of the rooms that take some seconds each, which `test --quick` leaves out.
+QUICK_WITHOUT = ("normal/test_lattice_invariance", "tangential/test_sub_patch_forces")
+# What it runs of the interfaces: command line, Fortran, F77, C and Python.
+QUICK = tuple(f"test/{name}.py" for name in (
+    "cli/test_auto", "cli/test_bad_input", "cli/test_batch", "cli/test_columns",
+    "cli/test_contact", "cli/test_files", "cli/test_friction", "cli/test_integral",
+    "cli/test_profile", "cli/test_wear", "cli/test_wheelset", "cli/test_words",
+    "embed/test_callers", "embed/test_hosts", "embed/test_install", "embed/test_values",
+    "embed/test_python"))
 # Families that the force correction is fitted without, to judge it.
 LEFT_OUT = ("zones", "tanh+exp+wedge", "worn+hollow+waisted+double", "mixed+wheel",
             "unequal+flat+power+quartic")
@@ -803,7 +832,7 @@ STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in
     net, lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs,
     embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
-WORDS = {"test": 1, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
+WORDS = {"test": None, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
          "hostile": None, "stored": None, "report": None, "speed": None, "scale": None,
          "net": None, "lookup": None, "page": None, "release": None}
 

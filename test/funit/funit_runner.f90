@@ -7,20 +7,29 @@ module funit_runner
 
     public :: start_run, start_module, is_wanted, end_test, skip_test, end_module, end_run
 
-    character(len=:), allocatable, save :: filter, module_name
+    character(len=:), allocatable, save :: filter, left_out, module_name
     integer, save :: passed = 0, failed = 0, skipped = 0
     integer, save :: module_passed = 0, module_failed = 0, module_skipped = 0
 
 contains
 
-    !> Take the filter, a part of `room/module::test`, from the command line.
+    !> Take from the command line the filter, a part of `room/module::test`, and modules to be left
+    !> out, `room/module,room/module`.
     subroutine start_run()
+        filter = argument(1)
+        left_out = ',' // argument(2) // ','
+    end subroutine start_run
+
+    function argument(i) result(text)
+        integer, intent(in) :: i !! 1 for the first
+        character(len=:), allocatable :: text
+
         integer :: length
 
-        call get_command_argument(1, length=length)
-        allocate (character(len=length) :: filter)
-        if (length > 0) call get_command_argument(1, filter)
-    end subroutine start_run
+        call get_command_argument(i, length=length)
+        allocate (character(len=length) :: text)
+        if (length > 0) call get_command_argument(i, text)
+    end function argument
 
     subroutine start_module(name)
         character(len=*), intent(in) :: name !! `room/module`
@@ -34,7 +43,8 @@ contains
     logical function is_wanted(name)
         character(len=*), intent(in) :: name !! of the test
 
-        is_wanted = index(module_name // '::' // name, filter) > 0
+        is_wanted = index(module_name // '::' // name, filter) > 0 &
+                    .and. index(left_out, ',' // module_name // ',') == 0
     end function is_wanted
 
     !> Count a test that ran; tell its failures and forget them.
@@ -60,7 +70,7 @@ contains
         character(len=*), intent(in) :: name
 
         module_skipped = module_skipped + 1
-        write (output_unit, '(a)') 'skipped ' // module_name // '::' // name
+        write (output_unit, '(a)') 'skipped ' // module_name // '::' // name // ': disabled there'
     end subroutine skip_test
 
     subroutine end_module()

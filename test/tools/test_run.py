@@ -1,5 +1,6 @@
 """What ./run says and returns, in a small project of its own."""
 
+import io
 import os
 import pathlib
 import re
@@ -8,8 +9,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from harness import ROOT, module, test
+
+sys.path.insert(0, str(ROOT / "tools"))
+
+import steps  # noqa: E402
 
 MAIN = """\
 program main
@@ -126,14 +132,11 @@ class Usage(Project):
         self.assertEqual([name for name in ("build", ".venv") if (self.folder / name).exists()], [])
 
     def test_the_help_lists_every_step(self):
-        sys.path.insert(0, str(ROOT / "tools"))
-        try:
-            import steps
-        finally:
-            sys.path.remove(str(ROOT / "tools"))
         listed = re.findall(r"^  ([\w-]+) ", self.run_it("help").stdout, re.MULTILINE)
         self.assertEqual(sorted(listed), sorted([*steps.STEPS, "help"]))
         self.assertLessEqual(set(steps.WORDS), set(steps.STEPS))
+        for name in (*steps.QUICK, *(f"test/pf/{name}.pf" for name in steps.QUICK_WITHOUT)):
+            self.assertTrue((ROOT / name).is_file(), name)
         for word in ("-h", "--help", "help"):
             self.assertEqual(self.run_it(word).stdout, steps.__doc__)
         self.assertEqual(self.run_it().stdout, steps.__doc__)
@@ -161,6 +164,41 @@ class Cleaning(Project):
         self.assertEqual(self.run_it("clean", "all").returncode, 0)
         self.assertFalse((self.folder / ".venv").exists())
         self.assertEqual(self.run_it("clean").returncode, 0)
+
+
+class Telling(unittest.TestCase):
+    """How far a build is, by what fpm has written."""
+
+    LOG = "fpm: Entering\n[ 36%]   a.f90\n[ 37%]   a.f90  done.\n[ 37%]   b.f90\n"
+
+    def told(self, seconds, code=0, terminal=False):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder, "x.log")
+            log.write_text(self.LOG, encoding="utf-8")
+            said = io.StringIO()
+            said.isatty = lambda: terminal
+            with mock.patch.object(sys, "stderr", said), \
+                    mock.patch.multiple(steps.Progress, FIRST=0.6, EVERY=1.0):
+                words = [sys.executable, "-c", f"import time; time.sleep({seconds});"
+                                               f" raise SystemExit({code})"]
+                with subprocess.Popen(words) as process:
+                    self.assertEqual(steps.Progress("the tests", log).wait(process), code)
+        return said.getvalue().replace(str(log), "x.log")
+
+    def test_a_line_from_time_to_time(self):
+        said = self.told(3.0)
+        self.assertRegex(said, r"\Arun: building the tests \(log: x.log\)\n"
+                               r"(run: the tests: 37 %, 1 compiled, 0:0\d\n){2,}"
+                               r"run: the tests: done, 0:0\d\n\Z")
+        self.assertTrue(self.told(1.5, code=1).splitlines()[-1].startswith("run: the tests: fail"))
+
+    def test_one_line_on_a_terminal(self):
+        said = self.told(2.0, terminal=True)
+        self.assertRegex(said, r"\A(\rrun: the tests: 37 %, 1 compiled, 0:0\d\x1b\[K)+"
+                               r"\rrun: the tests: done, 0:0\d\x1b\[K\n\Z")
+
+    def test_nothing_of_what_is_soon_done(self):
+        self.assertEqual(self.told(0.0), "")
 
 
 class Installing(Project):
@@ -271,6 +309,21 @@ class FromNothing(Building):
             self.assertIn(f"== installed below {seen}\n", result.stdout)
             copied, = (self.folder / "build").rglob("*_kinds.f90.o")
             self.assertEqual(copied.read_bytes(), made.read_bytes())
+
+    def test_quick_compiles_nothing_twice_and_leaves_out_what_takes_long(self):
+        self.write("app/programs/faststrip.f90", MAIN.replace(
+            "    implicit none", "    use faststrip_base_kinds, only: wp\n    implicit none"
+            "\n    if (wp < 0) stop"))
+        self.assertEqual(self.run_it("build").returncode, 0)
+        made, = (self.folder / "app" / "build").rglob("*_kinds.f90.o")
+        made.write_bytes(made.read_bytes() + b"marked")
+        self.write("test/cli/test_contact.py", PYTHON)
+        self.write("test/pf/normal/test_lattice_invariance.pf",
+                   module("test_lattice_invariance", FAILING))
+        self.check(PASSING, 0, "3 passed, 0 failed", "--quick")
+        copied, = (self.folder / "test" / "build").rglob("*_kinds.f90.o")
+        self.assertEqual(copied.read_bytes(), made.read_bytes())
+        self.check(PASSING, 0, "1 passed, 0 failed", "--quick", "::passes")
 
     def test_a_build_that_fails_says_so(self):
         self.write("app/programs/faststrip.f90", MAIN.replace("print", "prnt"))
