@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Install faststrip below a prefix: program, library, modules, header, pkg-config file, man page.
+"""Install faststrip below a prefix: program, library, modules, header, man page, and what tells
+pkg-config and CMake about them.
 
     install.py --stage FOLDER --program FILE --prefix FOLDER
 
@@ -15,13 +16,15 @@ other languages need and what they must not see:
   -fno-underscoring, and for C.
 - The shared library has a soname, which changes when programs have to be linked anew, and a
   version at each name, so that a program built with a later release is refused by an older one.
-- The pkg-config file tells compilers where all that is, and what static linking needs more.
+- The pkg-config file and the CMake package tell compilers where all that is, and what static
+  linking needs more. The latter is the one that CMakeLists.txt makes, for find_package.
 """
 
 import argparse
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tomllib
@@ -43,6 +46,44 @@ Cflags: -I${{includedir}} -I${{includedir}}/faststrip
 Libs: -L${{libdir}} -lfaststrip
 Libs.private: {run_time}
 Requires.private: openblas
+"""
+
+CMAKE_CONFIG = """\
+# Gives the targets faststrip::faststrip, the shared library, and faststrip::static, the archive.
+include(CMakeFindDependencyMacro)
+find_dependency(LAPACK)
+if(NOT TARGET faststrip::faststrip)
+    get_filename_component(faststrip_PREFIX "${{CMAKE_CURRENT_LIST_DIR}}/../../.." ABSOLUTE)
+    add_library(faststrip::faststrip SHARED IMPORTED)
+    set_target_properties(faststrip::faststrip PROPERTIES
+        IMPORTED_LOCATION "${{faststrip_PREFIX}}/lib/libfaststrip.so.{version}"
+        IMPORTED_SONAME libfaststrip.so.{major})
+    add_library(faststrip::static STATIC IMPORTED)
+    set_target_properties(faststrip::static PROPERTIES
+        IMPORTED_LOCATION "${{faststrip_PREFIX}}/lib/libfaststrip.a"
+        INTERFACE_LINK_LIBRARIES "LAPACK::LAPACK;{run_time}")
+    set_property(TARGET faststrip::faststrip faststrip::static PROPERTY
+        INTERFACE_INCLUDE_DIRECTORIES
+        "${{faststrip_PREFIX}}/include" "${{faststrip_PREFIX}}/include/faststrip")
+endif()
+"""
+# As the soname: programs of an older release of the same major version go on.
+CMAKE_VERSION = """\
+set(PACKAGE_VERSION "{version}")
+if(PACKAGE_VERSION VERSION_LESS PACKAGE_FIND_VERSION
+        OR NOT "${{PACKAGE_FIND_VERSION_MAJOR}}" STREQUAL "{major}"
+        OR (PACKAGE_FIND_VERSION_RANGE AND PACKAGE_VERSION VERSION_GREATER
+            PACKAGE_FIND_VERSION_MAX))
+    set(PACKAGE_VERSION_COMPATIBLE FALSE)
+else()
+    set(PACKAGE_VERSION_COMPATIBLE TRUE)
+endif()
+if(PACKAGE_VERSION VERSION_EQUAL PACKAGE_FIND_VERSION)
+    set(PACKAGE_VERSION_EXACT TRUE)
+endif()
+if(CMAKE_SIZEOF_VOID_P AND NOT CMAKE_SIZEOF_VOID_P EQUAL {pointer})
+    set(PACKAGE_VERSION_UNSUITABLE TRUE)
+endif()
 """
 
 
@@ -139,7 +180,7 @@ def run_time_libraries():
     if command("gfortran", "-print-file-name=libquadmath.a").strip() == "libquadmath.a":
         names.remove("quadmath")
     wanted = ",".join(f"-u,{name}" for name in OF_THREADS)
-    return " ".join([f"-Wl,{wanted}", *(f"-l{name}" for name in names)])
+    return [f"-Wl,{wanted}", *(f"-l{name}" for name in names)]
 
 
 def main():
@@ -165,10 +206,16 @@ def main():
     page.parent.mkdir(parents=True, exist_ok=True)
     page.write_text(man_page(prefix / "bin" / "faststrip", version), encoding="utf-8")
     install_library(options.stage, prefix, version)
-    described = prefix / "lib" / "pkgconfig" / "faststrip.pc"
-    described.parent.mkdir(parents=True, exist_ok=True)
-    described.write_text(PKG_CONFIG.format(prefix=prefix, version=version,
-                                           run_time=run_time_libraries()), encoding="utf-8")
+    run_time = run_time_libraries()
+    about = {"prefix": prefix, "version": version, "major": version.split(".")[0],
+             "pointer": struct.calcsize("P")}
+    for name, text, separator in (("pkgconfig/faststrip.pc", PKG_CONFIG, " "),
+                                  ("cmake/faststrip/faststripConfig.cmake", CMAKE_CONFIG, ";"),
+                                  ("cmake/faststrip/faststripConfigVersion.cmake", CMAKE_VERSION,
+                                   ";")):
+        path = prefix / "lib" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text.format(run_time=separator.join(run_time), **about), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import tempfile
 import tomllib
 import unittest
 
-from installed import ROOT, readme_blocks
+from installed import ROOT, installation, readme_blocks
 
 PROGRAMS = pathlib.Path(sys.executable).parent
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
@@ -86,7 +86,63 @@ class CMakeTest(unittest.TestCase):
         return penetration, force
 
 
-class Installed(CMakeTest):
+class Finding:
+    """Hosts find the package below a prefix, wherever that is now."""
+
+    def host(self, name, language, source, version=""):
+        """A host of one language, configured and built in a folder of its own."""
+        self.write(f"{name}/CMakeLists.txt",
+                   FINDING.format(language=language, version=version, source=source))
+        shutil.copy(self.folder / source, self.folder / name)
+        folder = self.folder / name
+        self.cmake("-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.cmake("--build", folder / "build")
+        return folder / "build"
+
+    def test_hosts_find_the_package(self):
+        """In Fortran, F77 and C, each a project of this language alone."""
+        found = set()
+        for name, language, source in (("fortran", "Fortran", "caller.f90"),
+                                       ("f77", "Fortran", "caller.f"), ("c", "C", "caller.c")):
+            built = self.host(name, language, source)
+            for program in ("shared", "static"):
+                with self.subTest(language=name, program=program):
+                    found.add(self.results(built / program))
+                    needed = self.command("readelf", "-dW", built / program)
+                    self.assertNotRegex(needed, FORBIDDEN)
+                    wanted = self.assertIn if program == "shared" else self.assertNotIn
+                    wanted("libfaststrip.so.0", needed)
+        self.assertEqual(len(found), 1, found)
+
+    def test_the_version_is_judged(self):
+        major, minor, _ = self.version.split(".")
+        self.host("same", "C", "caller.c", f"{major}.{minor}")
+        for version in (f"{major}.{int(minor) + 1}", f"{int(major) + 1}.0"):
+            with self.subTest(version):
+                with self.assertRaisesRegex(AssertionError, "compatible with requested version"):
+                    self.host(f"other_{version}", "C", "caller.c", version)
+        self.assertIn(f'"{self.version}"',
+                      (self.prefix / "lib/cmake/faststrip/faststripConfigVersion.cmake").read_text(
+                          encoding="utf-8"))
+
+
+class InstalledByRun(Finding, CMakeTest):
+    """By ./run install."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.prefix = cls.folder / "moved here"
+        shutil.copytree(installation().prefix, cls.prefix, symlinks=True)
+
+    def test_no_place_is_remembered(self):
+        for path in (self.prefix / "lib" / "cmake").rglob("*.cmake"):
+            text = path.read_text(encoding="utf-8")
+            for place in (self.folder, ROOT, installation().prefix):
+                self.assertNotIn(str(place), text)
+
+
+class Installed(Finding, CMakeTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -129,42 +185,6 @@ class Installed(CMakeTest):
                     self.assertNotIn(str(self.folder), text)
                     self.assertNotIn(str(ROOT), text)
 
-    def host(self, name, language, source, version=""):
-        """A host of one language, configured and built in a folder of its own."""
-        self.write(f"{name}/CMakeLists.txt",
-                   FINDING.format(language=language, version=version, source=source))
-        shutil.copy(self.folder / source, self.folder / name)
-        folder = self.folder / name
-        self.cmake("-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        self.cmake("--build", folder / "build")
-        return folder / "build"
-
-    def test_hosts_find_the_package(self):
-        """In Fortran, F77 and C, each a project of this language alone."""
-        found = set()
-        for name, language, source in (("fortran", "Fortran", "caller.f90"),
-                                       ("f77", "Fortran", "caller.f"), ("c", "C", "caller.c")):
-            built = self.host(name, language, source)
-            for program in ("shared", "static"):
-                with self.subTest(language=name, program=program):
-                    found.add(self.results(built / program))
-                    needed = self.command("readelf", "-dW", built / program)
-                    self.assertNotRegex(needed, FORBIDDEN)
-                    wanted = self.assertIn if program == "shared" else self.assertNotIn
-                    wanted("libfaststrip.so.0", needed)
-        self.assertEqual(len(found), 1, found)
-
-    def test_the_version_is_judged(self):
-        major, minor, _ = self.version.split(".")
-        self.host("same", "C", "caller.c", f"{major}.{minor}")
-        for version in (f"{major}.{int(minor) + 1}", f"{int(major) + 1}.0"):
-            with self.subTest(version):
-                with self.assertRaisesRegex(AssertionError, "compatible with requested version"):
-                    self.host(f"other_{version}", "C", "caller.c", version)
-        self.assertIn(f'"{self.version}"',
-                      (self.prefix / "lib/cmake/faststrip/faststripConfigVersion.cmake").read_text(
-                          encoding="utf-8"))
-
     def test_pkg_config_finds_it_where_it_is_now(self):
         packages = {"PKG_CONFIG_PATH": str(self.prefix / "lib" / "pkgconfig")}
         self.assertEqual(
@@ -193,7 +213,6 @@ class Installed(CMakeTest):
                 self.assertEqual(names - {"FASTSTRIP_0.1"}, self.public_names())
 
     def public_names(self):
-        from installed import installation
         text = self.command("nm", "--defined-only", "--extern-only", installation().archive)
         return {line.split()[-1] for line in text.splitlines() if len(line.split()) == 3}
 

@@ -57,6 +57,8 @@ class Installed(HostTest):
         for name in ("bin/faststrip", "include/faststrip.h", "include/faststrip/faststrip.mod",
                      "lib/libfaststrip.a", "lib/libfaststrip.so", "lib/libfaststrip.so.0",
                      f"lib/libfaststrip.so.{self.version}", "lib/pkgconfig/faststrip.pc",
+                     "lib/cmake/faststrip/faststripConfig.cmake",
+                     "lib/cmake/faststrip/faststripConfigVersion.cmake",
                      "lib/faststrip/faststrip_netcdf.so", "share/man/man1/faststrip.1",
                      "share/doc/faststrip/LICENSE"):
             with self.subTest(name):
