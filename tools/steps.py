@@ -6,6 +6,8 @@
                 run all tests and lint, or those whose room/module::test contains TEXT; --quick:
                 rooms and interfaces only, by the release, and nothing that takes long
   lint [TEXT]   check the form of the sources: ruff, shellcheck, line lengths
+  bare [TEXT]   as root, where debootstrap can be had: demo and test, or test TEXT, in a bare Debian
+                12, as root and as a user without rights; in build/bare/, about an hour
   mutants [ROOM] [--only ID] [--jobs N] [--quick]
                 change one thing at a time in a copy and say which changes no test notices;
                 --quick asks the tests of the room only
@@ -554,6 +556,10 @@ def lint(text=""):
     do(sys.executable, "tools/lint.py", "--install", "--filter", text)
 
 
+def bare(*text):
+    do(sys.executable, "tools/bare.py", *(("--text", *text) if text else ()), "build/bare")
+
+
 def mutants(*words):
     do(sys.executable, "tools/run_mutants.py", *words)
 
@@ -828,13 +834,13 @@ FORCE_DATA = (("", 1, 14400), ("mixed", 2, 10000), ("ellipse", 3, 14000), ("zone
 FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 31), (31, 15),
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
-    build_step, test, lint, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
+    build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
     net, lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs,
     embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
-WORDS = {"test": None, "lint": 1, "fuzz": 1, "clean": 1, "install": None, "mutants": None,
-         "hostile": None, "stored": None, "report": None, "speed": None, "scale": None,
-         "net": None, "lookup": None, "page": None, "release": None}
+WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
+    "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",
+    "page", "release"))}
 
 
 def main(command="", *words):

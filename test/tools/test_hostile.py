@@ -12,9 +12,10 @@ from unittest import mock
 from harness import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
-import hostile  # noqa: E402
 import other_user  # noqa: E402
 import side_files  # noqa: E402
+
+import hostile  # noqa: E402
 
 # Generous: the machine may be ten times slower.
 SECONDS = "200"
