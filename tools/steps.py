@@ -823,8 +823,7 @@ QUICK = tuple(f"test/{name}.py" for name in (
     "cli/test_auto", "cli/test_bad_input", "cli/test_batch", "cli/test_columns",
     "cli/test_contact", "cli/test_files", "cli/test_friction", "cli/test_integral",
     "cli/test_profile", "cli/test_wear", "cli/test_wheelset", "cli/test_words",
-    "embed/test_callers", "embed/test_hosts", "embed/test_install", "embed/test_values",
-    "embed/test_python"))
+    "embed/test_callers", "embed/test_install", "embed/test_python", "embed/test_values"))
 # Families that the force correction is fitted without, to judge it.
 LEFT_OUT = ("zones", "tanh+exp+wedge", "worn+hollow+waisted+double", "mixed+wheel",
             "unequal+flat+power+quartic")
