@@ -94,9 +94,9 @@ def calls(name, constants):
 
 def call_rows(constants):
     for name in FACE:
-        for _, shown, arguments in calls(name, constants):
+        for _name, shown, arguments in calls(name, constants):
             cells = {"in": [], "out": []}
-            for names, kind, intent, words in arguments:
+            for names, _, intent, words in arguments:
                 if names == ["INFO"] and intent == "out" or \
                         names[0].startswith("IWORK(") and intent == "in":
                     continue
@@ -116,8 +116,7 @@ def place_rows():
         for block in re.findall(r"(?s)!> ```\n(.*?)!> ```", head):
             for line in block.splitlines():
                 line = line.removeprefix("!>").removeprefix(" ")
-                parts = [part for part in re.split(r" {2,}(?=[A-Z]{2,}\w*[( ])", line) if part.strip()]
-                for part in parts:
+                for part in filter(str.strip, re.split(r" {2,}(?=[A-Z]{2,}\w*[( ])", line)):
                     match = PLACE.fullmatch(part)
                     if match and not part.startswith(" "):
                         found.append([match[1], match[2].strip()])
