@@ -50,6 +50,7 @@ enum faststrip_status {
     FASTSTRIP_UNDER_RESOLVED = 8, /* an estimated error is above its limit */
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
+    FASTSTRIP_NO_WAVE = 11,      /* a conicity: no motion about the equilibrium turns there */
     FASTSTRIP_FIRST_ERROR = 100,
     FASTSTRIP_BAD_ARGUMENT = 100,
     FASTSTRIP_NOT_FINITE = 101,
@@ -332,12 +333,13 @@ int faststrip_kalker(double a_over_b, double nu, double coefficients[4]);
 
 /* The gap of a wheel on a rail, both given by points along the curve, y to the field side, z down,
  * mm, of the wheel from the tape circle. What cannot be touched, overhanging and upright sides, is
- * left out. setup: distance of the flange backs, flange back to tape circle, rolling radius, gauge,
- * its depth below the crown, tangent of the cant by which the rail is turned, shift of the wheelset
- * to the right, spacing of the gap and its largest height (mm but for the cant; 1360, 70, 460,
- * 1435, 14, 0, 0, 0.05, 0.6 for standard gauge). *n becomes the points of the gap, with 110 those
- * that capacity lacks. contact becomes the contact angle (rad), the rolling radius there, y on the
- * wheel and on the rail (mm), and how many points of the wheel and of the rail were left out. */
+ * left out. setup: distance of the flange backs (0: as belongs to the gauge), flange back to tape
+ * circle, rolling radius, gauge, its depth below the crown, rail inclination (below), shift of the
+ * wheelset to the right, spacing of the gap and its largest height (mm but for the inclination;
+ * 1360, 70, 460, 1435, 14, 0, 0, 0.05, 0.6 for standard gauge and a rail as in the track). *n
+ * becomes the points of the gap, with 110 those that capacity lacks. contact becomes the contact
+ * angle (rad), the rolling radius there, y on the wheel and on the rail (mm), and how many points
+ * of the wheel and of the rail were left out. */
 int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wheel, int n_rail,
                           const double *y_rail, const double *z_rail, const double setup[9],
                           int capacity, int *n, double *y, double *h, double *inv2r,
@@ -351,18 +353,32 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
  * The five structs may grow in later releases, at their ends; the setup's size says which of them
  * the caller was compiled with. */
 
-/* Dimensions, mm. Fill it in with faststrip_default_wheelset first. */
+/* The rail inclination is the tangent of the angle by which a rail leans to the track's centre:
+ * 0.025 for 1:40, 0 for points that lie as in the track. This stands where none was said: rails by
+ * name are then inclined by 1:40, of rails by points it is an error, FASTSTRIP_BAD_ARGUMENT. */
+#define FASTSTRIP_INCLINATION_UNSET 999.0
+
+/* Dimensions, mm. Fill it in with faststrip_default_wheelset first. A wheelset and a track that do
+ * not fit, as the gauge 1435 and flange backs 1440 apart, are refused by name. */
 typedef struct faststrip_wheelset_setup {
     size_t size;          /* of this struct as the caller knows it */
     double radius_right;  /* nominal radius at the tape circle, y = 0 of the wheel's profile */
     double radius_left;
-    double back_spacing;  /* distance of the flange backs */
+    double back_spacing;  /* distance of the flange backs; 0: that which belongs to the gauge, 1360
+                           * to 1435, 1440 to 1520 */
     double tread_line;    /* flange back to tape circle */
     double gauge;         /* distance of the gauge faces */
     double gauge_depth;   /* below the crown, where it is measured */
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
                            * gauge */
-    double cant;          /* tangent by which both rails are turned; 0: as they were measured */
+#if defined(__cplusplus) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L)
+    union {
+        double inclination; /* of both rails */
+        double cant;        /* its older name */
+    };
+#else
+    double inclination;   /* of both rails; cant where the compiler knows nameless unions */
+#endif
 } faststrip_wheelset_setup;
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
@@ -383,8 +399,8 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
                        size_t length);
 
 /* n points, at least two, of what can be touched of a profile, at equal distances of y: y to the
- * field side, z down, mm, of a rail turned by a cant (its tangent). */
-int faststrip_draw_profile(const faststrip_profile *profile, int is_rail, double cant, int n,
+ * field side, z down, mm, of a rail with its inclination. */
+int faststrip_draw_profile(const faststrip_profile *profile, int is_rail, double inclination, int n,
                            double *y, double *z, char *text, size_t length);
 
 /* Position and velocity of a wheelset; all zero: in the middle, at rest. */
@@ -486,7 +502,7 @@ typedef struct faststrip_wheelset_result {
 
 typedef struct faststrip_wheelset faststrip_wheelset;
 
-/* Standard gauge, wheels of 460 mm, rails canted by 1:40. length is sizeof setup. */
+/* Standard gauge, wheels of 460 mm, FASTSTRIP_INCLINATION_UNSET. length is sizeof setup. */
 int faststrip_default_wheelset(faststrip_wheelset_setup *setup, size_t length);
 
 /* Make a wheelset of its profiles, right and left; of the case material, friction, methods and
@@ -532,11 +548,14 @@ int faststrip_contact_functions(const faststrip_wheelset_setup *setup,
 
 /* Equivalent conicity by EN 15302:2008+A1:2010 over m amplitudes, mm, from a rolling radius
  * difference, of the side to which y points less that of the other, at n rising shifts y, mm.
- * equilibrium becomes the place where delta_r rises through zero and the largest amplitude that the
- * table holds. conicities becomes 6 m numbers, of each amplitude: tan gamma_e by Klingel's equation
- * (Annex B) and by linear regression (Annex C), both turning points, mm, and the nonlinearity of
- * both, 1/mm. states becomes two numbers of each: its status, with zeros where it is not 0 (100, no
- * amplitude; 109, beyond the table, or no motion turns there); 1, the nonlinearity is known. */
+ * equilibrium becomes the place nearest to y = 0 where delta_r passes through zero, about which the
+ * amplitudes are meant, and the largest amplitude that the table holds. conicities becomes 6 m
+ * numbers, of each amplitude: tan gamma_e by Klingel's equation (Annex B) and by linear regression
+ * (Annex C), both turning points, mm, and the nonlinearity of both, 1/mm. states becomes two
+ * numbers of each: its status, with zeros where it is an error (100, no amplitude; 109, beyond the
+ * table); 1, the nonlinearity is known. With FASTSTRIP_NO_WAVE delta_r falls through zero and no
+ * motion turns: Klingel's is 0, and instead of turning points there are the ends of the straight
+ * line; its conicity is below 0 where the wheelset leaves the equilibrium. */
 int faststrip_conicity(int n, const double *y, const double *delta_r, int m,
                        const double *amplitudes, double equilibrium[2], double *conicities,
                        int *states, char *text, size_t length);

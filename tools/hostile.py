@@ -274,6 +274,27 @@ def conicities(rng, i):
                files={"radii.csv": text_of(lines)}, may_pass=True)
 
 
+def pairs(rng, i):
+    """A number of one thing without the other, or of two that do not fit."""
+    rail, wheel = "  profile = 'uic60'", "  profile = 's1002'"
+    kind = i % 5
+    if kind == 0:
+        rail = rng.choice(["  profile = 'w.txt'", "  profile = 'w.txt', gauge_depth_mm = 1"])
+    elif kind == 1:
+        rail += f", cant = 0.025, inclination = {rng.choice(['0.025', '0', '1e400', 'NaN'])}"
+    elif kind == 2:
+        rail += f", {rng.choice(['cant', 'inclination'])} = {rng.choice([999, 25, -0.2, 1e300])}"
+    elif kind == 3:
+        rail += f", gauge_mm = {rng.choice([300, 914, 1000, 1067, 1480, 1600, 1668, 1e300])}"
+    else:
+        back = rng.choice([rng.uniform(1371, 1500), rng.uniform(100, 1290), 1e300])
+        wheel += f", back_spacing_mm = {back!r}"
+    lines = [{"  profile = 'uic60'": rail, "  profile = 'w.txt'": wheel}.get(line, line)
+             for line in PROFILES]
+    return Try("pairs", rng.choice([["contact", "prof.nml"], ["conicity", "prof.nml"]]),
+               files={"prof.nml": text_of(lines)})
+
+
 def batches(rng, i):
     names, cells = COLUMNS.split(","), ROW.split(",")
     kind = i % 8
@@ -563,10 +584,11 @@ def environments(rng, i):
 
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
-            "conicities": (conicities, 8), "batches": (batches, 12), "options": (options, 16),
-            "paths": (paths, 10), "side files": (side_files, 10), "permissions": (permissions, 2),
-            "special files": (special_files, 2), "signals": (signals, 3),
-            "endless work": (endless_work, 1), "environments": (environments, 3)}
+            "conicities": (conicities, 8), "pairs": (pairs, 6), "batches": (batches, 12),
+            "options": (options, 16), "paths": (paths, 10), "side files": (side_files, 10),
+            "permissions": (permissions, 2), "special files": (special_files, 2),
+            "signals": (signals, 3), "endless work": (endless_work, 1),
+            "environments": (environments, 3)}
 
 
 def snapshot(folder):

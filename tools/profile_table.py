@@ -63,9 +63,9 @@ def pairs(bank):
             text = f"'{path}'" + (", " + told if told else "")
             name = f"{path.name} {told}".strip()
             if path.suffix in (".prr", ".ban", ".mpt"):
-                yield "s1002", name, "'s1002'", text
+                yield "s1002", name, "'s1002'", text + ", inclination = 0"
             elif path.suffix in (".prw", ".whl"):
-                yield name, "60e1", text, "'60e1', cant = 0.025"
+                yield name, "60e1", text, "'60e1', inclination = 0.025"
 
 
 def main():

@@ -8,7 +8,8 @@ module faststrip_command_case_file
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
     use faststrip_command_case_friction, only: read_friction_group
-    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, shape_t, &
+    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, &
+                                               complete_wheelset, shape_t, &
                                                beside, path_length
     use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &
                                              not_given, take_list, need_as_many, case_groups
@@ -85,6 +86,7 @@ contains
         call read_material_group(content, case)
         call read_wheel_group(content, from_profiles, case%wheelset, case%wheel)
         call read_rail_group(content, from_profiles, case%track, case%rail)
+        if (from_profiles) call complete_wheelset(content, case%track, case%wheelset)
         call read_motion_group(content, from_profiles, case)
         call read_friction_group(content, case%mu, from_profiles, case%friction)
         call read_numerics_group(content, case)

@@ -4,7 +4,8 @@ module faststrip_command_case_profiles
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          make_curve_profile, standard_cant
+                                          make_curve_profile, unset_inclination
+    use faststrip_geometry_gauge_fit, only: find_back_spacing
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_geometry_touchable, only: touchable_t, touchable_words
@@ -19,7 +20,8 @@ module faststrip_command_case_profiles
     implicit none
     private
 
-    public :: read_wheel_group, read_rail_group, shape_t, left_wheel_t, beside, path_length
+    public :: read_wheel_group, read_rail_group, complete_wheelset, shape_t, left_wheel_t, beside
+    public :: path_length
 
     integer, parameter :: path_length = 512
     ! Of a file with both sides.
@@ -30,9 +32,9 @@ module faststrip_command_case_profiles
         'tread_line_mm', 'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', &
         'any_count', 'ignore_smoothing', 'tape_circle_mm']
     character(len=name_length), parameter :: rail_names(*) = [character(len=name_length) :: &
-        'profile', 'profile_left', 'cant', 'gauge_mm', 'gauge_depth_mm', 'rail_distance_mm', &
-        'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', 'any_count', &
-        'ignore_smoothing']
+        'profile', 'profile_left', 'inclination', 'cant', 'gauge_mm', 'gauge_depth_mm', &
+        'rail_distance_mm', 'y_positive_to', 'z_positive_to', 'unit', 'section', 'side', &
+        'any_count', 'ignore_smoothing']
 
     !> A profile that a case file names.
     type :: shape_t
@@ -63,7 +65,8 @@ contains
     subroutine read_wheel_group(content, required, wheelset, right, left)
         type(namelist_file_t), intent(in) :: content       !! a case file
         logical, intent(in) :: required                    !! else nothing is taken
-        type(wheelset_t), intent(inout) :: wheelset        !! mm; radius of the right wheel
+        type(wheelset_t), intent(inout) :: wheelset        !! mm; radius of the right wheel; flange
+                                                           !! backs 0 apart where nothing is said
         type(shape_t), intent(inout) :: right              !! the right wheel
         type(left_wheel_t), intent(inout), optional :: left !! the left wheel
 
@@ -111,6 +114,8 @@ contains
         call need_positive(content, group, 'radius_left_mm', radius_left_mm)
         call need_positive(content, group, 'back_spacing_mm', back_spacing_mm)
         call need_positive(content, group, 'tread_line_mm', tread_line_mm)
+        ! Where it is not said it follows from the track.
+        if (.not. sets(content, group, 'back_spacing_mm')) back_spacing_mm = 0.0_wp
         wheelset = wheelset_t(back_spacing_mm, tread_line_mm, radius_mm)
         call need_finite(content, group, 'tape_circle_mm', tape_circle_mm)
         options%kind = body_wheel
@@ -145,7 +150,7 @@ contains
             call make_wheel_profile(trim(profile), shape%profile, status)
             call fail_on_error(status)
         case default
-            call read_points(content, profile, options, 0.0_wp, shape)
+            call read_points(content, group, profile, options, 0.0_wp, shape)
         end select
     end subroutine take_wheel
 
@@ -161,9 +166,10 @@ contains
         character(len=word_length) :: y_positive_to, z_positive_to, unit, side
         integer :: section
         logical :: any_count, ignore_smoothing
-        real(wp) :: cant, gauge_mm, gauge_depth_mm, rail_distance_mm
-        namelist /rail/ profile, profile_left, cant, gauge_mm, gauge_depth_mm, rail_distance_mm, &
-            y_positive_to, z_positive_to, unit, section, side, any_count, ignore_smoothing
+        real(wp) :: inclination, cant, gauge_mm, gauge_depth_mm, rail_distance_mm
+        namelist /rail/ profile, profile_left, inclination, cant, gauge_mm, gauge_depth_mm, &
+            rail_distance_mm, y_positive_to, z_positive_to, unit, section, side, any_count, &
+            ignore_smoothing
         type(file_words_t) :: default
         type(profile_options_t) :: options
         type(group_t) :: group
@@ -172,7 +178,8 @@ contains
 
         profile = ''
         profile_left = ''
-        cant = unset()
+        inclination = unset_inclination
+        cant = unset_inclination
         gauge_mm = track%gauge
         gauge_depth_mm = track%gauge_depth
         rail_distance_mm = unset()
@@ -205,45 +212,73 @@ contains
                             number_text(rail_distance_mm))
             track%rail_distance = rail_distance_mm
         end if
+        call take_alias()
         options%kind = body_rail
         call take_words(content, group, file_words_t(y_positive_to, z_positive_to, unit, side, &
                         section, any_count, ignore_smoothing), options)
-        call take_rail(content, group, 'profile', profile, cant, options, right)
+        call take_rail(content, group, 'profile', profile, inclination, options, right)
         if (.not. present(left)) return
         left = right
         if (.not. sets(content, group, 'profile_left')) return
         options%side = left_side
-        call take_rail(content, group, 'profile_left', profile_left, cant, options, left)
+        call take_rail(content, group, 'profile_left', profile_left, inclination, options, left)
+
+    contains
+
+        !> The older name of the inclination.
+        subroutine take_alias()
+            if (.not. sets(content, group, 'cant')) return
+            if (sets(content, group, 'inclination')) call refuse(content, group, 'cant', &
+                'must not be given with inclination, which is its name', number_text(cant))
+            inclination = cant
+        end subroutine take_alias
     end subroutine read_rail_group
 
     !> The rail of a name, or of a file.
-    subroutine take_rail(content, group, key, profile, given_cant, options, shape)
+    subroutine take_rail(content, group, key, profile, inclination, options, shape)
         type(namelist_file_t), intent(in) :: content
         type(group_t), intent(in) :: group
         character(len=*), intent(in) :: key, profile
-        real(wp), intent(in) :: given_cant
+        real(wp), intent(in) :: inclination
         type(profile_options_t), intent(in) :: options
         type(shape_t), intent(inout) :: shape
 
-        real(wp) :: cant
+        character(len=name_length) :: name
         type(status_t) :: status
 
-        ! A drawn profile stands upright; a measured one is taken as it stands.
-        cant = given_cant
-        if (.not. sets(content, group, 'cant')) &
-            cant = merge(standard_cant, 0.0_wp, any(profile == ['uic60', '60e1 ', '54e1 ']))
-        call need_finite(content, group, 'cant', cant)
+        name = merge('cant       ', 'inclination', sets(content, group, 'cant'))
+        call need_finite(content, group, trim(name), inclination)
+        if (sets(content, group, trim(name)) .and. abs(inclination) > 1.0_wp) &
+            call refuse(content, group, trim(name), 'must be the tangent of the rail ' // &
+                        'inclination, -1 to 1', number_text(inclination))
         shape%name = trim(profile)
         shape%words = ''
         select case (profile)
         case (''); call refuse(content, group, key, 'must be given', '')
         case ('uic60', '60e1', '54e1')
-            call make_rail_profile(trim(profile), cant, shape%profile, status)
-            if (is_error(status)) call refuse(content, group, 'cant', status%message, '')
+            call make_rail_profile(trim(profile), inclination, shape%profile, status)
+            if (is_error(status)) call refuse(content, group, trim(name), status%message, '')
         case default
-            call read_points(content, profile, options, cant, shape)
+            call read_points(content, group, profile, options, inclination, shape)
         end select
     end subroutine take_rail
+
+    !> Flange backs of which nothing is said are as far apart as belongs to the track.
+    subroutine complete_wheelset(content, track, wheelset)
+        type(namelist_file_t), intent(in) :: content !! a case file, both groups read
+        type(track_t), intent(in) :: track           !! mm
+        type(wheelset_t), intent(inout) :: wheelset  !! mm
+
+        type(group_t) :: group
+        type(status_t) :: status
+
+        if (abs(wheelset%back_spacing) > 0.0_wp) return
+        call find_back_spacing(track%gauge, track%rail_distance, wheelset%back_spacing, status)
+        if (.not. is_error(status)) return
+        call find_group(content, 'wheel', .true., group)
+        call refuse(content, group, 'back_spacing_mm', &
+                    trim(status%message(index(status%message, 'must'):)), '')
+    end subroutine complete_wheelset
 
     !> What knows one wheel takes no name of the other side.
     subroutine refuse_left(content, group, names)
@@ -295,11 +330,12 @@ contains
         end function sense_of
     end subroutine take_words
 
-    subroutine read_points(content, path, options, cant, shape)
+    subroutine read_points(content, group, path, options, inclination, shape)
         type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
         character(len=*), intent(in) :: path
         type(profile_options_t), intent(in) :: options
-        real(wp), intent(in) :: cant
+        real(wp), intent(in) :: inclination
         type(shape_t), intent(inout) :: shape
 
         type(status_t) :: status
@@ -311,8 +347,13 @@ contains
         call take_input(file)
         call read_profile(file, options, points, status)
         call fail_on_error(status)
-        call make_curve_profile(points%y, points%z, options%kind, cant, standard_kink_angle, &
-                                shape%profile, part, status)
+        ! Only who measured a rail knows how it stands.
+        if (.not. abs(inclination - unset_inclination) > 0.0_wp) &
+            call refuse(content, group, 'inclination', 'must be given for the rail of ' // &
+                        trim(path) // ': 0 if it stands as in the track, 0.025 to turn it by ' // &
+                        '1:40', '')
+        call make_curve_profile(points%y, points%z, options%kind, inclination, &
+                                standard_kink_angle, shape%profile, part, status)
         call fail_on_error(status, file)
         shape%words = trim(touchable_words(part))
         if (points%notes /= '' .and. len(shape%words) > 0) shape%words = '; ' // shape%words

@@ -2,7 +2,7 @@
 module faststrip_command_conicity
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word, &
-                                     st_out_of_range, st_not_increasing
+                                     st_out_of_range, st_not_increasing, st_no_wave
     use faststrip_base_text, only: integer_text, parse_real, trim_blanks, set_place_status
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
                                    cell_text, column_index, open_csv, put_comment, put_header, &
@@ -37,6 +37,7 @@ module faststrip_command_conicity
     !> What was found of the amplitudes.
     type :: values_t
         real(wp) :: y_equilibrium = 0.0_wp            ! mm
+        logical :: falls = .false.                    ! does delta r fall there?
         real(wp) :: largest = 0.0_wp                  ! amplitude that the table holds, mm
         type(conicity_t), allocatable :: found(:)
         type(status_t), allocatable :: states(:)
@@ -112,7 +113,7 @@ contains
             y = functions%shift
             delta_r = functions%delta_r
         end if
-        call find_equilibrium(y, delta_r, values%y_equilibrium, status)
+        call find_equilibrium(y, delta_r, values%y_equilibrium, status, values%falls)
         call fail_on_error(status, path)
         values%largest = largest_amplitude(y, delta_r, values%y_equilibrium)
         if (.not. allocated(amplitudes)) call take_steps(command, path, values%largest, amplitudes)
@@ -237,7 +238,7 @@ contains
         do i = 1, size(amplitudes)
             call find_conicity(y, delta_r, values%y_equilibrium, amplitudes(i), values%found(i), &
                                values%states(i))
-            ! Within the table an amplitude without a motion is a result, and the others stand.
+            ! Within the table an amplitude whose line passes its end leaves the others.
             if (values%states(i)%code /= st_out_of_range .or. amplitudes(i) > values%largest) &
                 call fail_on_error(values%states(i), path)
         end do
@@ -258,6 +259,9 @@ contains
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'equivalent conicity, EN 15302:2008+A1:2010')
+        call put_comment(writer, 'equilibrium at y = ' // &
+                         trim(number_text(values%y_equilibrium)) // ' mm, where delta r ' // &
+                         trim(merge('falls', 'rises', values%falls)))
         if (.not. from_table) call put_wheelset(writer, case)
         call put_header(writer, [character(len=19) :: 'amplitude_mm', 'tan_gamma_e', 'y_min_mm', &
                                  'y_max_mm', 'regression', 'nonlinearity_per_mm', 'method', &
@@ -266,7 +270,8 @@ contains
         do i = 1, size(amplitudes)
             associate (found => values%found(i), is_there => .not. is_error(values%states(i)))
                 call put_cell(writer, amplitudes(i))
-                call put_known(merge(found%regression, found%klingel, taken == 2), is_there)
+                call put_known(merge(found%regression, found%klingel, taken == 2), is_there .and. &
+                               (taken == 2 .or. values%states(i)%code /= st_no_wave))
                 call put_known(found%y_min, is_there)
                 call put_known(found%y_max, is_there)
                 call put_known(found%regression, is_there)

@@ -113,12 +113,24 @@ contains
         call put_comment(writer, 'left wheel ' // case%left_wheel%name // ', rail ' &
                          // case%left_rail%name // ', radius ' &
                          // trim(number_text(case%left_wheel%radius)) // ' mm')
+        call put_comment(writer, 'gauge ' // track_text() // ', flange backs ' // &
+                         trim(number_text(case%wheelset%back_spacing)) // ' mm apart')
         call tell(case%right_wheel%words)
         call tell(case%right_rail%words)
         if (case%left_wheel%name /= case%right_wheel%name) call tell(case%left_wheel%words)
         if (case%left_rail%name /= case%right_rail%name) call tell(case%left_rail%words)
 
     contains
+
+        function track_text() result(text)
+            character(len=:), allocatable :: text
+
+            if (abs(case%track%rail_distance) > 0.0_wp) then
+                text = 'as of rails ' // trim(number_text(case%track%rail_distance)) // ' mm apart'
+            else
+                text = trim(number_text(case%track%gauge)) // ' mm'
+            end if
+        end function track_text
 
         subroutine tell(words)
             character(len=*), intent(in) :: words

@@ -36,7 +36,7 @@ module faststrip_command_profile_curation
     end type curation_t
 
     !> The options of the command line.
-    type(option_t), parameter :: curation_options(14) = [ &
+    type(option_t), parameter :: curation_options(15) = [ &
         option_t('--keep', 'FROM,TO', 'keep the points in this range of y, mm'), &
         option_t('--drop-double', 'MM', 'drop points no farther from the one before (0: in one' // &
                  new_line('a') // 'place)'), &
@@ -45,7 +45,9 @@ module faststrip_command_profile_curation
         option_t('--shift-y', 'MM', 'shift along y'), &
         option_t('--shift-z', 'MM', 'shift along z'), &
         option_t('--rotate', 'DEG', 'turn about the origin, from y to z'), &
-        option_t('--cant', 'TANGENT', 'turn a rail so that its top leans to the gauge side'), &
+        option_t('--inclination', 'TANGENT', 'turn a rail so that its top leans to the gauge' // &
+                 new_line('a') // 'side, 0.025 for 1:40'), &
+        option_t('--cant', 'TANGENT', 'the same, by its older name'), &
         option_t('--smooth-wavelength', 'MM', 'halve waves of this length, remove shorter ones'), &
         option_t('--smooth-noise', 'UM', 'smooth for this standard deviation of the points'), &
         option_t('--resample', 'MM', 'points at this distance along the profile'), &
@@ -77,13 +79,16 @@ contains
                 call refuse_value(command, '--keep', 'FROM,TO, the second number larger')
             curation%keeps = .true.
         end if
+        if (given(command, '--inclination') .and. given(command, '--cant')) &
+            call refuse_value(command, '--cant', 'given without --inclination, which is its name')
         curation%double = option_number(command, '--drop-double', -1.0_wp, least=0)
         curation%folds = given(command, '--drop-folds')
         curation%mirror = given(command, '--mirror')
         curation%shift = [option_number(command, '--shift-y', 0.0_wp), &
                           option_number(command, '--shift-z', 0.0_wp)]
         curation%turn = degree*option_number(command, '--rotate', 0.0_wp) &
-                        - atan(option_number(command, '--cant', 0.0_wp))
+                        - atan(option_number(command, '--inclination', &
+                                             option_number(command, '--cant', 0.0_wp)))
         curation%wavelength = option_number(command, '--smooth-wavelength', 0.0_wp, above=0)
         curation%noise = mm_per_um*option_number(command, '--smooth-noise', 0.0_wp, above=0)
         if (curation%wavelength > 0.0_wp .and. curation%noise > 0.0_wp) &

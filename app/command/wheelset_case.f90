@@ -9,7 +9,8 @@ module faststrip_command_wheelset_case
     use faststrip_wheelset_solve, only: make_wheelset
     use faststrip_command_case_file, only: case_t, read_material_group, read_numerics_group
     use faststrip_command_case_friction, only: read_friction_group
-    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, shape_t, &
+    use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, &
+                                               complete_wheelset, shape_t, &
                                                left_wheel_t
     use faststrip_command_case_values, only: unset, case_groups
     use faststrip_command_console, only: fail_on_error
@@ -55,6 +56,7 @@ contains
         call read_friction_group(content, case%mu, .true., case%friction)
         call read_wheel_group(content, .true., case%wheelset, case%wheel, case%left_wheel)
         call read_rail_group(content, .true., case%track, case%rail, case%left_rail)
+        call complete_wheelset(content, case%track, case%wheelset)
         call read_numerics_group(content, case%case_t)
         call find_group(content, 'numerics', .false., group)
         if (case%numerics%normal == normal_auto &

@@ -578,7 +578,8 @@ static void wheelsets_that_are_none(void)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup - 8));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup + 8));
     EXPECT(0, faststrip_default_wheelset(&setup, sizeof setup));
-    EXPECT(1, setup.radius_right == 460.0 && setup.radius_left == 460.0 && setup.cant == 0.025);
+    EXPECT(1, setup.radius_right == 460.0 && setup.radius_left == 460.0);
+    EXPECT(1, setup.inclination == FASTSTRIP_INCLINATION_UNSET);
     EXPECT(1, setup.back_spacing == 1360.0 && setup.tread_line == 70.0 && setup.gauge == 1435.0);
     EXPECT(1, setup.gauge_depth == 14.0 && setup.rail_distance == 0.0);
     EXPECT(FASTSTRIP_BAD_ARGUMENT,

@@ -36,7 +36,7 @@ static faststrip_wheelset *make_wheelset(int of_points)
     contact.mu = 0.35;
     contact.strips_per_patch = 9;
     setup.radius_left = 460.25;
-    setup.cant = 0.05;
+    setup.inclination = 0.05;
     memset(wheels, 0, sizeof wheels);
     memset(rails, 0, sizeof rails);
     wheels[0].name = "s1002";

@@ -82,17 +82,18 @@ class Conicity(Table):
     tan_gamma_e : ndarray of float, shape (n,)
         By Klingel's equation, Annex B.
     regression : ndarray of float, shape (n,)
-        By linear regression, Annex C.
+        By linear regression, Annex C; below 0 where the wheelset leaves the equilibrium.
     y_min, y_max : ndarray of float, shape (n,)
-        Turning points, mm.
+        Turning points, mm; without a wave the ends of the straight line.
     nonlinearity : ndarray of float, shape (n,)
         Half of what tan_gamma_e rises from 1 mm less to 1 mm more, 1/mm.
     nonlinearity_regression : ndarray of float, shape (n,)
         The same by regression, 1/mm.
     words : tuple of str
-        For each amplitude ``ok``, or ``out_of_range``: beyond the table, or no motion turns.
+        For each amplitude ``ok``, ``no_wave`` where delta_r falls through zero and no motion turns,
+        or ``out_of_range``: beyond the table.
     y_equilibrium : float
-        Where delta_r rises through zero, mm.
+        Where delta_r passes through zero nearest to y = 0, mm: about it the amplitudes are meant.
     largest_amplitude : float
         That the table holds, mm.
     """
@@ -140,16 +141,16 @@ class Conicity(Table):
 def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: npt.ArrayLike, *,
                       wheel_left: Union[None, str, Profile] = None,
                       rail_left: Union[None, str, Profile] = None, radius: float = 460.0,
-                      radius_left: Optional[float] = None, back_spacing: float = 1360.0,
+                      radius_left: Optional[float] = None, back_spacing: Optional[float] = None,
                       tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
-                      rail_distance: Optional[float] = None, cant: float = 0.025,
-                      roll: bool = False) -> ContactFunctions:
+                      rail_distance: Optional[float] = None, inclination: Optional[float] = None,
+                      cant: Optional[float] = None, roll: bool = False) -> ContactFunctions:
     """The rolling radius difference, radii, contact angles and roll over the lateral shift.
 
     Parameters
     ----------
     wheel, rail, wheel_left, rail_left, radius, radius_left, back_spacing, tread_line, gauge, \
-gauge_depth, rail_distance, cant
+gauge_depth, rail_distance, inclination, cant
         As of a `Wheelset`.
     y : array_like, shape (n,)
         Shifts to the right, mm.
@@ -170,7 +171,7 @@ gauge_depth, rail_distance, cant
     shifts = _row("y", y)
     setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                     back_spacing, tread_line, gauge, gauge_depth, rail_distance,
-                                    cant)
+                                    inclination, cant)
     functions = np.zeros((shifts.size, N_FUNCTIONS))
     states = np.zeros(shifts.size, dtype=np.int32)
     _call(library.faststrip_contact_functions, ctypes.byref(setup), wheels, rails,
@@ -208,7 +209,8 @@ def conicity(y: npt.ArrayLike, delta_r: npt.ArrayLike, amplitudes: npt.ArrayLike
     _call(library.faststrip_conicity, shifts.size, shifts.ctypes.data, radii.ctypes.data,
           wanted.size, wanted.ctypes.data, equilibrium.ctypes.data, found.ctypes.data,
           states.ctypes.data)
-    found[states[:, 0] != 0] = np.nan
+    found[states[:, 0] >= FIRST_ERROR] = np.nan
+    found[states[:, 0] != 0, 0] = np.nan
     found[states[:, 1] == 0, 4:] = np.nan
     figures: Tuple[Any, ...] = (*found.T.copy(), tuple(map(word_of, states[:, 0].tolist())),
                                 *equilibrium.tolist())

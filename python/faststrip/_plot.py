@@ -259,8 +259,8 @@ def _patch_axes(axes: Any, title: str) -> None:
 
 
 def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
-                  gap: Optional[Gap] = None, *, cant: Optional[float] = None,
-                  axes: Any = None) -> Any:
+                  gap: Optional[Gap] = None, *, inclination: Optional[float] = None,
+                  cant: Optional[float] = None, axes: Any = None) -> Any:
     """Draw a wheel on a rail, z down, mm; the axes are given back.
 
     Parameters
@@ -270,8 +270,8 @@ def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
     gap : Gap
         Of both, by `profile_gap`: the wheel then stands on the rail where they touch, and the
         place is marked. Without one both are drawn in the axes of their own.
-    cant : float
-        Tangent by which the rail is turned, as it was for the gap.
+    inclination, cant : float, optional
+        Of the rail, as it was for the gap.
     axes : matplotlib.axes.Axes
         To draw on; new ones unless given.
 
@@ -279,7 +279,7 @@ def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
     -------
     matplotlib.axes.Axes
     """
-    y_rail, z_rail = draw_profile(rail, "rail", cant=cant)
+    y_rail, z_rail = draw_profile(rail, "rail", inclination=inclination, cant=cant)
     y_wheel, z_wheel = draw_profile(wheel, "wheel")
     with _styled():
         if axes is None:

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Dict, Iterator, List, Optional, Sequence, Tupl
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import number, numbers, refused, whole
+from ._arguments import above_zero, number, numbers, refused, whole
 from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, library, word_of
 from ._record import Table
 
@@ -24,8 +24,9 @@ Path = Union[str, "os.PathLike[str]"]
 FILE_FORMAT = 121
 FIRST_CAPACITY = 4000
 MOST_POINTS = 1000000
-# Of drawn rails, which stand upright; measured ones are taken as they stand.
-STANDARD_CANT = 0.025
+# What the library takes for an inclination of which nothing is said: 1:40 of a name, an error of
+# points.
+UNSET_INCLINATION = 999.0
 
 
 class Points(ctypes.Structure):
@@ -237,11 +238,22 @@ def points_of(name: str, profile: Any, kind: str) -> Points:
     return Points(None, profile.y.ctypes.data, profile.z.ctypes.data, len(profile.y))
 
 
-def cant_of(rail: Union[str, Profile], cant: Optional[float]) -> float:
-    """The cant of a rail where none was told: 1:40 of a drawn one, none of a measured one."""
-    if cant is None:
-        return STANDARD_CANT if isinstance(rail, str) else 0.0
-    return number("cant", cant)
+def inclination_of(inclination: Optional[float], cant: Optional[float]) -> float:
+    """The rail inclination as the library takes it; cant is its older name."""
+    if inclination is None and cant is None:
+        return UNSET_INCLINATION
+    if inclination is not None and cant is not None:
+        raise refused("cant", "None where inclination, its name, is given", cant)
+    name, value = ("inclination", inclination) if cant is None else ("cant", cant)
+    said = number(name, value)
+    if abs(said) > 1.0:
+        raise refused(name, "a tangent, -1 to 1", value)
+    return said
+
+
+def spacing_of(back_spacing: Optional[float]) -> float:
+    """The distance of the flange backs as the library takes it; 0 follows the gauge."""
+    return 0.0 if back_spacing is None else above_zero("back_spacing", back_spacing)
 
 
 def _raise(status: int, text: Any) -> None:
@@ -250,7 +262,8 @@ def _raise(status: int, text: Any) -> None:
 
 
 def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift: float = 0.0,
-                cant: Optional[float] = None, radius: float = 460.0, back_spacing: float = 1360.0,
+                inclination: Optional[float] = None, cant: Optional[float] = None,
+                radius: float = 460.0, back_spacing: Optional[float] = None,
                 tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                 step: float = 0.05, height: float = 0.6) -> Gap:
     """The gap of a right wheel on the right rail about their contact.
@@ -261,13 +274,16 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
         A name or a profile, as of a `Wheelset`.
     shift : float
         Of the wheelset to the right, mm.
+    inclination : float, optional
+        Rail inclination: the tangent by which the rail leans to the track's centre. Unless said
+        0.025 (1:40) for a name; a Profile must have one: 0 where its points lie as in the track.
     cant : float, optional
-        Tangent by which the rail is turned: unless told otherwise 0.025 (1:40) for a name, and 0
-        for a Profile, which is taken as it was measured in the track.
+        The same, by its older name.
     radius : float
         Rolling radius at the tape circle, mm.
-    back_spacing : float
-        Distance of the flange backs, mm.
+    back_spacing : float, optional
+        Distance of the flange backs, mm; unless said that which belongs to the gauge: 1360 to 1435,
+        1440 to 1520.
     tread_line : float
         From the flange back to the tape circle, mm.
     gauge, gauge_depth : float
@@ -288,9 +304,10 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
     """
     sources = points_of("wheel", wheel, "wheel"), points_of("rail", rail, "rail")
     setup = np.array(numbers(
-        ("back_spacing", "tread_line", "radius", "gauge", "gauge_depth", "cant", "shift", "step",
-         "height"), (back_spacing, tread_line, radius, gauge, gauge_depth, cant_of(rail, cant),
-                     shift, step, height)))
+        ("back_spacing", "tread_line", "radius", "gauge", "gauge_depth", "inclination", "shift",
+         "step", "height"),
+        (spacing_of(back_spacing), tread_line, radius, gauge, gauge_depth,
+         inclination_of(inclination, cant), shift, step, height)))
     n, capacity, text = ctypes.c_int(), FIRST_CAPACITY, ctypes.create_string_buffer(TEXT)
     contact = np.zeros(6)
     while True:
@@ -308,8 +325,8 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
                (int(clipped[0]), int(clipped[1])))
 
 
-def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[float] = None,
-                 n: int = 401) -> Tuple[Array, Array]:
+def draw_profile(profile: Union[str, Profile], kind: str, *, inclination: Optional[float] = None,
+                 cant: Optional[float] = None, n: int = 401) -> Tuple[Array, Array]:
     """Points of what can be touched of a profile, at equal distances of y.
 
     Parameters
@@ -318,8 +335,8 @@ def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[floa
         A name or a profile, as of a `Wheelset`.
     kind : str
         ``wheel`` or ``rail``.
-    cant : float, optional
-        Tangent by which a rail is turned, as of `profile_gap`.
+    inclination, cant : float, optional
+        Of a rail, as of `profile_gap`.
     n : int
         How many points, from 2 on.
 
@@ -330,7 +347,7 @@ def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[floa
 
     Examples
     --------
-    >>> y, z = draw_profile("60e1", "rail", cant=0.0, n=3)
+    >>> y, z = draw_profile("60e1", "rail", inclination=0.0, n=3)
     >>> y.round(3).tolist()
     [-37.15, 0.0, 37.15]
     """
@@ -340,7 +357,7 @@ def draw_profile(profile: Union[str, Profile], kind: str, *, cant: Optional[floa
     arrays = np.zeros((2, whole("n", n, 2, MOST_POINTS)))
     text = ctypes.create_string_buffer(TEXT)
     status = library.faststrip_draw_profile(
-        ctypes.byref(source), kind == "rail", cant_of(profile, cant), n,
+        ctypes.byref(source), kind == "rail", inclination_of(inclination, cant), n,
         *(row.ctypes.data for row in arrays), text, TEXT)
     _raise(status, text)
     return arrays[0], arrays[1]

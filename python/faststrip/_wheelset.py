@@ -23,7 +23,7 @@ from ._library import (
     library,
     word_of,
 )
-from ._profile import FIRST_CAPACITY, Points, Profile, points_of
+from ._profile import FIRST_CAPACITY, Points, Profile, inclination_of, points_of, spacing_of
 from ._record import Record, Table
 from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
@@ -43,7 +43,7 @@ class Setup(ctypes.Structure):
 
     _fields_ = [("size", c_size_t), *((name, c_double) for name in (
         "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-        "rail_distance", "cant"))]
+        "rail_distance", "inclination"))]
 
 
 class State(ctypes.Structure):
@@ -187,14 +187,15 @@ def _contact_of(row: Row) -> WheelContact:
 
 def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any, radius_left: Any,
              back_spacing: Any, tread_line: Any, gauge: Any, gauge_depth: Any, rail_distance: Any,
-             cant: Any) -> Tuple[Setup, Any, Any]:
+             inclination: Any, cant: Any) -> Tuple[Setup, Any, Any]:
     """Dimensions and profiles as the library takes them."""
     left = radius if radius_left is None else radius_left
     distance = 0.0 if rail_distance is None else above_zero("rail_distance", rail_distance)
     setup = Setup(ctypes.sizeof(Setup), *numbers(
         ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-         "rail_distance", "cant"),
-        (radius, left, back_spacing, tread_line, gauge, gauge_depth, distance, cant)))
+         "rail_distance", "inclination"),
+        (radius, left, spacing_of(back_spacing), tread_line, gauge, gauge_depth, distance,
+         inclination_of(inclination, cant))))
     wheels = (Points * 2)(points_of("wheel", wheel, "wheel"), Points() if wheel_left is None
                           else points_of("wheel_left", wheel_left, "wheel"))
     rails = (Points * 2)(points_of("rail", rail, "rail"), Points() if rail_left is None
@@ -281,16 +282,20 @@ class Wheelset:
         Of the left side; alike unless told otherwise.
     radius, radius_left : float
         Rolling radii at the tape circle, mm; alike unless told otherwise.
-    back_spacing : float
-        Distance of the flange backs, mm.
+    back_spacing : float, optional
+        Distance of the flange backs, mm; unless said that which belongs to the gauge: 1360 to 1435,
+        1440 to 1520.
     tread_line : float
         From the flange back to the tape circle, mm.
     gauge, gauge_depth : float
         Gauge, and how far below the crown it is measured, mm.
     rail_distance : float, optional
         Of the origins of the rails' profiles, mm, in the gauge's place.
-    cant : float
-        Tangent by which both rails are turned.
+    inclination : float, optional
+        Rail inclination: the tangent by which both rails lean to the track's centre. Unless said
+        0.025 (1:40) for names; a Profile must have one: 0 where its points lie as in the track.
+    cant : float, optional
+        The same, by its older name.
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
@@ -308,9 +313,10 @@ estimate, resolution_limit, force_limit
     def __init__(self, wheel: Union[str, Profile] = "s1002", rail: Union[str, Profile] = "60e1", *,
                  wheel_left: Union[None, str, Profile] = None,
                  rail_left: Union[None, str, Profile] = None, radius: float = 460.0,
-                 radius_left: Optional[float] = None, back_spacing: float = 1360.0,
+                 radius_left: Optional[float] = None, back_spacing: Optional[float] = None,
                  tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
-                 rail_distance: Optional[float] = None, cant: float = 0.025, mu: float = 0.3,
+                 rail_distance: Optional[float] = None, inclination: Optional[float] = None,
+                 cant: Optional[float] = None, mu: float = 0.3,
                  friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
@@ -326,7 +332,7 @@ estimate, resolution_limit, force_limit
         take_material(case, material)
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
-                                        rail_distance, cant)
+                                        rail_distance, inclination, cant)
         handle, text = _Handle(), ctypes.create_string_buffer(TEXT)
         status = library.faststrip_wheelset_new(
             ctypes.byref(setup), wheels, rails, ctypes.byref(case), ctypes.byref(handle.handle),

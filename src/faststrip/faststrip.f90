@@ -10,8 +10,8 @@ module faststrip
                                      first_error, st_fallback_used, st_edge_of_data, &
                                      st_fewer_strips, st_overlap_left, st_flat_along_x, &
                                      st_conformal, st_target_missed, st_under_resolved, &
-                                     st_more_strips, st_beyond_yield, st_no_finite_patch, &
-                                     st_bad_argument, &
+                                     st_more_strips, st_beyond_yield, st_no_wave, &
+                                     st_no_finite_patch, st_bad_argument, &
                                      st_not_finite, st_not_increasing, st_too_few_points, &
                                      st_bad_material, st_bad_load, st_no_contact, &
                                      st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
@@ -28,10 +28,11 @@ module faststrip
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_points_profile, make_curve_profile, profile_at, &
-                                          standard_cant
+                                          standard_inclination, unset_inclination, standard_cant
     use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_geometry_flange, only: flange_t, measure_flange
+    use faststrip_geometry_gauge_fit, only: find_back_spacing
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contact, find_rigid_contacts, &
                                                 find_wheelset_contacts => find_rigid_contacts, &

@@ -97,7 +97,14 @@ class CaseFiles(ProgramTest):
              ["(c.nml:6)", "&wheel radius_left_mm", "one contact"]),
             (dict(wheel="profile = 's1002'\n profile_left = 'cone20'"),
              ["(c.nml:6)", "&wheel profile_left", "one contact"]),
-            (dict(rail="profile = 'uic60', cant = 3"), ["(c.nml:8)", "cant"]),
+            (dict(rail="profile = 'uic60', cant = 3"), ["(c.nml:8)", "&rail cant", "inclination"]),
+            (dict(rail="profile = 'uic60', inclination = 3"), ["(c.nml:8)", "&rail inclination"]),
+            (dict(rail="profile = 'uic60', inclination = 999"), ["(c.nml:8)", "999", "tangent"]),
+            (dict(rail="profile = 'uic60', inclination = 0.025, cant = 0.025"),
+             ["(c.nml:8)", "&rail cant", "inclination"]),
+            (dict(rail="profile = 'uic60', gauge_mm = 1668"),
+             ["(c.nml:4)", "&wheel back_spacing_mm", "1668"]),
+            (dict(wheel="profile = 's1002', back_spacing_mm = 1440"), ["1435", "1440", "-70"]),
             (dict(rail="cant = 0.025"), ["&rail", "profile", "c.nml:7"]),
             (dict(wheel="profile = 'none.txt'"), ["none.txt"]),
             (dict(rail="profile = 'none.prr'"), ["none.prr"]),
@@ -123,6 +130,9 @@ class CaseFiles(ProgramTest):
             self.write("p.txt", "\n".join(lines) + "\n")
             self.check(profile_case(wheel="profile = 'p.txt'"), *says)
             self.check(profile_case(rail="profile = 'p.txt'"), *says)
+        self.write("p.txt", "\n".join(points) + "\n")
+        self.check(profile_case(rail="profile = 'p.txt'"), "(c.nml:7)", "&rail inclination",
+                   "p.txt", "0.025")
         self.write("p.txt", "\n".join(points[:4]) + "\n")
         self.check(profile_case(wheel="profile = 'p.txt'"), "p.txt", "4")
         self.write("p.txt", "")

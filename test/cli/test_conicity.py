@@ -54,8 +54,33 @@ class Conicity(ProgramTest):
     def test_amplitudes_without_a_motion_leave_the_others(self):
         self.write("hill.csv", table_of([(-4, -1), (-1, -1), (1, 1), (2, -1), (3, 4), (5, 6)]))
         rows = self.good("conicity", "--delta-r", "hill.csv", "--amplitudes", "1,1.6,2.2")
-        self.assertEqual([row["status"] for row in rows], ["ok", "out_of_range", "ok"])
+        self.assertEqual([row["status"] for row in rows], ["ok", "no_wave", "ok"])
         self.assertEqual([row["tan_gamma_e"] == "" for row in rows], [False, True, False])
+
+    def test_a_reverse_cone_and_a_hollow_leave_the_middle(self):
+        self.write("cone.csv", table_of([(y / 2, -0.02 * y) for y in range(-16, 17)]))
+        # y**3 - 12.8 y over 200: through zero at 3.58 it rises.
+        self.write("hollow.csv", table_of([(y / 2, (y / 2) ** 3 / 200 - 0.064 * y / 2)
+                                           for y in range(-16, 17)]))
+        for name, wanted in (("cone.csv", lambda a: -0.02),
+                             ("hollow.csv", lambda a: 0.5 * (0.6 * a * a / 200 - 0.064))):
+            for method in ("klingel", "regression"):
+                words = ("conicity", "--delta-r", name, "--amplitudes", "1,2,3", "--method", method)
+                for row in self.good(*words):
+                    amplitude = float(row["amplitude_mm"])
+                    self.assertEqual(row["status"], "no_wave")
+                    self.assert_close(float(row["regression"]), wanted(amplitude), absolute=6e-4)
+                    self.assertLess(float(row["regression"]), 0.0)
+                    self.assertEqual((float(row["y_min_mm"]), float(row["y_max_mm"])),
+                                     (-amplitude, amplitude))
+                    self.assertEqual(row["tan_gamma_e"],
+                                     row["regression"] if method == "regression" else "")
+                self.assertIn("\n# equilibrium at y = 0.00000 mm, where delta r falls\n",
+                              self.run_program(*words).stdout)
+        # From hollow to hollow and back: beyond 5.06 mm the integral is above that of the middle.
+        rows = self.good("conicity", "--delta-r", "hollow.csv", "--amplitudes", "4.9,5.3")
+        self.assertEqual([row["status"] for row in rows], ["no_wave", "ok"])
+        self.assertGreater(float(rows[1]["tan_gamma_e"]), 0.0)
 
     def test_nonlinearity_is_half_the_rise_over_two_millimetres(self):
         self.write("cubic.csv", table_of([(y / 50, (y / 50) ** 3 / 100) for y in range(-250, 251)]))
@@ -96,7 +121,7 @@ class Conicity(ProgramTest):
             (table_of([(-1, -1), (1, 1), (1, 2)]), ["(in.csv:4)", "1", "y_mm"]),
             (table_of([(-1, -1), (1, 1), (0.5, 2)]), ["(in.csv:4)", "0.5", "y_mm"]),
             (table_of([(-1, -1), (1, "NaN")]), ["(in.csv:3)", "'NaN'", "delta_r_mm"]),
-            (table_of([(-9, 1), (9, -1)]), ["(in.csv)", "rise"]),
+            (table_of([(-9, 1), (9, 2)]), ["(in.csv)", "rise"]),
             (table_of([(0, 1)]), ["(in.csv)", "1"]),
             ("y_mm,dr\n0,1\n", ["(in.csv)", "delta_r_mm"]),
             (table_of([(-9, -1), (1, 1)]), ["(in.csv)", "5.1", "5.0"]),
@@ -151,6 +176,38 @@ class Profiles(ProgramTest):
             self.assertEqual(row["status"], "ok")
             self.assert_close(float(row["tan_gamma_e"]), 0.05, 1e-9, what=row)
             self.assert_close(float(row["regression"]), 0.05, 1e-9, what=row)
+
+    def test_a_wheel_that_falls_to_its_flange_leaves_the_middle(self):
+        """Slope -1:50 on the tread: the conicity is -0.02, and the flange's is not told for it."""
+        wheel = [(y, -3 * (y + 38) - 0.76 if y < -38 else 0.02 * y) for y in range(-46, 51, 2)]
+        self.write("w.csv", "y_mm,z_mm\n" + "".join(f"{y},{z}\n" for y, z in wheel))
+        for row in self.conicity("--amplitudes", "1,3", wheel="profile = 'w.csv'"):
+            self.assertEqual((row["status"], row["tan_gamma_e"]), ("no_wave", ""))
+            self.assert_close(float(row["regression"]), -0.02, absolute=1e-6)
+
+    def test_flange_backs_follow_the_gauge(self):
+        """S1002 on 60E1 1520 mm apart runs on other places than the backs of 1435 mm would give."""
+        figures = []
+        for wheel in ("profile = 's1002'", "profile = 's1002', back_spacing_mm = 1440"):
+            row, = self.conicity("--amplitudes", "3", wheel=wheel,
+                                 rail="profile = '60e1', gauge_mm = 1520")
+            figures.append(row)
+        self.assertEqual(*figures)
+        self.assert_close(float(figures[0]["tan_gamma_e"]), 0.0588, absolute=1e-4)
+        text = self.run_program("conicity", "case.nml", "--amplitudes", "3").stdout
+        self.assertIn("\n# gauge 1520.00 mm, flange backs 1440.00 mm apart\n", text)
+        for wheel, rail, says in (
+            ("profile = 's1002', back_spacing_mm = 1440", "profile = '60e1'",
+             ["1435", "1440", "play of -70"]),
+            ("profile = 's1002', back_spacing_mm = 1360", "profile = '60e1', gauge_mm = 1520",
+             ["1520", "1360", "1440"]),
+            ("profile = 's1002'", "profile = '60e1', gauge_mm = 1000",
+             ["(case.nml:1)", "&wheel back_spacing_mm", "1000"]),
+            ("profile = 'cone20'", "profile = '60e1', rail_distance_mm = 1700",
+             ["(case.nml:1)", "&wheel back_spacing_mm", "1700"]),
+        ):
+            self.write("case.nml", wheelset_case(wheel, rail))
+            self.refused_and_untouched("conicity", "case.nml", says=says)
 
     def test_functions_of_unequal_sides(self):
         rows = self.functions("--y-max", "2", "--y-step", "0.5", "--amplitudes", "0.5",
@@ -247,7 +304,7 @@ class ReferenceProfiles(ProgramTest):
             f"profile = '{STANDARD}/RUIC519{right}.dat'\n"
             f" profile_left = '{STANDARD}/RUIC519{left}.dat'\n"
             f" radius_left_mm = {459 if case in UNEQUAL else 460}\n z_positive_to = 'up'",
-            f"profile = '{STANDARD}/SUIC519A.dat'\n"
+            f"profile = '{STANDARD}/SUIC519A.dat', inclination = 0\n"
             f" rail_distance_mm = {distance}\n z_positive_to = 'up'"))
         wanted = {row["amplitude_mm"]: float(row["tan_gamma_e"])
                   for row in standard("conicity.csv") if row["case"] == case}

@@ -691,7 +691,7 @@ class Profiles(ProgramTest):
                   f"z_positive_to = '{'down' if z_sense > 0 else 'up'}'")
         self.write("measured.nml", profile_case(
             contact="load_N = 1e5, shift_mm = 1", wheel=f"profile = 'wheel.txt', {senses}",
-            rail=f"profile = 'rail.txt', {senses}",
+            rail=f"profile = 'rail.txt', inclination = 0, {senses}",
             motion="cksi = 0.0007, cphi_rad_per_mm = 1.5e-4"))
 
     def test_measured_profiles_agree_with_the_drawn_ones(self):

@@ -161,6 +161,13 @@ class Profiles(ProgramTest):
         self.assertAlmostEqual(float(rows[0]["wear_top_mm"]), 0.7, delta=0.02)
         # 0.7 mm lower, on R13 a little above where it ends in the flank.
         self.assertAlmostEqual(float(rows[0]["wear_side_mm"]), 0.068, delta=0.01)
+        turned = self.rows("worn.txt", "--kind", "rail", "--nominal", "uic60", "--inclination",
+                           "0.025")[1]
+        self.assertEqual(turned[0], rows[0])
+        done = self.run_program("profile", "worn.txt", "--kind", "rail", "--cant", "0.025",
+                                "--inclination", "0.025")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--inclination", done.stderr)
         picture = xml.etree.ElementTree.fromstring(
             (self.folder / "p.svg").read_text(encoding="utf-8"))
         names = [text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")]
@@ -176,7 +183,7 @@ class Profiles(ProgramTest):
         self.write("w.txt", wheel_text(scale=0.001))
         self.write("r.txt", rail_text() + "35.9 40\n")
         wheel = "profile = 'w.txt', unit = 'm'"
-        self.write("c.nml", profile_case(wheel=wheel, rail="profile = 'r.txt'"))
+        self.write("c.nml", profile_case(wheel=wheel, rail="profile = 'r.txt', inclination = 0"))
         done = self.run_program("contact", "c.nml")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("r.txt: 1 points clipped beyond y = 35.9945 mm", done.stderr)
@@ -195,7 +202,8 @@ class Profiles(ProgramTest):
         for depth, status in ((0.0, "ok"), (0.01, "under_resolved")):
             lines[at] = f"{y} {float(z) + depth:.6f}"
             self.write("r.txt", "\n".join(lines) + "\n")
-            self.write("c.nml", profile_case(contact="load_N = 8e4", rail="profile = 'r.txt'",
+            self.write("c.nml", profile_case(contact="load_N = 8e4",
+                                             rail="profile = 'r.txt', inclination = 0",
                                              motion="cksi = 1e-3",
                                              extra="&sweep\n shifts_mm = 0\n/\n"))
             done = self.run_program("contact", "c.nml")
@@ -318,7 +326,7 @@ class Bank(ProgramTest):
 
         analytic = forces("profile = 's1002'", "profile = 'uic60', cant = 0.025")
         measured = forces(f"profile = '{BANK / 'MBench_S1002_v3.prw'}'",
-                          f"profile = '{BANK / 'MBench_UIC60_v3.prr'}'")
+                          f"profile = '{BANK / 'MBench_UIC60_v3.prr'}', inclination = 0")
         for one, other in zip(analytic, measured):
             self.assertAlmostEqual(float(one["pmax_MPa"]) / float(other["pmax_MPa"]), 1.0,
                                    delta=2e-3)

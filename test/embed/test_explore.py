@@ -84,7 +84,7 @@ class Behind(ExploreTest):
         wheel = case.read_shape("wheel", "it's a wheel.prw", WHEEL.encode())
         for changes in ({}, {"shift": 4.3, "cphi": 2e-4, "mu": 0.45}, {"yaw": 7e-3, "load": 7e4},
                         {"wheel": wheel, "load": 5e4, "is_vertical": False},
-                        {"rail": case.STANDARD["rail"]["60e1"], "given_cant": 0.05}):
+                        {"rail": case.STANDARD["rail"]["60e1"], "given_inclination": 0.05}):
             with self.subTest(changes=list(changes)):
                 outcome = solver.solve(dataclasses.replace(case.Case(), **changes))
                 ours = rows_of(exporting.numbers_csv(outcome))
@@ -253,7 +253,7 @@ class Command(ExploreTest):
         case = casefile.read_case(str(ROOT / "example" / "s1002_uic60.nml"))
         self.assertEqual((case.wheel.label, case.rail.label, case.load, case.mu),
                          ("s1002", "uic60", 1e5, 0.3))
-        self.assertEqual((case.is_vertical, case.cant), (False, 0.025))
+        self.assertEqual((case.is_vertical, case.inclination), (False, 0.025))
         exporting = self.part("exporting")
         outcome = self.part("solving").Solver().solve(case)
         self.write("again.nml", exporting.case_files(outcome)["explore.nml"].decode())

@@ -67,8 +67,8 @@ class Python(HostTest):
         self.assertEqual((wheel.kind, wheel.format, rail.kind), ("wheel", "simpack", "rail"))
         self.assertAlmostEqual(rail.z.min(), 1.0, delta=1e-12)
         self.assertIsNone(wheel.sd)
-        gap = faststrip.profile_gap(wheel, rail, shift=1.0)
-        finer = faststrip.profile_gap(wheel, rail, shift=1.0, step=0.001)
+        gap = faststrip.profile_gap(wheel, rail, shift=1.0, inclination=0.0)
+        finer = faststrip.profile_gap(wheel, rail, shift=1.0, inclination=0.0, step=0.001)
         self.assertAlmostEqual(gap.y_rail, finer.y_rail, delta=1e-12)
         self.assertGreater(len(finer.y), 4000)
         contact = faststrip.Contact()
@@ -77,7 +77,8 @@ class Python(HostTest):
         for call, text in (
                 (lambda: faststrip.Profile.read("none.txt"), "no such file: none.txt"),
                 (lambda: faststrip.profile_gap(rail, wheel), "wheel must be a Profile of a wheel"),
-                (lambda: faststrip.profile_gap(wheel, rail, radius=-1.0), "bad_argument"),
+                (lambda: faststrip.profile_gap(wheel, rail, inclination=0, radius=-1.0),
+                 "bad_argument"),
                 (lambda: faststrip.Profile([1.0, 2.0], [1.0]), "y and z must be two arrays")):
             with self.assertRaises(faststrip.FaststripError) as caught:
                 call()

@@ -8,9 +8,10 @@ import tempfile
 from typing import NamedTuple, Optional, Tuple, Union
 
 from .._library import FaststripError
-from .._profile import Profile, cant_of
+from .._profile import Profile
 
 RADIUS = 460.0
+STANDARD_INCLINATION = 0.025
 WHEELS = "s1002", "cone20", "cone40"
 RAILS = "uic60", "60e1", "54e1"
 ENDINGS = ".prw .prr .whl .ban .mpt .whe .rai .wheel .csv .txt .dat"
@@ -52,12 +53,19 @@ class Case:
     mu: float = 0.3
     is_vertical: bool = True
     """is the load the vertical one, and not the normal force?"""
-    given_cant: Optional[float] = None
-    """the tangent by which the rail is turned; None: as it is usual"""
+    given_inclination: Optional[float] = None
+    """the rail inclination, its tangent; None: nothing was said"""
 
     @property
-    def cant(self) -> float:
-        return cant_of(self.rail.profile, self.given_cant)
+    def is_as_it_lies(self) -> bool:
+        """Is it a rail of a file of which nothing was said? The page says that it took 0."""
+        return self.given_inclination is None and self.rail.is_file
+
+    @property
+    def inclination(self) -> float:
+        if self.given_inclination is not None:
+            return self.given_inclination
+        return 0.0 if self.rail.is_file else STANDARD_INCLINATION
 
     @property
     def creepage(self) -> Tuple[float, float, float]:

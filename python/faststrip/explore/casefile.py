@@ -13,7 +13,7 @@ from .case import RADIUS, STANDARD, Case, CaseError, find_shape
 TAKEN = {("contact", "load_n"): "load", ("contact", "shift_mm"): "shift",
          ("motion", "cksi"): "cksi", ("motion", "ceta"): "ceta",
          ("motion", "cphi_rad_per_mm"): "cphi", ("material", "mu"): "mu",
-         ("rail", "cant"): "given_cant"}
+         ("rail", "inclination"): "given_inclination", ("rail", "cant"): "given_inclination"}
 FIXED = {("wheel", "radius_mm"): RADIUS, ("wheel", "back_spacing_mm"): 1360.0,
          ("wheel", "tread_line_mm"): 70.0, ("rail", "gauge_mm"): 1435.0,
          ("rail", "gauge_depth_mm"): 14.0, ("material", "e_wheel_mpa"): 209920.0,
@@ -41,7 +41,11 @@ def read_case(name: str) -> Case:
             take(found, group, key, value, name)
     if not {"wheel", "rail"} <= set(found):
         raise CaseError(f"a case must have the groups wheel and rail with profiles: {name}")
-    return Case(**found)
+    case = Case(**found)
+    if case.is_as_it_lies:
+        raise CaseError(f"inclination of &rail must be given for the rail of {case.rail.label}: 0 "
+                        f"if it stands as in the track, 0.025 to turn it by 1:40: {name}")
+    return case
 
 
 def take(found: Dict[str, Any], group: str, key: str, value: Any, name: str) -> None:
@@ -50,6 +54,9 @@ def take(found: Dict[str, Any], group: str, key: str, value: Any, name: str) -> 
     if place in PASSED:
         return
     if place in TAKEN:
+        if TAKEN[place] in found:
+            raise CaseError("cant of &rail must not be given with inclination, which is its name: "
+                            f"{name}")
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise CaseError(f"{key} of &{group} must be a number, got {value!r}: {name}")
         found[TAKEN[place]] = float(value)

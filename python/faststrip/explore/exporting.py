@@ -77,7 +77,7 @@ def case_files(outcome: Outcome) -> Dict[str, bytes]:
                   "&wheel", f"  profile = {quoted(put_beside('wheel', case.wheel, files))}",
                   f"  radius_mm = {RADIUS!r}", "/",
                   "&rail", f"  profile = {quoted(put_beside('rail', case.rail, files))}",
-                  f"  cant = {case.cant!r}", "/"]
+                  f"  inclination = {case.inclination!r}", "/"]
     lines += ["&material", f"  mu = {case.mu!r}", "/",
               "&motion", "  creepage = 'given'", f"  cksi = {case.cksi!r}",
               f"  ceta = {case.ceta!r}", f"  cphi_rad_per_mm = {case.cphi!r}", "/",

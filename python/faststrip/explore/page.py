@@ -206,9 +206,9 @@ class Page:
                                 for name, slider in self.sliders.items()}
         told.update((kind, self.shapes[kind][select.value])
                     for kind, select in self.selects.items())
-        # The cant of a case file is that of its rail.
-        cant = self.begun.given_cant if told["rail"] is self.begun.rail else None
-        return Case(**told, is_vertical=self.begun.is_vertical, given_cant=cant)
+        # What was said of the first rail is not said of another one.
+        said = self.begun.given_inclination if told["rail"] is self.begun.rail else None
+        return Case(**told, is_vertical=self.begun.is_vertical, given_inclination=said)
 
     def changed(self, attr: str, old: Any, new: Any) -> None:
         """Solve when what has come with this is in too."""
@@ -382,6 +382,8 @@ def status_of(outcome: Outcome) -> Any:
     if outcome.error:
         return outcome.error, "#a0306a"
     parts = []
+    if outcome.case.is_as_it_lies:
+        parts.append(f"{outcome.case.rail.label}: inclination 0, as the file has it")
     colour = "#222222"
     for name, look in METHODS:
         answer = outcome.answers.get(name)

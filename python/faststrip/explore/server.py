@@ -32,6 +32,8 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("--rail", metavar="PROFILE", help="uic60 (default), 60e1, 54e1 or a file")
     made.add_argument("--case", metavar="CASE.nml", help="begin with this case file: profiles, "
                       "shift, vertical or normal load, creepages, friction")
+    made.add_argument("--inclination", type=float, metavar="TANGENT", help="inclination of the "
+                      "first rail, 0.025 for 1:40 (default: 1:40 of a name, a file as it lies)")
     made.add_argument("--port", type=int, default=PORT, metavar="N",
                       help=f"port of the page (default {PORT}; 0: any that is free)")
     made.add_argument("--no-browser", action="store_true", help="open no browser")
@@ -55,6 +57,8 @@ def main(words: Optional[List[str]] = None) -> int:
             case = dataclasses.replace(case, wheel=find_shape("wheel", options.wheel))
         if options.rail is not None:
             case = dataclasses.replace(case, rail=find_shape("rail", options.rail))
+        if options.inclination is not None:
+            case = dataclasses.replace(case, given_inclination=options.inclination)
         checked(case)
     except (CaseError, FaststripError) as problem:
         print(f"faststrip-explore: {problem}", file=sys.stderr)

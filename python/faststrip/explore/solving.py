@@ -122,10 +122,11 @@ class Solver:
         """Everything of a case; errors of a method are told in its place."""
         outcome = Outcome(case, axis=axis)
         pair = case.wheel, case.rail
-        outcome.profiles = self._once("profiles", (*pair, case.cant), lambda: (
+        outcome.profiles = self._once("profiles", (*pair, case.inclination), lambda: (
             draw_profile(case.wheel.profile, "wheel", n=PROFILE_POINTS),
-            draw_profile(case.rail.profile, "rail", cant=case.cant, n=PROFILE_POINTS)))
-        outcome.where = where = (*pair, case.cant, case.is_vertical, case.shift, case.yaw,
+            draw_profile(case.rail.profile, "rail", inclination=case.inclination,
+                         n=PROFILE_POINTS)))
+        outcome.where = where = (*pair, case.inclination, case.is_vertical, case.shift, case.yaw,
                                  case.load)
         outcome.motion = motion = (*where, *case.creepage, case.mu)
         geometry = self._once("gap", where if case.yaw else where[:-1],
@@ -167,10 +168,11 @@ class Solver:
         return Geometry(wheelset.gap(most), contact.load, places[most], places, contact.radius)
 
     def _wheelset_of(self, case: Case) -> Wheelset:
-        key = case.wheel, case.rail, case.cant
+        key = case.wheel, case.rail, case.inclination
         if self._wheelset[0] != key or self._wheelset[1] is None:
-            self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, cant=case.cant,
-                                           radius=RADIUS, tangential="none", estimate=False)
+            self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, radius=RADIUS,
+                                           inclination=case.inclination, tangential="none",
+                                           estimate=False)
         return self._wheelset[1]  # type: ignore[return-value]
 
     def prepare(self, case: Case) -> None:
@@ -220,8 +222,8 @@ class Solver:
 
 def straight(case: Case) -> Geometry:
     """Of a wheel without yaw: the gap about the rigid contact, as the program has it; no load."""
-    gap = profile_gap(case.wheel.profile, case.rail.profile, shift=case.shift, cant=case.cant,
-                      radius=RADIUS)
+    gap = profile_gap(case.wheel.profile, case.rail.profile, shift=case.shift, radius=RADIUS,
+                      inclination=case.inclination)
     place = Place(gap.y_rail, gap.y_wheel, gap.angle, 0.0)
     return Geometry((gap.y, gap.h, gap.inv2r, gap.inclination), 0.0, place, (place,), gap.radius)
 

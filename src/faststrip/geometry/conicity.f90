@@ -16,6 +16,10 @@
 !> S_max - S = D0, D1 at the ends (atanh and -k where delta r falls): nothing is lost at the turning
 !> points.
 !>
+!> Where delta r falls through zero, as on hollow wheels, the wheelset leaves the equilibrium: there
+!> is no wave about it unless the motion comes round a hollow on each side, and the conicity of the
+!> straight line, that of the regression, is negative.
+!>
 !> Source: EN 15302:2008+A1:2010, Annex B (integration of the nonlinear equation) and Annex C
 !> (linear regression of delta r).
 module faststrip_geometry_conicity
@@ -23,7 +27,8 @@ module faststrip_geometry_conicity
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, clear_status, set_status, is_error, number_text, &
                                      count_text, st_bad_argument, st_not_finite, &
-                                     st_not_increasing, st_out_of_range, st_too_few_points
+                                     st_not_increasing, st_no_wave, st_out_of_range, &
+                                     st_too_few_points
     implicit none
     private
 
@@ -45,10 +50,10 @@ module faststrip_geometry_conicity
     !> The conicity at one amplitude, both by Klingel's equation (Annex B) and by linear regression
     !> between its turning points (Annex C).
     type :: conicity_t
-        real(wp) :: klingel = 0.0_wp         !! tan gamma_e
-        real(wp) :: regression = 0.0_wp      !! the same
-        real(wp) :: y_min = 0.0_wp           !! turning point, mm
-        real(wp) :: y_max = 0.0_wp           !! turning point, mm
+        real(wp) :: klingel = 0.0_wp         !! tan gamma_e; 0 without a wave
+        real(wp) :: regression = 0.0_wp      !! the same; below 0: it leaves the equilibrium
+        real(wp) :: y_min = 0.0_wp           !! turning point, or where the line begins, mm
+        real(wp) :: y_max = 0.0_wp           !! turning point, or where the line ends, mm
         real(wp) :: nonlinearity(2) = 0.0_wp !! of both, 1/mm
         logical :: has_nonlinearity = .false. !! is it known? Not near 0 and the end of the table
     end type conicity_t
@@ -63,17 +68,18 @@ contains
         real(wp), intent(in) :: amplitude     !! half of the way between the turning points, mm
         type(conicity_t), intent(out) :: conicity !! zeros on an error
         type(status_t), intent(out) :: status !! those of `klingel_conicity`, `regression_conicity`
+                                              !! `st_no_wave`: the regression stands
 
         type(conicity_t) :: below, above
         type(status_t) :: beside
 
         call find_both(y, delta_r, y_equilibrium, amplitude, conicity, status)
         if (is_error(status)) conicity = conicity_t()
-        if (is_error(status) .or. .not. amplitude > half_span) return
+        if (status%code /= 0 .or. .not. amplitude > half_span) return
         call find_both(y, delta_r, y_equilibrium, amplitude - half_span, below, beside)
-        if (is_error(beside)) return
+        if (beside%code /= 0) return
         call find_both(y, delta_r, y_equilibrium, amplitude + half_span, above, beside)
-        if (is_error(beside)) return
+        if (beside%code /= 0) return
         conicity%has_nonlinearity = .true.
         conicity%nonlinearity = 0.5_wp*[above%klingel - below%klingel, &
                                         above%regression - below%regression]/half_span
@@ -84,47 +90,68 @@ contains
         type(conicity_t), intent(out) :: conicity
         type(status_t), intent(out) :: status
 
+        type(status_t) :: of_line
+
         call klingel_conicity(y, delta_r, y_equilibrium, amplitude, conicity%klingel, &
                               conicity%y_min, conicity%y_max, status)
-        if (.not. is_error(status)) &
-            call regression_conicity(y, delta_r, conicity%y_min, conicity%y_max, &
-                                     conicity%regression, status)
+        if (is_error(status)) return
+        call regression_conicity(y, delta_r, conicity%y_min, conicity%y_max, &
+                                 conicity%regression, of_line)
+        if (is_error(of_line)) status = of_line
     end subroutine find_both
 
-    !> Where delta r rises through zero: of several places the one nearest to y = 0, of a
-    !> stretch with zero its middle.
-    pure subroutine find_equilibrium(y, delta_r, y_equilibrium, status)
+    !> Where delta r passes through zero: of several places the one nearest to y = 0, of a stretch
+    !> with zero its middle. Where delta r rises the wheelset swings about it, where it falls the
+    !> wheelset leaves it; of two places equally far the one where it rises.
+    pure subroutine find_equilibrium(y, delta_r, y_equilibrium, status, falls)
         real(wp), intent(in) :: y(:)           !! lateral displacement, rising, mm
         real(wp), intent(in) :: delta_r(:)     !! rolling radius difference, mm
         real(wp), intent(out) :: y_equilibrium !! mm; 0 on an error
         type(status_t), intent(out) :: status  !! `st_bad_argument` (sizes), `st_too_few_points`,
                                                !! `st_not_finite`, `st_not_increasing`,
                                                !! `st_out_of_range` (no such place)
-        real(wp) :: place
+        logical, intent(out), optional :: falls !! does delta r fall there?
+        real(wp) :: place, gain
         integer :: i, last
-        logical :: is_found
+        logical :: is_found, is_falling, is_nearer
 
         y_equilibrium = 0.0_wp
+        is_falling = .false.
+        if (present(falls)) falls = .false.
         call check_table(y, delta_r, status)
         if (status%code /= 0) return
         is_found = .false.
         last = 1
         do i = 2, size(y)
             if (.not. abs(delta_r(i)) > 0.0_wp) cycle
-            if (delta_r(last) < 0.0_wp .and. delta_r(i) > 0.0_wp) then
+            if (abs(delta_r(last)) > 0.0_wp .and. &
+                sign(1.0_wp, delta_r(last))*delta_r(i) < 0.0_wp) then
                 if (i == last + 1) then
                     place = y(last) - delta_r(last)*(y(i) - y(last))/(delta_r(i) - delta_r(last))
                 else
                     place = 0.5_wp*(y(last + 1) + y(i - 1))
                 end if
-                if (.not. is_found .or. abs(place) < abs(y_equilibrium)) y_equilibrium = place
+                gain = abs(y_equilibrium) - abs(place)
+                is_nearer = gain > rounding*(y(size(y)) - y(1))
+                if (is_falling .and. delta_r(i) > 0.0_wp) &
+                    is_nearer = gain >= -rounding*(y(size(y)) - y(1))
+                if (.not. is_found .or. is_nearer) then
+                    y_equilibrium = place
+                    is_falling = delta_r(i) < 0.0_wp
+                end if
                 is_found = .true.
             end if
             last = i
         end do
+        if (present(falls)) falls = is_falling
+        if (.not. any(abs(delta_r) > 0.0_wp)) then
+            ! Cylinders: it is in equilibrium everywhere.
+            y_equilibrium = min(max(0.0_wp, y(1)), y(size(y)))
+            return
+        end if
         if (.not. is_found) call set_status(status, st_out_of_range, &
-            'delta r must rise through 0, got from ' // trim(number_text(delta_r(1))) // ' to ' &
-            // trim(number_text(delta_r(size(y)))) // ' mm')
+            'delta r must rise through 0, or fall, got from ' // trim(number_text(delta_r(1))) &
+            // ' to ' // trim(number_text(delta_r(size(y)))) // ' mm')
     end subroutine find_equilibrium
 
     pure subroutine check_table(y, delta_r, status)
@@ -159,20 +186,20 @@ contains
         end do
     end subroutine check_table
 
-    !> Equivalent conicity by Klingel's equation. Inside a stretch with delta r = 0 nothing
-    !> steers the wheelset: 0.
+    !> Equivalent conicity by Klingel's equation. Inside a stretch with delta r = 0 nothing steers
+    !> the wheelset: 0. Without a wave of this amplitude about the equilibrium it is not known.
     pure subroutine klingel_conicity(y, delta_r, y_equilibrium, amplitude, tan_gamma_e, y_min, &
                                      y_max, status)
         real(wp), intent(in) :: y(:)          !! lateral displacement, rising, mm
         real(wp), intent(in) :: delta_r(:)    !! rolling radius difference, mm
         real(wp), intent(in) :: y_equilibrium !! of `find_equilibrium`, mm
         real(wp), intent(in) :: amplitude     !! half of the way between the turning points, mm
-        real(wp), intent(out) :: tan_gamma_e  !! equivalent conicity; 0 on an error
-        real(wp), intent(out) :: y_min        !! turning point, mm
-        real(wp), intent(out) :: y_max        !! turning point, mm
+        real(wp), intent(out) :: tan_gamma_e  !! equivalent conicity; 0 on an error, without a wave
+        real(wp), intent(out) :: y_min        !! turning point, mm; without a wave an amplitude
+        real(wp), intent(out) :: y_max        !! the same to the other side of the equilibrium, mm
         type(status_t), intent(out) :: status !! `st_bad_argument`; `st_out_of_range`: beyond the
-                                              !! table, or no motion turns there, since
-                                              !! delta r changes its sign on the way
+                                              !! table; limitation `st_no_wave`: no motion turns
+                                              !! there, since delta r falls through zero
         real(wp) :: low, high, middle, difference, times(2)
         integer :: step
         logical :: is_free(2)
@@ -183,8 +210,11 @@ contains
         call check_amplitude(amplitude, largest_amplitude(y, delta_r, y_equilibrium), status)
         if (status%code /= 0) return
         if (y_min >= y(1) .and. y_max <= y(size(y))) then
+            ! Neither hill nor hollow of S on the way.
             if (.not. max(level(y, delta_r, y_equilibrium, y_min), &
-                          level(y, delta_r, y_equilibrium, y_max)) > 0.0_wp) return
+                          level(y, delta_r, y_equilibrium, y_max), &
+                          level(y, -delta_r, y_equilibrium, y_min), &
+                          level(y, -delta_r, y_equilibrium, y_max)) > 0.0_wp) return
         end if
 
         ! The levels reached on both sides do not fall: their difference has one sign change over
@@ -202,13 +232,14 @@ contains
         end do
         y_min = max(middle - amplitude, y(1))
         y_max = min(middle + amplitude, y(size(y)))
-
         call travel(y, delta_r, y_min, y_equilibrium, times(1), is_free(1))
         call travel(y, delta_r, y_max, y_equilibrium, times(2), is_free(2))
         if (.not. all(is_free)) then
-            call set_status(status, st_out_of_range, &
-                            'no motion turns at the amplitude, delta r changes its sign before, ' &
-                            // 'got ' // trim(number_text(amplitude)) // ' mm')
+            y_min = y_equilibrium - amplitude
+            y_max = y_equilibrium + amplitude
+            call set_status(status, st_no_wave, 'no motion about ' // &
+                            trim(number_text(y_equilibrium)) // ' mm turns at the amplitude ' // &
+                            trim(number_text(amplitude)) // ' mm, delta r falls through 0 before')
             return
         end if
         tan_gamma_e = (pi/sum(times))**2
@@ -266,6 +297,11 @@ contains
         levels = [level(y, delta_r, y_equilibrium, ends(1)), &
                   level(y, delta_r, y_equilibrium, ends(2))]
         largest = 0.5_wp*(ends(2) - ends(1))
+        if (.not. minval(levels) > 0.0_wp) then
+            ! No wave: what a straight line about the equilibrium has.
+            largest = min(ends(2) - y_equilibrium, y_equilibrium - ends(1))
+            return
+        end if
         if (abs(levels(2) - levels(1)) <= rounding*maxval(levels)) return
         ! On the side that climbs higher the wheelset turns before the end.
         far = maxloc(levels, 1)

@@ -1,8 +1,13 @@
 !> Wheel and rail profiles of every kind behind one face.
 !>
 !> The frame is that of a right wheel and a right rail: y to the field side, z down. A wheel has
-!> y = 0 at its mean tread line; a rail is canted already, with the origin at its highest point
+!> y = 0 at its mean tread line; a rail is inclined already, with the origin at its highest point
 !> (points: where their author put it).
+!>
+!> The rail inclination is the tangent of the angle by which the rail leans to the track's centre,
+!> 0.025 for 1:40. A rail by name stands upright in its drawing: it is inclined by
+!> `standard_inclination` where nothing is said. Nobody but who measured it knows how a rail of
+!> points stands: there `unset_inclination` is an error.
 module faststrip_geometry_profile
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -25,7 +30,7 @@ module faststrip_geometry_profile
     public :: make_curve_profile, thin_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: profile_curve, profile_54e1, profile_cone
-    public :: standard_cant
+    public :: standard_inclination, unset_inclination, standard_cant
 
     ! Given: numbers of kinds.
     integer, parameter :: profile_none = 0
@@ -37,9 +42,17 @@ module faststrip_geometry_profile
     integer, parameter :: profile_54e1 = 6
     integer, parameter :: profile_cone = 7
 
-    !> Rail cant 1:40.
+    !> Rail inclination 1:40, of rails by name where nothing is said.
     !> Given: 1:40.
-    real(wp), parameter :: standard_cant = 0.025_wp
+    real(wp), parameter :: standard_inclination = 0.025_wp
+    !> The same, by its older name.
+    !> Given: 1:40.
+    real(wp), parameter :: standard_cant = standard_inclination
+    !> What stands where no inclination was said.
+    !> Given: out of range of all inclinations.
+    real(wp), parameter :: unset_inclination = 999.0_wp
+    ! Tuned [1]: Largest inclination of points. Origin: safeguard, 45 degrees.
+    real(wp), parameter :: largest_inclination = 1.0_wp
 
     ! Treads of cones, from the flange root to the field side.
     ! Given: width of the tread of S1002, mm.
@@ -94,24 +107,28 @@ contains
     end subroutine make_wheel_profile
 
     !> An analytic rail profile by name.
-    pure subroutine make_rail_profile(name, cant, profile, status)
+    pure subroutine make_rail_profile(name, inclination, profile, status)
         character(len=*), intent(in) :: name      !! `uic60` (Manchester), `60e1`, `54e1` (EN
                                                   !! 13674-1)
-        real(wp), intent(in) :: cant              !! tangent of the cant, within +-0.1
-        type(profile_t), intent(out) :: profile   !! the canted profile
-        type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name or cant
+        real(wp), intent(in) :: inclination       !! of the rail, its tangent, within +-0.1;
+                                                  !! `unset_inclination`: 1:40
+        type(profile_t), intent(out) :: profile   !! the inclined profile
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name, inclination
 
+        real(wp) :: turn
+
+        turn = merge(inclination, standard_inclination, is_said(inclination))
         call clear_status(status)
         select case (name)
         case ('uic60')
             profile%kind = profile_uic60
-            call make_rail_head(uic60_transition, cant, profile%head, status)
+            call make_rail_head(uic60_transition, turn, profile%head, status)
         case ('60e1')
             profile%kind = profile_60e1
-            call make_rail_head(en60e1_transition, cant, profile%head, status)
+            call make_rail_head(en60e1_transition, turn, profile%head, status)
         case ('54e1')
             profile%kind = profile_54e1
-            call make_rail_head(en54e1_transition, cant, profile%head, status, half_width_54)
+            call make_rail_head(en54e1_transition, turn, profile%head, status, half_width_54)
         case default
             call set_status(status, st_bad_argument, &
                             'the rail profile must be uic60, 60e1 or 54e1, got ' // name)
@@ -124,28 +141,22 @@ contains
         profile%y_last = profile%head%joint(8)
     end subroutine make_rail_profile
 
-    !> A wheel or rail profile through points, turned by a cant about the origin of the points.
+    !> A wheel or rail profile through points, inclined about the origin of the points.
     !>
-    !> A cant of zero leaves the points where they are, which is right for wheels and for rails
-    !> measured or listed as they lie in the track.
-    subroutine make_points_profile(y, z, cant, profile, status)
+    !> An inclination of zero leaves the points where they are, which is right for wheels and for
+    !> rails measured or listed as they lie in the track.
+    subroutine make_points_profile(y, z, inclination, profile, status)
         real(wp), intent(in) :: y(:)             !! strictly increasing, mm
         real(wp), intent(in) :: z(:)             !! depth (down) at y, mm
-        real(wp), intent(in) :: cant             !! tangent of the angle by which the top leans to
+        real(wp), intent(in) :: inclination      !! tangent of the angle by which the top leans to
                                                  !! negative y, within +-1
         type(profile_t), intent(out) :: profile  !! the curve through the points
         type(status_t), intent(out) :: status    !! `st_bad_argument`, `st_too_few_points`,
                                                  !! `st_not_finite`, `st_not_increasing` (also
                                                  !! after turning), `st_linear_algebra`
-        logical :: valid
 
-        valid = ieee_is_finite(cant)
-        if (valid) valid = abs(cant) <= 1.0_wp
-        if (.not. valid) then
-            call set_status(status, st_bad_argument, 'rail cant must be -1 to 1, got ' // &
-                            number_text(cant))
-            return
-        end if
+        call check_inclination(inclination, status)
+        if (is_error(status)) return
         ! The points themselves are checked before they are turned.
         call make_sampled_profile(y, z, profile%sampled, status)
         if (is_error(status)) return
@@ -155,9 +166,10 @@ contains
                             trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
             return
         end if
-        if (abs(cant) > 0.0_wp) then
-            call make_sampled_profile((y + cant*z)/hypot(1.0_wp, cant), &
-                                      (z - cant*y)/hypot(1.0_wp, cant), profile%sampled, status)
+        if (abs(inclination) > 0.0_wp) then
+            call make_sampled_profile((y + inclination*z)/hypot(1.0_wp, inclination), &
+                                      (z - inclination*y)/hypot(1.0_wp, inclination), &
+                                      profile%sampled, status)
             if (is_error(status)) return
         end if
         profile%kind = profile_points
@@ -165,17 +177,45 @@ contains
         profile%y_last = profile%sampled%y(size(y))
     end subroutine make_points_profile
 
-    !> A wheel or rail profile through a curve of points, turned by a cant about the origin: what of
-    !> it can be touched.
+    ! Is it an inclination, and not the word for none?
+    pure logical function is_said(inclination)
+        real(wp), intent(in) :: inclination
+
+        is_said = inclination /= unset_inclination
+    end function is_said
+
+    ! Of points an inclination must be said.
+    pure subroutine check_inclination(inclination, status)
+        real(wp), intent(in) :: inclination
+        type(status_t), intent(out) :: status
+
+        logical :: valid
+
+        call clear_status(status)
+        valid = ieee_is_finite(inclination)
+        if (valid) valid = abs(inclination) <= largest_inclination
+        if (valid) return
+        if (is_said(inclination)) then
+            call set_status(status, st_bad_argument, 'rail inclination must be -1 to 1, got ' // &
+                            number_text(inclination))
+        else
+            call set_status(status, st_bad_argument, 'the rail inclination must be given for a ' &
+                            // 'rail of points: 0 if they lie as in the track, 0.025 to turn ' // &
+                            'them by 1:40')
+        end if
+    end subroutine check_inclination
+
+    !> A wheel or rail profile through a curve of points, inclined about the origin: what of it can
+    !> be touched.
     !>
     !> The points run along the curve from small y to large y; it may overhang, stand upright or
-    !> fold back. A cant of zero leaves the points where they are.
-    subroutine make_curve_profile(y, z, body, cant, kink_angle, profile, part, status)
+    !> fold back. An inclination of zero leaves the points where they are.
+    subroutine make_curve_profile(y, z, body, inclination, kink_angle, profile, part, status)
         real(wp), intent(in) :: y(:)             !! mm, to the field side
         real(wp), intent(in) :: z(:)             !! mm, down
         integer, intent(in) :: body              !! `body_wheel` or `body_rail`
-        real(wp), intent(in) :: cant             !! tangent of the angle by which the top leans to
-                                                 !! negative y, within +-1
+        real(wp), intent(in) :: inclination      !! tangent of the angle by which the top leans to
+                                                 !! negative y, within +-1; of wheels 0
         real(wp), intent(in) :: kink_angle       !! turn from which a point is a kink, rad
         type(profile_t), intent(out) :: profile  !! the curve through the points
         type(touchable_t), intent(out) :: part   !! which of the points, and what was clipped
@@ -183,16 +223,11 @@ contains
                                                  !! `st_not_finite`, `st_linear_algebra`
 
         real(wp), allocatable :: y_turned(:), z_turned(:)
-        logical :: valid
 
         allocate (part%point(0))
-        call clear_status(status)
-        valid = ieee_is_finite(cant)
-        if (valid) valid = abs(cant) <= 1.0_wp
-        if (.not. valid) then
-            call set_status(status, st_bad_argument, 'rail cant must be -1 to 1, got ' // &
-                            number_text(cant))
-        else if (body /= body_wheel .and. body /= body_rail) then
+        call check_inclination(inclination, status)
+        if (is_error(status)) return
+        if (body /= body_wheel .and. body /= body_rail) then
             call set_status(status, st_bad_argument, 'a profile must be of a wheel or of a rail')
         else if (size(y) == 0 .or. size(y) /= size(z)) then
             call set_status(status, st_too_few_points, 'a profile must have as many y as z')
@@ -204,8 +239,8 @@ contains
                             trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
         end if
         if (is_error(status)) return
-        y_turned = (y + cant*z)/hypot(1.0_wp, cant)
-        z_turned = (z - cant*y)/hypot(1.0_wp, cant)
+        y_turned = (y + inclination*z)/hypot(1.0_wp, inclination)
+        z_turned = (z - inclination*y)/hypot(1.0_wp, inclination)
         call find_touchable(y_turned, z_turned, body, part)
         call make_arc_spline(y_turned(part%point), z_turned(part%point), kink_angle, &
                              profile%curve, status)

@@ -82,7 +82,7 @@ contains
     !> y: the head then ends there, on R13.
     pure subroutine make_rail_head(transition, cant, head, status, half_width)
         real(wp), intent(in) :: transition      !! y1, between 1 and 20, mm
-        real(wp), intent(in) :: cant            !! tangent, e.g. 1/40; within +-0.1
+        real(wp), intent(in) :: cant            !! the inclination, e.g. 1/40; within +-0.1
         type(rail_head_t), intent(out) :: head  !! the head
         type(status_t), intent(out) :: status   !! `st_bad_argument`
         real(wp), intent(in), optional :: half_width !! where the flank begins, mm; 60E1's
@@ -100,8 +100,8 @@ contains
         valid = ieee_is_finite(cant)
         if (valid) valid = abs(cant) <= largest_cant
         if (.not. valid) then
-            call set_status(status, st_bad_argument, 'rail cant must be -0.1 to 0.1, got ' // &
-                            number_text(cant))
+            call set_status(status, st_bad_argument, 'rail inclination must be -0.1 to 0.1, ' // &
+                            'got ' // number_text(cant))
             return
         end if
 

@@ -8,6 +8,7 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
+    use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_out_of_range
@@ -16,7 +17,7 @@ module faststrip_geometry_rigid_contact
 
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
-    public :: find_gauge_point, creepage_set_a, creepage_set_b, largest_length
+    public :: find_gauge_point, place_rail, creepage_set_a, creepage_set_b, largest_length
     public :: scan_step, n_bisections
 
     !> The wheelset; both wheels carry the same profile.
@@ -81,7 +82,7 @@ contains
     !> refined on the difference of the slopes, so that of two nearly equal dips the lower wins.
     pure subroutine find_rigid_contact(wheel, rail, wheelset, track, shift, contact, status)
         type(profile_t), intent(in) :: wheel           !! wheel profile
-        type(profile_t), intent(in) :: rail            !! rail profile, canted
+        type(profile_t), intent(in) :: rail            !! rail profile, inclined
         type(wheelset_t), intent(in) :: wheelset       !! mm
         type(track_t), intent(in) :: track             !! mm
         real(wp), intent(in) :: shift                  !! of the wheelset to the right, mm
@@ -264,7 +265,7 @@ contains
         real(wp), intent(in) :: shift
         real(wp), intent(out) :: offset
         type(status_t), intent(out) :: status
-        real(wp) :: y_gauge, y_origin
+        real(wp) :: y_origin
 
         offset = 0.0_wp
         call clear_status(status)
@@ -272,20 +273,52 @@ contains
             call set_status(status, st_bad_argument, 'there is no wheel or no rail profile')
             return
         end if
-        if (is_apart(track)) then
-            y_origin = 0.5_wp*track%rail_distance
-        else
-            call find_gauge_point(rail, track%gauge_depth, y_gauge, status)
-            if (status%code /= 0) return
-            y_origin = 0.5_wp*track%gauge - y_gauge
-        end if
+        call place_rail(wheel, rail, wheelset, track, y_origin, status)
+        if (status%code /= 0) return
         offset = y_origin - (0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift)
     end subroutine rail_offset
+
+    !> Where the origin of a rail's profile lies in the track, of a wheelset that fits between the
+    !> rails.
+    pure subroutine place_rail(wheel, rail, wheelset, track, y_origin, status, z_crown)
+        type(profile_t), intent(in) :: wheel      !! of both wheels
+        type(profile_t), intent(in) :: rail       !! inclined
+        type(wheelset_t), intent(in) :: wheelset  !! mm
+        type(track_t), intent(in) :: track        !! mm
+        real(wp), intent(out) :: y_origin         !! from the track centre to the field side, mm
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: they do not fit;
+                                                  !! `st_out_of_range`: no gauge face
+        real(wp), intent(out), optional :: z_crown !! of the profile, mm; 0 where the distance of
+                                                   !! the rails counts
+
+        real(wp) :: y_gauge, top
+
+        y_origin = 0.0_wp
+        if (present(z_crown)) z_crown = 0.0_wp
+        call clear_status(status)
+        if (is_apart(track)) call check_length('distance of the rails', track%rail_distance, status)
+        if (is_error(status)) return
+        call find_gauge_point(rail, track%gauge_depth, y_gauge, status, top)
+        if (is_apart(track)) then
+            y_origin = 0.5_wp*track%rail_distance
+            ! Without a gauge face nothing is known of how they fit.
+            if (is_error(status)) then
+                call clear_status(status)
+            else
+                call check_tape_circles(wheelset%back_spacing, wheelset%tread_line, &
+                                        track%rail_distance + 2.0_wp*y_gauge, status)
+            end if
+        else if (.not. is_error(status)) then
+            y_origin = 0.5_wp*track%gauge - y_gauge
+            if (present(z_crown)) z_crown = top
+            call check_fit(wheel, wheelset%back_spacing, wheelset%tread_line, track%gauge, status)
+        end if
+    end subroutine place_rail
 
     !> The point of the gauge face at a depth below the highest point of the rail, or the innermost
     !> one above it where the face overhangs.
     pure subroutine find_gauge_point(rail, depth, y_gauge, status, z_crown)
-        type(profile_t), intent(in) :: rail   !! canted
+        type(profile_t), intent(in) :: rail   !! inclined
         real(wp), intent(in) :: depth         !! below the crown, mm
         real(wp), intent(out) :: y_gauge      !! on the profile, mm
         type(status_t), intent(out) :: status !! `st_out_of_range`: it does not reach so deep
@@ -381,7 +414,7 @@ contains
     pure subroutine find_rigid_contacts(wheel, rail, wheelset, track, shift, right, left, &
                                         status)
         type(profile_t), intent(in) :: wheel        !! profile of both wheels
-        type(profile_t), intent(in) :: rail         !! profile of both rails, canted
+        type(profile_t), intent(in) :: rail         !! profile of both rails, inclined
         type(wheelset_t), intent(in) :: wheelset    !! mm
         type(track_t), intent(in) :: track          !! mm
         real(wp), intent(in) :: shift               !! of the wheelset to the right, mm

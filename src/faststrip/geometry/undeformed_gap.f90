@@ -61,7 +61,7 @@ contains
     !> `height` and both profiles go on, as functions of y'.
     subroutine make_gap(wheel, rail, wheelset, contact, step, height, gap, status)
         type(profile_t), intent(in) :: wheel          !! wheel profile
-        type(profile_t), intent(in) :: rail           !! rail profile, canted
+        type(profile_t), intent(in) :: rail           !! rail profile, inclined
         type(wheelset_t), intent(in) :: wheelset      !! its radius is used, mm
         type(rigid_contact_t), intent(in) :: contact  !! from `find_rigid_contact`
         real(wp), intent(in) :: step                  !! spacing of the samples, >= 1e-3 mm

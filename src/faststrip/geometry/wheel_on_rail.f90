@@ -16,7 +16,7 @@ module faststrip_geometry_wheel_on_rail
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_out_of_range
     use faststrip_geometry_profile, only: profile_t, profile_at, profile_none
-    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, find_gauge_point
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, place_rail
     use faststrip_geometry_wheelset_state, only: wheelset_axes_t, rail_state_t
     implicit none
     private
@@ -44,7 +44,7 @@ module faststrip_geometry_wheel_on_rail
     !> One wheel and its rail, as a right pair; made once.
     type :: wheel_on_rail_t
         type(profile_t) :: wheel           !! y = 0 at the tread line
-        type(profile_t) :: rail            !! canted
+        type(profile_t) :: rail            !! inclined
         real(wp) :: y_line = 0.0_wp        !! tread line from the wheelset's centre, mm
         real(wp) :: radius = 0.0_wp        !! nominal radius, at the tread line, mm
         real(wp) :: z_line = 0.0_wp        !! z of the profile there, mm
@@ -75,14 +75,14 @@ contains
     !> Put a wheel on its rail: the one place that allocates.
     subroutine make_wheel_on_rail(wheel, rail, wheelset, track, pair, status)
         type(profile_t), intent(in) :: wheel         !! of this wheel
-        type(profile_t), intent(in) :: rail          !! of its rail, canted
+        type(profile_t), intent(in) :: rail          !! of its rail, inclined
         type(wheelset_t), intent(in) :: wheelset     !! its radius is that of this wheel, mm
         type(track_t), intent(in) :: track           !! mm
         type(wheel_on_rail_t), intent(out) :: pair   !! as a right pair
         type(status_t), intent(out) :: status
-            !! `st_bad_argument`: no profile; `st_out_of_range`: no gauge face
+            !! `st_bad_argument`: no profile, or they do not fit; `st_out_of_range`: no gauge face
 
-        real(wp) :: dz, d2z, y_gauge
+        real(wp) :: dz, d2z
 
         call clear_status(status)
         if (wheel%kind == profile_none .or. rail%kind == profile_none) then
@@ -104,15 +104,10 @@ contains
                             'the wheel profile must reach its tread line, y = 0')
             return
         end if
-        if (track%rail_distance > 0.0_wp) then
-            pair%y_rail = 0.5_wp*track%rail_distance
-        else
-            call find_gauge_point(rail, track%gauge_depth, y_gauge, status, pair%z_rail)
-            if (is_error(status)) return
-            pair%y_rail = 0.5_wp*track%gauge - y_gauge
-            ! The crown is where z = 0.
-            pair%z_rail = -pair%z_rail
-        end if
+        call place_rail(wheel, rail, wheelset, track, pair%y_rail, status, pair%z_rail)
+        if (is_error(status)) return
+        ! With a gauge the crown is where z = 0.
+        pair%z_rail = -pair%z_rail
         call sample_wheel(pair)
         call sample_rail(pair)
     end subroutine make_wheel_on_rail

@@ -57,11 +57,11 @@ contains
     end function faststrip_pair_gap
 
     !> Points of a profile that is given by name or by points.
-    integer(c_int) function faststrip_draw_profile(profile, is_rail, cant, n, y, z, text, length) &
-        bind(c) result(code)
+    integer(c_int) function faststrip_draw_profile(profile, is_rail, inclination, n, y, z, text, &
+                                                   length) bind(c) result(code)
         type(c_ptr), value :: profile      !! a `faststrip_profile`
         integer(c_int), value :: is_rail   !! of a rail? (0: of a wheel)
-        real(c_double), value :: cant      !! tangent by which a rail is turned
+        real(c_double), value :: inclination !! of a rail, its tangent, or 999: not said
         integer(c_int), value :: n         !! points wanted
         type(c_ptr), value :: y, z         !! mm, written
         type(c_ptr), value :: text         !! `length` characters, written; or null
@@ -76,7 +76,7 @@ contains
                                 status)
         if (.not. is_error(status)) &
             call draw_profile(source, merge(body_rail, body_wheel, is_rail /= 0), &
-                              merge(cant, 0.0_c_double, is_rail /= 0), numbers_at(y, n), &
+                              merge(inclination, 0.0_c_double, is_rail /= 0), numbers_at(y, n), &
                               numbers_at(z, n), status)
         code = status%code
         if (c_associated(text)) code = max(code, put_text(trim(status%message), text, length))

@@ -62,7 +62,7 @@ module faststrip_interop_c_wheelset
 
 contains
 
-    !> Fill a setup in with standard gauge, wheels of 460 mm, rails canted by 1:40.
+    !> Fill a setup in with standard gauge, wheels of 460 mm, no word of the rails' inclination.
     integer(c_int) function faststrip_default_wheelset(setup, length) bind(c) result(code)
         type(c_ptr), value :: setup        !! a `faststrip_wheelset_setup`, written
         integer(c_size_t), value :: length !! its size as the caller knows it

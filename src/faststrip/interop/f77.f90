@@ -6,7 +6,8 @@
 !> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
 !> own. `INFO` is a code of `faststrip_base_status`: 0, below 100 a result with a named limitation
 !> (1 fallback_used, 2 edge_of_data, 3 fewer_strips, 4 overlap_left, 5 flat_along_x, 6 conformal, 7
-!> target_missed, 8 under_resolved, 9 more_strips, 10 beyond_yield), from 100 on no result.
+!> target_missed, 8 under_resolved, 9 more_strips, 10 beyond_yield, 11 no_wave), from 100 on no
+!> result.
 !>
 !> ```
 !> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments, 6 auto, 7 kpec, 8 analyn,
@@ -153,10 +154,11 @@ contains
     !> CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, LGAP, NGAP, Y, H, AX, TURN, CONT, INFO)
     !>
     !> The gap of a wheel on a rail, both given by points along the curve, y to the field side, z
-    !> down, of the wheel from the tape circle. SETUP: distance of the flange backs, flange back to
-    !> tape circle, rolling radius, gauge, its depth below the crown, tangent of the cant, shift to
-    !> the right, spacing and height of the gap. CONT: contact angle, rolling radius, y on the wheel
-    !> and on the rail, points left out of the wheel and of the rail. INFO 110: LGAP below NGAP.
+    !> down, of the wheel from the tape circle. SETUP: distance of the flange backs (0: as belongs
+    !> to the gauge), flange back to tape circle, rolling radius, gauge, its depth below the crown,
+    !> rail inclination (its tangent; 0: as in the track), shift to the right, spacing and height of
+    !> the gap. CONT: contact angle, rolling radius, y on the wheel and on the rail, points left out
+    !> of the wheel and of the rail. INFO 110: LGAP below NGAP.
     subroutine fsprof(n_wheel, y_wheel, z_wheel, n_rail, y_rail, z_rail, setup, capacity, n, y, h, &
                       inv2r, inclination, contact, info) bind(c, name='fsprof_')
         integer(c_int), intent(in) :: n_wheel                         !! number of points

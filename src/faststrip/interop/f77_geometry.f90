@@ -13,7 +13,8 @@
 !> CON(1,J) tan gamma_e at AMP(J) by Klingel's equation, EN 15302:2008+A1:2010, Annex B
 !> CON(2,J) by linear regression, Annex C              CON(3,J), CON(4,J) turning points, mm
 !> CON(5,J), CON(6,J) nonlinearity of both, 1/mm
-!> JSTAT(1,J) status of the amplitude: 0, or 100, 109, with zeros in CON
+!> JSTAT(1,J) status of the amplitude: 0; 11, no wave: CON(1,J) is 0, CON(3,J), CON(4,J) are the
+!>          ends of the line of CON(2,J); or 100, 109, with zeros in CON
 !> JSTAT(2,J) 1: CON(5,J) and CON(6,J) are known
 !> ```
 module faststrip_interop_f77_geometry

@@ -3,10 +3,13 @@
 !>
 !> ```
 !> SETUP(1), SETUP(2) nominal radius of the right and left wheel, mm
-!> SETUP(3) distance of the flange backs, mm           SETUP(4) flange back to tape circle, mm
+!> SETUP(3) distance of the flange backs, mm; 0: as belongs to the gauge (1435 or 1520 mm)
+!> SETUP(4) flange back to tape circle, mm
 !> SETUP(5) gauge, mm                                  SETUP(6) its depth below the crown, mm
 !> SETUP(7) distance of the origins of the rails' profiles, mm; 0: as the gauge says
-!> SETUP(8) tangent by which both rails are turned     SETUP(9) limit of estimated errors; 0: none
+!> SETUP(8) rail inclination, its tangent, .025 for 1:40, 0 for points as they lie in the track;
+!>        999: not said, 1:40 of standard profiles, an error (100) of points
+!> SETUP(9) limit of estimated errors; 0: none
 !> NPROF(1), NPROF(2) points of the right and left wheel, NPROF(3), NPROF(4) of the rails; a left
 !>        one of 0 is as the right one; or, below 0, a standard profile: wheels -1 S1002, -2 a cone
 !>        of 1:20, -3 of 1:40; rails -1 UIC60, -2 60E1, -3 54E1
@@ -71,7 +74,7 @@ contains
 
     !> CALL FSWDFT(SETUP)
     !>
-    !> Standard gauge, wheels of 460 mm, rails canted by 1:40.
+    !> Standard gauge, wheels of 460 mm, no word of the rails' inclination.
     subroutine fswdft(setup) bind(c, name='fswdft_')
         real(c_double), intent(out) :: setup(n_setup) !! as above
 

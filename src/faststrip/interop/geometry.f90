@@ -21,7 +21,7 @@ module faststrip_interop_geometry
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_interop_wheelset_handle, only: n_setup
-    use faststrip_interop_wheelset_new, only: profile_source_t, make_profiles
+    use faststrip_interop_wheelset_new, only: profile_source_t, make_profiles, take_dimensions
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     implicit none
     private
@@ -51,13 +51,10 @@ contains
         call hold_environment(environment)
         functions = 0.0_c_double
         states = 0
-        call clear_status(status)
-        if (.not. all(ieee_is_finite(setup))) then
-            call set_status(status, st_not_finite, 'the setup must be finite numbers')
-        else if (.not. all(ieee_is_finite(y))) then
-            call set_status(status, st_not_finite, 'the shifts must be finite')
-        else
+        if (all(ieee_is_finite(y))) then
             call tabulate(wheels, rails, setup, with_roll, y, functions, states, status)
+        else
+            call set_status(status, st_not_finite, 'the shifts must be finite')
         end if
         call restore_environment(environment)
     end subroutine table_functions
@@ -73,9 +70,13 @@ contains
         type(profile_t), allocatable :: wheel(:), rail(:)
         type(side_t), allocatable :: sides(:)
         type(contact_functions_t) :: found
+        type(wheelset_t) :: wheelset
+        type(track_t) :: track
         type(status_t) :: state
         integer :: i
 
+        call take_dimensions(setup, wheelset, track, status)
+        if (is_error(status)) return
         allocate (wheel(2), rail(2), sides(2))
         call make_profiles(wheels, body_wheel, 0.0_c_double, wheel, status)
         if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
@@ -84,9 +85,7 @@ contains
             sides(i) = side_t(wheel(i), rail(i), setup(i))
         end do
         do i = 1, size(y)
-            call find_contact_functions(sides(1), sides(2), &
-                                        wheelset_t(setup(3), setup(4), setup(1)), &
-                                        track_t(setup(5), setup(6), setup(7)), y(i), with_roll, &
+            call find_contact_functions(sides(1), sides(2), wheelset, track, y(i), with_roll, &
                                         found, state)
             states(i) = state%code
             if (.not. is_error(state)) then

@@ -7,6 +7,7 @@ module faststrip_interop_profile_points
                                      st_workspace_too_small
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap, only: gap_t
+    use faststrip_geometry_gauge_fit, only: find_back_spacing
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contact
@@ -43,9 +44,10 @@ contains
         type(profile_source_t), intent(in) :: of_wheel !! as a right one
         type(profile_source_t), intent(in) :: of_rail  !! as a right one
         real(wp), intent(in) :: setup(n_setup)
-            !! distance of the flange backs, flange back to tape circle, rolling radius, gauge, its
-            !! depth below the crown, tangent of the cant, shift to the right, spacing of the gap,
-            !! its height: mm, but for the cant
+            !! distance of the flange backs (0: as belongs to the gauge), flange back to tape
+            !! circle, rolling radius, gauge, its depth below the crown, rail inclination, its
+            !! tangent, or `unset_inclination`, shift to the right, spacing of the gap, its height:
+            !! mm
         type(gap_t), intent(out) :: gap                !! mm, mm, 1/mm, rad
         real(wp), intent(inout) :: contact(n_contact)
             !! contact angle, rad; rolling radius there, mm; y on the wheel and on the rail, mm;
@@ -78,6 +80,9 @@ contains
             if (is_error(status)) return
             contact(5:6) = n_out
             wheelset = wheelset_t(setup(1), setup(2), setup(3))
+            if (.not. abs(setup(1)) > 0.0_wp) &
+                call find_back_spacing(setup(4), 0.0_wp, wheelset%back_spacing, status)
+            if (is_error(status)) return
             call find_rigid_contact(wheel, rail, wheelset, track_t(setup(4), setup(5)), setup(7), &
                                     rigid, status)
             if (is_error(status)) return
@@ -87,10 +92,11 @@ contains
     end subroutine gap_of_profiles
 
     !> Points of a profile at equal distances of y, from end to end of what can be touched.
-    subroutine draw_profile(source, body, cant, y, z, status)
+    subroutine draw_profile(source, body, inclination, y, z, status)
         type(profile_source_t), intent(in) :: source !! as a right one
         integer, intent(in) :: body                  !! `body_wheel`, `body_rail`
-        real(wp), intent(in) :: cant                 !! tangent by which a rail is turned
+        real(wp), intent(in) :: inclination          !! of a rail, its tangent, or
+                                                     !! `unset_inclination`; of a wheel 0
         real(wp), intent(inout) :: y(:)              !! to the field side, mm; at least two
         real(wp), intent(inout) :: z(:)              !! down, mm
         type(status_t), intent(out) :: status        !! `st_bad_argument`; those of `make_profile`
@@ -106,7 +112,7 @@ contains
             return
         end if
         call hold_environment(environment)
-        call make_profile(source, body, cant, profile, n_out, status)
+        call make_profile(source, body, inclination, profile, n_out, status)
         do i = 1, n
             if (is_error(status)) exit
             y(i) = profile%y_first + (profile%y_last - profile%y_first)*real(i - 1, wp) &

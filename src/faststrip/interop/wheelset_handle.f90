@@ -2,9 +2,11 @@
 !> nowhere else is it said which place is which component.
 !>
 !> ```
-!> setup    1, 2 nominal radius of the right and left wheel, mm    3 distance of the flange backs
-!>          4 flange back to tape circle    5 gauge   6 its depth below the crown
-!>          7 distance of the rails' origins, 0: as the gauge says   8 tangent of the rails' cant
+!> setup    1, 2 nominal radius of the right and left wheel, mm    3 distance of the flange backs,
+!>          0: as belongs to the gauge      4 flange back to tape circle
+!>          5 gauge   6 its depth below the crown
+!>          7 distance of the rails' origins, 0: as the gauge says
+!>          8 rail inclination, its tangent; 999: not said, 1:40 of names, an error of points
 !> state    1 y, mm      2 z, mm        3 roll, rad     4 yaw, rad     5 speed, mm/s
 !>          6, 7 rates of y and z, mm/s      8, 9, 10 rates of roll, yaw and pitch, rad/s
 !>          11 curvature of the track, 1/mm

@@ -8,8 +8,9 @@ module faststrip_interop_wheelset_new
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_auto
     use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_gauge_fit, only: find_back_spacing
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          make_curve_profile, standard_cant
+                                          make_curve_profile, unset_inclination
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
     use faststrip_interop_register, only: enter_register, kind_wheelset
@@ -23,7 +24,7 @@ module faststrip_interop_wheelset_new
     private
 
     public :: profile_source_t, source_name_length, default_setup, new_wheelset, &
-              make_profiles, make_profile
+              take_dimensions, make_profiles, make_profile
 
     !> Characters of a profile's name.
     !> Given: capacity.
@@ -38,7 +39,7 @@ module faststrip_interop_wheelset_new
 
 contains
 
-    !> Standard gauge, wheels of 460 mm, rails canted by 1:40.
+    !> Standard gauge, wheels of 460 mm, no word of the rails' inclination.
     pure subroutine default_setup(setup)
         real(c_double), intent(out) :: setup(n_setup) !! dimensions
 
@@ -46,7 +47,7 @@ contains
         type(track_t) :: track
 
         setup = [wheelset%radius, wheelset%radius, wheelset%back_spacing, wheelset%tread_line, &
-                 track%gauge, track%gauge_depth, track%rail_distance, standard_cant]
+                 track%gauge, track%gauge_depth, track%rail_distance, unset_inclination]
     end subroutine default_setup
 
     !> Make a wheelset on its track. The one allocation.
@@ -81,20 +82,20 @@ contains
         type(status_t), intent(out) :: status
 
         type(profile_t), allocatable :: wheel(:), rail(:)
+        type(wheelset_t) :: wheelset
+        type(track_t) :: track
 
-        call clear_status(status)
         allocate (wheel(2), rail(2))
-        if (.not. all(ieee_is_finite(setup))) then
-            call set_status(status, st_not_finite, 'the setup must be finite numbers')
-        else if (case%methods%normal == normal_auto) then
+        call take_dimensions(setup, wheelset, track, status)
+        if (is_error(status)) return
+        if (case%methods%normal == normal_auto) then
             call set_status(status, st_bad_argument, 'the normal method of a wheelset must not ' &
                             // 'be auto')
         end if
         if (.not. is_error(status)) call make_profiles(wheels, body_wheel, 0.0_wp, wheel, status)
         if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
         if (.not. is_error(status)) &
-            call make_wheelset(wheel, rail, wheelset_t(setup(3), setup(4), setup(1)), setup(2), &
-                               track_t(setup(5), setup(6), setup(7)), case, handle%model, status)
+            call make_wheelset(wheel, rail, wheelset, setup(2), track, case, handle%model, status)
         if (.not. is_error(status)) &
             call reserve_wheelset(handle%workspace, handle%model, status)
         if (is_error(status)) return
@@ -104,11 +105,30 @@ contains
         end associate
     end subroutine fill_handle
 
+    !> Wheelset and track of a setup.
+    pure subroutine take_dimensions(setup, wheelset, track, status)
+        real(c_double), intent(in) :: setup(n_setup)  !! dimensions
+        type(wheelset_t), intent(out) :: wheelset     !! mm; its radius is that of the right wheel
+        type(track_t), intent(out) :: track           !! mm
+        type(status_t), intent(out) :: status
+            !! `st_not_finite`; `st_bad_argument`: no distance of the flange backs is known
+
+        call clear_status(status)
+        if (.not. all(ieee_is_finite(setup))) then
+            call set_status(status, st_not_finite, 'the setup must be finite numbers')
+            return
+        end if
+        wheelset = wheelset_t(setup(3), setup(4), setup(1))
+        track = track_t(setup(5), setup(6), setup(7))
+        if (.not. abs(setup(3)) > 0.0_wp) &
+            call find_back_spacing(track%gauge, track%rail_distance, wheelset%back_spacing, status)
+    end subroutine take_dimensions
+
     !> The right and the left profile of one body.
-    subroutine make_profiles(sources, body, cant, profiles, status)
+    subroutine make_profiles(sources, body, inclination, profiles, status)
         type(profile_source_t), intent(in) :: sources(2) !! both as a right one
         integer, intent(in) :: body                      !! `body_wheel`, `body_rail`
-        real(wp), intent(in) :: cant                     !! tangent by which rails are turned
+        real(wp), intent(in) :: inclination              !! of rails; of wheels 0
         type(profile_t), intent(inout) :: profiles(2)    !! made
         type(status_t), intent(out) :: status            !! those of profiles
 
@@ -120,17 +140,18 @@ contains
                 .and. .not. associated(sources(side)%y)) then
                 profiles(side_left) = profiles(side_right)
             else
-                call make_profile(sources(side), body, cant, profiles(side), n_out, status)
+                call make_profile(sources(side), body, inclination, profiles(side), n_out, status)
             end if
             if (is_error(status)) return
         end do
     end subroutine make_profiles
 
     !> One profile of a name, or of points.
-    subroutine make_profile(source, body, cant, profile, n_out, status)
+    subroutine make_profile(source, body, inclination, profile, n_out, status)
         type(profile_source_t), intent(in) :: source !! as a right one
         integer, intent(in) :: body                  !! `body_wheel`, `body_rail`
-        real(wp), intent(in) :: cant                 !! tangent by which it is turned; a wheel: 0
+        real(wp), intent(in) :: inclination          !! of a rail, its tangent, or
+                                                     !! `unset_inclination`; of a wheel 0
         type(profile_t), intent(out) :: profile      !! made
         integer, intent(out) :: n_out                !! points that cannot be touched
         type(status_t), intent(out) :: status        !! those of profiles
@@ -139,13 +160,13 @@ contains
 
         n_out = 0
         if (associated(source%y)) then
-            call make_curve_profile(source%y, source%z, body, cant, standard_kink_angle, profile, &
-                                    part, status)
+            call make_curve_profile(source%y, source%z, body, inclination, standard_kink_angle, &
+                                    profile, part, status)
             if (.not. is_error(status)) n_out = size(source%y) - size(part%point)
         else if (body == body_wheel) then
             call make_wheel_profile(trim(source%name), profile, status)
         else
-            call make_rail_profile(trim(source%name), cant, profile, status)
+            call make_rail_profile(trim(source%name), inclination, profile, status)
         end if
     end subroutine make_profile
 end module faststrip_interop_wheelset_new
