@@ -582,13 +582,28 @@ def environments(rng, i):
     return Try("environments", words, codes=(0,), may_pass=True, environment=settings)
 
 
+def sizes(rng, i):
+    """A number that is huge or tiny, by any method: an end in bounded time, in words."""
+    value = f"{rng.choice(['', '', '-'])}1e{rng.choice([-300, -60, -20, 20, 60, 150, 220, 300])}"
+    group, name = [("contact", "load_N"), ("contact", "penetration_mm"),
+                   ("material", "E_wheel_MPa"), ("material", "nu_rail"), ("material", "mu"),
+                   ("motion", "cksi"), ("motion", "cphi_rad_per_mm")][i % 7]
+    lines = [line for line in CASE if not line.strip().startswith(name + " ")
+             and not (name == "penetration_mm" and "load_N" in line)]
+    lines.insert(lines.index(f"&{group}") + 1, f"  {name} = {value}")
+    normal = rng.choice(["strip", "hertz", "equal_area", "equal_moments", "kpec", "kpec_strips",
+                         "analyn", "norm"])
+    return Try("sizes", ["contact", "case.nml", "--normal", normal, "--max-elements", "100000"],
+               codes=(1, 3), files={"case.nml": text_of(lines)}, may_pass=True)
+
+
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
             "conicities": (conicities, 8), "pairs": (pairs, 6), "batches": (batches, 12),
             "options": (options, 16), "paths": (paths, 10), "side files": (side_files, 10),
             "permissions": (permissions, 2), "special files": (special_files, 2),
             "signals": (signals, 3), "endless work": (endless_work, 1),
-            "environments": (environments, 3)}
+            "environments": (environments, 3), "sizes": (sizes, 6)}
 
 
 def snapshot(folder):
@@ -619,6 +634,8 @@ def judge(attempt, code, seconds, err, changes, limit):
     speaker = f"{attempt.program.name}: "
     if seconds > limit:
         wrong.append(f"took {seconds:.1f} s")
+    if attempt.family == "sizes" and any(word in err for word in ("NaN", "Infinity")):
+        wrong.append("words of what is no number")
     if any(word in err for word in NEVER):
         wrong.append("the runtime speaks")
     if changes and not (code == 0 and attempt.may_pass):

@@ -199,6 +199,8 @@ contains
         step%tangential = solver%chosen%tangential
         solver%chosen%element_dx = step%dx
         solver%chosen%element_dy = step%dy
+        solver%chosen%dx_is_given = .true.
+        solver%chosen%dy_is_given = .true.
         solver%chosen%error_target = 0.0_wp
         solver%case%methods = core_methods(solver%chosen)
         ! What is missing is told for the target.

@@ -292,6 +292,8 @@ contains
         numbers%wear%yield_shear_mpa = yield_shear_mpa
         numbers%element_dx = element_dx_mm
         numbers%element_dy = element_dy_mm
+        numbers%dx_is_given = sets(content, group, 'element_dx_mm')
+        numbers%dy_is_given = sets(content, group, 'element_dy_mm')
         numbers%error_target = error_target
         numbers%norm_start = norm_start
         numbers%wanted%tolerance = tolerance

@@ -57,8 +57,8 @@ contains
         real(wp), intent(in) :: value                !! what the group gave it
 
         call need_finite(content, group, name, value)
-        if (value <= -1.0_wp .or. value > 0.5_wp) &
-            call refuse(content, group, name, 'must be above -1 and at most 0.5', &
+        if (value < 0.0_wp .or. value >= 0.5_wp) &
+            call refuse(content, group, name, 'must be at least 0 and below 0.5', &
                         number_text(value))
     end subroutine need_poisson
 

@@ -89,7 +89,8 @@ contains
             call take_beside(work_name(option_text(command, '-o', '')), '-o')
         call take_direct_options(command, choice)
         choice%nu = option_number(command, '--nu', choice%nu, least=0)
-        if (choice%nu > 0.5_wp) call refuse_value(command, '--nu', 'a number from 0 to 0.5')
+        if (choice%nu >= 0.5_wp) &
+            call refuse_value(command, '--nu', 'a number of at least 0 and below 0.5')
         error = option_number(command, '--error', 0.01_wp, above=0)
         tests = option_integer(command, '--tests', usual_tests, most=10000000, &
                                least=merge(100, least_drawn, given(command, '--axes-of')))

@@ -27,8 +27,10 @@ module faststrip_command_method_options
         option_t('--points-per-strip', 'N', 'points along a strip, faststrip... (default 15)'), &
         option_t('--fastsim-nx', 'N', 'points along a row, fastsim... (default 50)'), &
         option_t('--fastsim-ny', 'N', 'rows, fastsim... (default 50)'), &
-        option_t('--element-dx', 'MM', 'side of the elements along x, norm, tang (default 0.2)'), &
-        option_t('--element-dy', 'MM', 'side of the elements along y, norm, tang (default 0.2)'), &
+        option_t('--element-dx', 'MM', 'side of the elements along x, norm, tang (default 0.2,' &
+                 // new_line('a') // 'less in small contacts)'), &
+        option_t('--element-dy', 'MM', 'side of the elements along y, norm, tang (default 0.2,' &
+                 // new_line('a') // 'less in small contacts)'), &
         option_t('--error-target', 'E', 'norm: choose the sides for this relative error'), &
         option_t('--max-elements', 'N', 'norm, tang: no larger grids than that (default' &
                  // ' 1000000)'), &
@@ -112,6 +114,8 @@ contains
                                            above=0)
         numerics%element_dy = option_number(command, '--element-dy', numerics%element_dy, &
                                            above=0)
+        if (given(command, '--element-dx')) numerics%dx_is_given = .true.
+        if (given(command, '--element-dy')) numerics%dy_is_given = .true.
         numerics%error_target = option_number(command, '--error-target', numerics%error_target, &
                                              least=0)
         case%resolution_limit = option_number(command, '--resolution-limit', &

@@ -36,6 +36,8 @@ module faststrip_command_methods
         real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
         real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
         real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
+        logical :: dx_is_given = .false. !! else it is shorter where the contact is small
+        logical :: dy_is_given = .false. !! the same along y
         real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
         integer :: max_elements = standard_max_elements !! of a grid, norm, tang
         character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`

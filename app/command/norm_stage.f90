@@ -68,6 +68,8 @@ contains
         if (is_error(status)) return
         options%dx = numerics%element_dx
         options%dy = numerics%element_dy
+        options%fits_dx = .not. numerics%dx_is_given
+        options%fits_dy = .not. numerics%dy_is_given
         options%error_target = numerics%error_target
         options%most_elements = numerics%max_elements
         if (present(strips)) then

@@ -5,6 +5,7 @@ module faststrip_command_tang_stage
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      message_length, st_bad_argument, st_under_resolved
     use faststrip_base_text, only: integer_text
+    use faststrip_kalker_normal_options, only: fitting_side
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
@@ -190,16 +191,24 @@ contains
         type(contact_grid_t), intent(inout) :: grid
         type(status_t), intent(out) :: status
 
-        if (numerics%normal == normal_hertz) then
-            associate (hertz => workspace%hertz)
-                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, &
-                                    times*numerics%element_dx, times*numerics%element_dy, &
+        real(wp) :: dx, dy
+
+        dx = numerics%element_dx
+        dy = numerics%element_dy
+        associate (hertz => workspace%hertz, strips => workspace%strips, n => workspace%strips%n)
+            if (numerics%normal == normal_hertz) then
+                if (.not. numerics%dx_is_given) dx = fitting_side(dx, hertz%a)
+                if (.not. numerics%dy_is_given) dy = fitting_side(dy, hertz%b)
+                call sample_ellipse(hertz%a, hertz%b, hertz%y, hertz%load, times*dx, times*dy, &
                                     numerics%max_elements, grid, status)
-            end associate
-        else
-            call sample_strips(workspace%strips, times*numerics%element_dx, &
-                               times*numerics%element_dy, numerics%max_elements, grid, status)
-        end if
+            else
+                if (.not. numerics%dx_is_given .and. n > 0) &
+                    dx = fitting_side(dx, maxval(strips%half_length(:n)))
+                if (.not. numerics%dy_is_given .and. n > 0) &
+                    dy = fitting_side(dy, 0.5_wp*sum(strips%y_right(:n) - strips%y_left(:n)))
+                call sample_strips(strips, times*dx, times*dy, numerics%max_elements, grid, status)
+            end if
+        end associate
     end subroutine sample_pressures
 
     subroutine solve_on_grid(workspace, grid, edges, case, with_field, tangential, field, status)

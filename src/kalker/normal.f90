@@ -24,7 +24,8 @@ module faststrip_kalker_normal
     use faststrip_kalker_normal_grid, only: grid_solver_t, release_grid_solver, set_task, &
                                             solve_on_grid, guess_on_heights, take_figures
     use faststrip_kalker_normal_options, only: norm_options_t, norm_most_elements, check_options, &
-                                               check_numbers, check_load, check_heights
+                                               check_numbers, check_load, check_heights, &
+                                               fitting_side
     use faststrip_kalker_normal_position, only: extent_t, guess_extent, extent_of_strips, &
                                                 extent_of_grid, position_grid, take_missing_rows, &
                                                 columns_suffice, reaches_end_of_data, &
@@ -32,7 +33,7 @@ module faststrip_kalker_normal
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
     use faststrip_normal_certificate, only: certificate_t, richardson_estimate
-    use faststrip_normal_limitations, only: check_penetration, name_step, add_limitation
+    use faststrip_normal_limitations, only: check_depth, check_lowest, name_step, add_limitation
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t, demand_t, above_lowest
     implicit none
@@ -144,7 +145,7 @@ contains
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, no memory), `st_out_of_range` (more elements than
-    !> allowed, a contact beyond all proportion, a penetration that is not positive),
+    !> allowed, a contact beyond all proportion, fill values below the gap),
     !> `st_no_convergence`.
     !> Named limitations: `st_edge_of_data`, the contact runs to the end of the gap's points;
     !> `st_overlap_left`, the gap is much lower somewhere between the elements' middles;
@@ -212,6 +213,8 @@ contains
                             //trim(number_text(penetration))//' mm, lowest gap ' &
                             //trim(number_text(workspace%curve%h_lowest))//' mm')
         else
+            call check_depth(penetration - workspace%curve%h_lowest, status)
+            if (is_error(status)) return
             call solve_gap(workspace, compliance, &
                            above_lowest(demand_t(by_load=.false., penetration=penetration), &
                                         workspace%curve%h_lowest), &
@@ -311,8 +314,12 @@ contains
             workspace%last%nx = 0
         end if
         levels = merge(2, 1, options%two_levels)
-        spacing%dx = levels*options%dx
-        spacing%dy = levels*options%dy
+        spacing%dx = options%dx
+        spacing%dy = options%dy
+        if (options%fits_dx) spacing%dx = fitting_side(spacing%dx, problem%guess%half_length)
+        if (options%fits_dy) spacing%dy = fitting_side(spacing%dy, problem%guess%half_width)
+        spacing%dx = levels*spacing%dx
+        spacing%dy = levels*spacing%dy
         if (options%error_target > 0.0_wp) then
             levels = max_levels
             spacing%dx = spacing_unit*2.0_wp**floor(log(min(extent%half_length, extent%half_width) &
@@ -352,7 +359,7 @@ contains
             spacing%dy = 0.5_wp*spacing%dy
         end do
         call name_what_is_left(workspace%curve, workspace%grid, result%penetration, status)
-        call check_penetration(workspace%curve, result%penetration, status)
+        call check_lowest(workspace%curve, result%penetration - workspace%curve%h_lowest, status)
         if (is_error(status)) result = normal_result_t()
     end subroutine solve_gap
 

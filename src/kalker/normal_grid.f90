@@ -1,5 +1,6 @@
 !> The normal problem on one grid of rectangles: task, plans and kernels, minimisation, figures.
 module faststrip_kalker_normal_grid
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_out_of_range
@@ -95,10 +96,15 @@ contains
         result%passes = result%passes + 1
         result%iterations = result%iterations + found%iterations
         solver%convolutions = solver%convolutions + found%convolutions
-        if (.not. found%converged) &
+        if (found%converged) return
+        if (ieee_is_finite(found%residual)) then
             call set_status(status, st_no_convergence, 'the pressures did not converge: the gap ' &
                             //'in contact is '//trim(number_text(found%residual)) &
                             //' of the approach')
+        else
+            call set_status(status, st_no_convergence, 'the pressures did not converge: load, ' &
+                            //'compliance and elements are of sizes that do not go together')
+        end if
 
     contains
 

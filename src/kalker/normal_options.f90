@@ -11,12 +11,15 @@ module faststrip_kalker_normal_options
     private
 
     public :: norm_options_t, norm_most_elements
-    public :: check_options, check_numbers, check_load, check_heights, largest
+    public :: check_options, check_numbers, check_load, check_heights, fitting_side, largest
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
     !> Tuned [elements]. Origin: capacity.
     integer, parameter :: norm_most_elements = 4000000
 
+    ! Elements across half of a small contact.
+    ! Tuned [1]. Origin: chosen: a round contact has its pmax and area within 1 %.
+    real(wp), parameter :: fewest = 6.0_wp
     ! Sizes beyond which nothing is promised.
     ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp, largest = 1.0e60_wp
@@ -27,6 +30,8 @@ module faststrip_kalker_normal_options
         real(wp) :: dx = 0.2_wp           !! side of the elements along x, mm
         ! Tuned [mm]. Origin: as dx.
         real(wp) :: dy = 0.2_wp           !! side of the elements along y, mm
+        logical :: fits_dx = .false.      !! is it shorter where the contact is small?
+        logical :: fits_dy = .false.      !! see `fitting_side`
         real(wp) :: error_target = 0.0_wp !! estimated relative error of penetration and largest
                                           !! pressure; the sides are chosen if it is positive
         logical :: two_levels = .true.    !! solve with sides twice as long before: a better start
@@ -41,6 +46,14 @@ module faststrip_kalker_normal_options
     end type norm_options_t
 
 contains
+
+    !> A side of which half the contact holds at least six.
+    pure real(wp) function fitting_side(side, half)
+        real(wp), intent(in) :: side !! the longest, mm
+        real(wp), intent(in) :: half !! half the contact's length or width, mm
+
+        fitting_side = min(side, half/fewest)
+    end function fitting_side
 
     !> Refuse a compliance, sides, an error target or a tolerance that cannot be.
     pure subroutine check_options(compliance, options, status)

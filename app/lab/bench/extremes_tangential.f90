@@ -66,7 +66,9 @@ contains
         type(row_t) :: row
         integer :: m, c, k
 
-        contact%material = material_t(nu_wheel=nu, nu_rail=nu)
+        associate (below => min(nu, nearest(0.5_wp, -1.0_wp)))
+            contact%material = material_t(nu_wheel=below, nu_rail=below)
+        end associate
         contact%load = load
         call make_ellipse(ratio, points, contact, truth)
         call make_solver(numerics_t(normal=normal_strip, tangential=method%number), .false., &

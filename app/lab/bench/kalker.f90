@@ -155,7 +155,7 @@ contains
         type(material_t) :: material
         type(tang_options_t) :: options
         type(tangential_result_t) :: along, across, spin
-        real(wp) :: a, b, unit
+        real(wp) :: a, b, below, unit
         integer :: columns, i, j
 
         ! The axes' product is 1; the longer ones have more elements, spin's slip varies along them.
@@ -173,7 +173,8 @@ contains
                                                - (element_y(grid, j)/b)**2))
             end do
         end do
-        material = material_t(modulus, modulus, nu, nu)
+        below = min(nu, nearest(0.5_wp, -1.0_wp))
+        material = material_t(modulus, modulus, below, below)
         options%sticks_everywhere = .true.
         options%tolerance = tolerance
         call roll(creepage_t(cksi=small), along)

@@ -133,6 +133,8 @@ contains
             call cell_number(table, row, column, numerics%element_dx, status)
             call fail_on_error(status)
             numerics%element_dy = numerics%element_dx
+            numerics%dx_is_given = .true.
+            numerics%dy_is_given = .true.
         end subroutine take_side
 
         subroutine refuse(name, must, wrong)

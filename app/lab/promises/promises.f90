@@ -225,6 +225,8 @@ contains
         if (entry%across > 0) then
             numerics%element_dx = contact%truth%extents(1)/entry%across
             numerics%element_dy = contact%truth%extents(2)/entry%across
+            numerics%dx_is_given = .true.
+            numerics%dy_is_given = .true.
         end if
         call make_solver(numerics, .false., solver, status)
         if (.not. is_error(status)) call solve(solver, contact%contact, outcome, status)

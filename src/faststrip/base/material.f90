@@ -21,7 +21,8 @@ module faststrip_base_material
 
 contains
 
-    !> Refuse moduli that are not positive and ratios outside (-1, 0.5].
+    !> Refuse moduli that are not positive and Poisson's ratios outside [0, 0.5). Below zero the
+    !> creep forces have no table and pass their bounds; at 0.5 nothing can be compressed.
     pure subroutine check_material(material, status)
         type(material_t), intent(in) :: material !! moduli in MPa
         type(status_t), intent(out) :: status    !! `st_not_finite`, `st_bad_material`
@@ -46,9 +47,9 @@ contains
         else if (e <= 0.0_wp) then
             call set_status(status, st_bad_material, "Young's modulus of the " // name // &
                             ' must be above 0, got ' // trim(number_text(e)) // ' MPa')
-        else if (nu <= -1.0_wp .or. nu > 0.5_wp) then
+        else if (nu < 0.0_wp .or. nu >= 0.5_wp) then
             call set_status(status, st_bad_material, "Poisson's ratio of the " // name // &
-                            ' must be above -1 and at most 0.5, got ' // trim(number_text(nu)))
+                            ' must be at least 0 and below 0.5, got ' // trim(number_text(nu)))
         end if
     end subroutine check_body
 

@@ -26,7 +26,7 @@ module faststrip_contact_solve
     use faststrip_normal_kpec_strips, only: kpec_strips_solve
     use faststrip_normal_limitations, only: check_resolution, name_resolution, &
                                             name_force_resolution, add_limitation, &
-                                            check_penetration, name_steps
+                                            check_lowest, name_steps
     use faststrip_normal_misfit, only: misfit_t, find_misfit
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, strip_solve_demand, &
@@ -586,7 +586,7 @@ contains
             normal%y_max = hertz%y + hertz%b
             normal%x_max = hertz%a
             normal%n_patches = 1
-            call check_penetration(curve, normal%penetration, status)
+            call check_lowest(curve, hertz%penetration, status)
             if (is_error(status)) then
                 normal = normal_result_t()
                 return

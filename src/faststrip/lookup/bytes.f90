@@ -218,7 +218,8 @@ contains
             call set_status(status, st_file_format, 'a lookup table with numbers that are not ' // &
                             'finite')
         else if (any(scales <= 0.0_wp) .or. any(scales > 1.0e9_wp) .or. &
-                 any(parameters < 0.0_wp) .or. any(parameters > 1.0e9_wp)) then
+                 any(parameters < 0.0_wp) .or. any(parameters > 1.0e9_wp) .or. &
+                 parameters(1) >= 0.5_wp) then ! Given: Poisson's ratio
             call set_status(status, st_file_format, 'a lookup table with numbers out of range')
         end if
     end subroutine check_parts

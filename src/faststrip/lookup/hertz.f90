@@ -12,7 +12,7 @@ module faststrip_lookup_hertz
                                      st_bad_argument, st_not_finite, st_out_of_range, st_bad_load
     use faststrip_lookup_axis, only: stencil_t, linear_stencil, cubic_stencil
     use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
-                                      force_signs, n_forces, lookup_linear, lookup_cubic
+                                      n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
     implicit none
     private
@@ -88,11 +88,11 @@ contains
         sets = stencil%first + [0, 1, 2, 3]
         call sum_faces(lookup%values, sets(:cell%width), w(:, :cell%width), lookup%q%n, &
                        lookup%ratio%n, cell, phi, slope)
-        call finish_faces(cell, phi, f, by_creepage)
+        call finish_faces(cell, phi, slope, f, by_creepage)
         forces = force*f
         forces(3) = c*forces(3)
         if (present(jacobian)) then
-            slope(:, 1) = cell%q*slope(:, 1)*force_signs(cell) + times(by_creepage, scale_slope)
+            slope(:, 1) = slope(:, 1) + times(by_creepage, scale_slope)
             call find_jacobian(state, c, force, linear*scale, x, f, by_creepage, slope(:, 1), &
                                jacobian)
         end if

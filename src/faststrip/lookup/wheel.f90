@@ -17,7 +17,7 @@ module faststrip_lookup_wheel
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, linear_stencil, cubic_stencil
     use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
-                                      force_signs, n_forces, lookup_linear, lookup_cubic
+                                      n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, most_slots, &
                                       at_load, at_area, at_pmax, at_length, at_creep, at_spin
     implicit none
@@ -128,12 +128,11 @@ contains
         if (order == lookup_cubic) call find_place(lookup, lookup_linear, state(:n_wheel_place), &
                                                    place)
         call sum_places(lookup, place, slot, cell, phi, by_place)
-        call finish_faces(cell, phi, f, by_creepage)
+        call finish_faces(cell, phi, by_place, f, by_creepage)
         associate (force => state(4)*numbers(at_load, 0), &
                    c => numbers(at_length, 0)*root)
             forces = [force, force, force*c]*f
             if (.not. present(jacobian)) return
-            by_place = cell%q*by_place*spread(force_signs(cell), 2, n_wheel_place)
             call find_jacobian(state, numbers, linear, x, f, by_creepage, by_place, c, jacobian)
         end associate
     end subroutine look_up_wheel

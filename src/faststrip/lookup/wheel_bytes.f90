@@ -165,6 +165,7 @@ contains
                 call set_status(status, st_file_format, 'a lookup table with numbers that are ' // &
                                 'not finite')
             else if (any(parameters < 0.0_wp) .or. any(parameters > 1.0e9_wp) .or. &
+                     parameters(1) >= 0.5_wp .or. & ! Given: Poisson's ratio
                      .not. wheel%shear > 0.0_wp .or. .not. wheel%load%x(1) > 0.0_wp .or. &
                      any(abs(wheel%contacts) > 1.0e12_wp) .or. &
                      any(wheel%contacts(at_load, :, :) < 0.0_wp) .or. &

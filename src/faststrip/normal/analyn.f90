@@ -15,8 +15,9 @@
 !> What differs (from the authors, and ANALYN of CONTACT):
 !>
 !> - **V3** B is that of the gap's spline at the place itself, no difference over elements, so that
-!>   noise of the gap and jumps of a profile's radius show more; where it is below 1e-4/mm it is
-!>   raised to that, as in CONTACT.
+!>   noise of the gap and jumps of a profile's radius show more; where it is below 0.092 A and half
+!>   of what the gap has on the mean it is raised to the smaller of these. CONTACT raises it to
+!>   1e-4/mm, which is 0.092 A of a wheel of 460 mm; so the lengths' unit does not count.
 module faststrip_normal_analyn
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
@@ -33,9 +34,11 @@ module faststrip_normal_analyn
 
     public :: analyn_solve
 
-    ! Least curvature B that counts.
-    ! Tuned [1/mm]. Origin: as in CONTACT.
-    real(wp), parameter :: least_curvature = 1.0e-4_wp
+    ! Least curvature B that counts, over A, and over the mean of the gap up to the penetration:
+    ! the smaller of both.
+    ! Tuned [1]. Origin: 1e-4/mm, as in CONTACT, on a wheel of 460 mm; chosen: below what gaps of
+    ! one curvature have.
+    real(wp), parameter :: least_ratio = 0.092_wp, least_of_mean = 0.5_wp
     ! Places in a stretch below the penetration where the penetration left is looked at.
     ! Tuned [points]. Origin: chosen: patches narrower than the distance may be missed.
     integer, parameter :: probes = 16
@@ -48,6 +51,7 @@ module faststrip_normal_analyn
         real(wp) :: compliance = 0.0_wp !! H of eq. (4), 1/MPa
         real(wp) :: h_low = 0.0_wp      !! lowest height of all the gap, mm
         real(wp) :: depth = 0.0_wp      !! penetration D above it, mm
+        real(wp) :: least = 0.0_wp      !! half the gap's mean B up to there, 1/mm
         real(wp) :: log_ratio = 0.0_wp, axes = 0.0_wp !! |ln(A/B)| and ln(a/b) somewhere
     contains
         procedure :: row => analyn_row
@@ -113,12 +117,16 @@ contains
         zone%compliance = compliance
         zone%h_low = curve%h_lowest
         zone%depth = depth
-        call gap_at(curve, curve%y_lowest, h, inv2r)
-        zone%log_ratio = abs(log_ratio_at(curve, curve%y_lowest, inv2r))
-        zone%axes = zone%log_ratio/1.5_wp ! Given: Hertz
-        call hertz_shape(1.0_wp, exp(zone%log_ratio), zone%axes, k, s, found)
         call level_intervals(curve, curve%h_lowest + depth, y_from, y_to, n)
         zones%n = 0
+        if (n == 0) return
+        i = max(1, count(y_from(:n) <= curve%y_lowest))
+        zone%least = least_of_mean*(sqrt(depth)/max(0.5_wp*(y_to(i) - y_from(i)), &
+                                                    tiny(1.0_wp)**0.25_wp))**2
+        call gap_at(curve, curve%y_lowest, h, inv2r)
+        zone%log_ratio = abs(log_ratio_at(curve, zone%least, curve%y_lowest, inv2r))
+        zone%axes = zone%log_ratio/1.5_wp ! Given: Hertz
+        call hertz_shape(1.0_wp, exp(zone%log_ratio), zone%axes, k, s, found)
         do i = 1, n
             call find_zones_between(curve, y_from(i), y_to(i), zone, zones)
         end do
@@ -206,7 +214,7 @@ contains
         logical :: found
 
         call gap_at(curve, y, h, inv2r)
-        log_ratio = log_ratio_at(curve, y, inv2r)
+        log_ratio = log_ratio_at(curve, zone%least, y, inv2r)
         axes = max(zone%axes + (abs(log_ratio) - zone%log_ratio)/usual_slope, 0.0_wp)
         call hertz_shape(1.0_wp, exp(abs(log_ratio)), axes, k, s, found)
         ! 1/(1 + alpha) = 1/2 + s, 1/(1 + beta) = 1/2 - s, s below 0 where B is less than A.
@@ -220,10 +228,10 @@ contains
     end subroutine analyn_row
 
     !> ln(B/A) at one y.
-    pure real(wp) function log_ratio_at(curve, y, inv2r) result(log_ratio)
+    pure real(wp) function log_ratio_at(curve, least, y, inv2r) result(log_ratio)
         type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: y, inv2r
+        real(wp), intent(in) :: least, y, inv2r
 
-        log_ratio = log(max(gap_curvature(curve, y), least_curvature)/inv2r)
+        log_ratio = log(max(gap_curvature(curve, y)/inv2r, min(least/inv2r, least_ratio)))
     end function log_ratio_at
 end module faststrip_normal_analyn

@@ -11,7 +11,7 @@ module faststrip_normal_approximate
                                      st_bad_argument, st_bad_load, st_not_finite, st_no_contact, &
                                      st_no_convergence, st_workspace_too_small, st_under_resolved
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_limitations, only: check_curvature, check_penetration, &
+    use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_types, only: demand_t, normal_result_t
@@ -143,10 +143,13 @@ contains
                                 trim(number_text(demand%load)) // ' N')
         else
             depth = demand%penetration - curve%h_lowest
-            if (depth <= 0.0_wp) &
+            if (depth <= 0.0_wp) then
                 call set_status(status, st_no_contact, 'the bodies do not touch: penetration ' &
                                 // trim(number_text(demand%penetration)) // ' mm, lowest gap ' &
                                 // trim(number_text(curve%h_lowest)) // ' mm')
+            else
+                call check_depth(depth, status)
+            end if
         end if
         if (.not. is_error(status)) call check_curvature(curve, status)
     end subroutine check_approximate
@@ -389,7 +392,7 @@ contains
         result%n_patches = strips%n_patches
         call name_limitations(curve, strips, status)
         if (.not. is_error(status)) call name_steps(curve, depth, strips, status)
-        call check_penetration(curve, result%penetration, status)
+        call check_lowest(curve, depth, status)
         if (is_error(status)) result = normal_result_t()
     end subroutine finish_approximate
 end module faststrip_normal_approximate

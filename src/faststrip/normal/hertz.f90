@@ -17,6 +17,7 @@ module faststrip_normal_hertz
                                      st_no_convergence, st_no_hertz_ellipse, st_not_finite, &
                                      st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inv2r, gap_curvature
+    use faststrip_normal_limitations, only: check_depth
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: demand_t
     implicit none
@@ -283,6 +284,8 @@ contains
                                 // trim(number_text(curve%h_lowest)) // ' mm')
                 return
             end if
+            call check_depth(depth, status)
+            if (is_error(status)) return
         end if
         call hertz_solve_gap(curve, compliance, 1.0_wp, unit_load, status)
         if (is_error(status)) return

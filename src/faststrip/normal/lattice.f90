@@ -41,7 +41,7 @@ module faststrip_normal_lattice
     use faststrip_normal_lattice_overlap, only: find_waves, overlap_tolerance
     use faststrip_normal_lattice_ranges, only: first_ranges, next_ranges
     use faststrip_normal_lattice_start, only: start_depth
-    use faststrip_normal_limitations, only: check_curvature
+    use faststrip_normal_limitations, only: check_curvature, check_depth
     use faststrip_normal_lattice_estimate, only: lattice_errors_t, lattice_figures_t, &
                                                  lattice_figures, estimate_errors
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
@@ -73,8 +73,6 @@ module faststrip_normal_lattice
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
     ! Tuned [1]. Origin: as tolerated_overlap of the strips.
     real(wp), parameter :: named_overlap = 0.01_wp ! the same, told to the caller
-    ! Tuned [mm]: Penetrations outside are refused. Origin: safeguard.
-    real(wp), parameter :: smallest_penetration = 1.0e-60_wp, largest_penetration = 1.0e60_wp
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: lattice_workspace_t
@@ -246,14 +244,9 @@ contains
         logical :: solved
         type(lattice_figures_t) :: before, last
 
-        call clear_status(status)
         workspace%errors = lattice_errors_t()
-        if (depth <= 2.0_wp*smallest_penetration &
-            .or. depth >= 0.5_wp*largest_penetration) then
-            call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
-                            'penetration ' // trim(number_text(depth)) // ' mm')
-            return
-        end if
+        call check_depth(depth, status)
+        if (is_error(status)) return
         wanted = min(n_strips, most_lattice_strips)
         associate (cells => workspace%cells)
             most = min(cells%capacity, size(strips%p0), nint(cells_per_strip*wanted) + spare_cells)

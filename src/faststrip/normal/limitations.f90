@@ -16,8 +16,8 @@
 !>   or steep beside the patch: the pressures at its foot are not bounded, and no strip is short
 !>   enough for them.
 !>
-!> Nor can bodies be pressed together and apart: a penetration that is not positive is named as an
-!> overlap, or is an error where a step leads there, as to a fill value below the gap.
+!> Heights count from anywhere, and the penetration with them: it may be of either sign. A contact
+!> on fill values below the gap is an error.
 !>
 !> Of several limitations the status has the code of the first that applies here, and all of the
 !> words there is capacity for:
@@ -33,15 +33,15 @@ module faststrip_normal_limitations
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      add_words, message_length, st_bad_argument, st_edge_of_data, &
                                      st_flat_along_x, st_conformal, st_under_resolved, &
-                                     st_no_finite_patch, st_ok, st_out_of_range, st_overlap_left, &
-                                     first_error
+                                     st_no_finite_patch, st_ok, st_out_of_range, first_error
+    use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, inclination_change, &
                                             largest_step
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
 
-    public :: check_curvature, check_penetration, name_limitations, name_steps, name_step
+    public :: check_curvature, check_depth, check_lowest, name_limitations, name_steps, name_step
     public :: name_resolution, name_force_resolution, add_limitation
     public :: default_resolution, check_resolution
 
@@ -67,6 +67,8 @@ module faststrip_normal_limitations
     ! Of all heights' range: a step as high as this leads to a fill value, and not over noise.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: fill_step = 0.5_wp
+    ! Tuned [mm]: Penetrations outside are refused. Origin: safeguard: no product can overflow.
+    real(wp), parameter :: smallest_depth = 1.0e-60_wp, largest_depth = 1.0e60_wp
     ! Tuned [mm]: half-lengths beyond count as this. Origin: safeguard: no product can overflow.
     real(wp), parameter :: longest = 1.0e30_wp
 
@@ -84,29 +86,80 @@ contains
                         //' 1/mm: no finite patch along x')
     end subroutine check_curvature
 
-    !> Name or refuse a solution in which the bodies are not pressed together: they overlap before
-    !> any load. Where a step of the gap leads there, as to a fill value, there is no result.
-    pure subroutine check_penetration(curve, penetration, status)
+    !> Refuse a penetration that no contact has.
+    pure subroutine check_depth(depth, status)
+        real(wp), intent(in) :: depth         !! from the lowest height, above 0, mm
+        type(status_t), intent(out) :: status !! `st_out_of_range`
+
+        call clear_status(status)
+        if (depth < smallest_depth .or. depth > largest_depth) &
+            call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' &
+                            //'penetration '//trim(number_text(min(depth, huge(depth))))//' mm')
+    end subroutine check_depth
+
+    !> Refuse a contact on fill values below the gap: its lowest stretch between steps is level,
+    !> another one is a curve, and a step leads there that is high beside all heights and higher
+    !> than the penetration. Heights count from anywhere: only differences are looked at.
+    pure subroutine check_lowest(curve, depth, status)
         type(gap_curve_t), intent(in) :: curve  !! the gap that was solved
-        real(wp), intent(in) :: penetration     !! approach D, from h = 0, mm
-        type(status_t), intent(inout) :: status !! `st_out_of_range`, or `st_overlap_left`
+        real(wp), intent(in) :: depth           !! penetration from the lowest height, mm
+        type(status_t), intent(inout) :: status !! `st_out_of_range`; an error before stays
 
         character(len=message_length) :: words
-        real(wp) :: highest, steepest, y
+        real(wp) :: step
+        integer :: lowest, first, last
 
-        if (penetration > 0.0_wp .or. status%code >= first_error) return
-        words = 'penetration under a load must be positive, got '//number_text(penetration)
-        call add_words(words, ' mm: the lowest gap is '//number_text(curve%h_lowest))
-        call add_words(words, ' mm, at y = '//number_text(curve%y_lowest))
-        call add_words(words, ' mm')
-        call largest_step(curve, curve%y(1), curve%y(curve%n), highest, steepest, y)
-        if (highest >= abs(penetration) .and. highest >= fill_step*(maxval(curve%h(:curve%n)) &
-                                                                    - curve%h_lowest)) then
-            call set_status(status, st_out_of_range, words)
-        else
-            call add_limitation(status, st_overlap_left, words)
-        end if
-    end subroutine check_penetration
+        if (status%code >= first_error .or. .not. curve%has_steps) return
+        associate (n => curve%n, h => curve%h(:curve%n))
+            lowest = minloc(h, dim=1)
+            call find_stretch(curve, lowest, first, last)
+            step = 0.0_wp
+            if (first > 1) step = h(first - 1) - h(first)
+            if (last < n) step = max(step, h(last + 1) - h(last))
+            if (step < max(depth, fill_step*maxval(h) - fill_step*h(lowest))) return
+            if (is_curve(first, last)) return
+            first = 1
+            do
+                call find_stretch(curve, first, first, last)
+                if (is_curve(first, last)) exit
+                if (last == n) return
+                first = last + 1
+            end do
+            words = 'the heights must not hold fill values below the gap: '//number_text(h(lowest))
+            call add_words(words, ' mm at y = '//number_text(curve%y(lowest)))
+            call add_words(words, ' mm, beyond a step of '//number_text(step))
+            call add_words(words, ' mm')
+        end associate
+        call set_status(status, st_out_of_range, words)
+
+    contains
+
+        !> Are there enough points of different heights?
+        pure logical function is_curve(first, last)
+            integer, intent(in) :: first, last
+
+            is_curve = last - first + 1 >= min_gap_points .and. &
+                       .not. all(curve%h(first:last) == curve%h(first))
+        end function is_curve
+    end subroutine check_lowest
+
+    !> The points around one of them that no step parts from it.
+    pure subroutine find_stretch(curve, point, first, last)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: point
+        integer, intent(out) :: first, last
+
+        first = point
+        do while (first > 1)
+            if (curve%is_step(first - 1)) exit
+            first = first - 1
+        end do
+        last = point
+        do while (last < curve%n)
+            if (curve%is_step(last)) exit
+            last = last + 1
+        end do
+    end subroutine find_stretch
 
     !> Add to a status that a step of the gap lies in a patch.
     pure subroutine name_steps(curve, depth, strips, status)
@@ -253,9 +306,13 @@ contains
             if (.not. is_above(estimates(i))) cycle
             words = 'the estimated error of'
             call add_words(words, names(i))
-            call add_words(words, ' is above '//number_text(limit))
-            call add_words(words, units(i))
-            call add_words(words, ': '//number_text(estimates(i)))
+            if (ieee_is_finite(estimates(i))) then
+                call add_words(words, ' is above '//number_text(limit))
+                call add_words(words, units(i))
+                call add_words(words, ': '//number_text(estimates(i)))
+            else
+                call add_words(words, ' is beyond all proportion')
+            end if
             call add_limitation(status, st_under_resolved, words)
             return
         end do

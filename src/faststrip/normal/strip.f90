@@ -26,7 +26,7 @@ module faststrip_normal_strip
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_certificate, only: certificate_t, certify_strips
     use faststrip_normal_lattice, only: lattice_errors, lattice_errors_t
-    use faststrip_normal_limitations, only: check_curvature, check_penetration, &
+    use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps, add_limitation
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_strip_ends, only: overlap_left
@@ -58,7 +58,7 @@ contains
     !>
     !> Errors: `st_bad_argument` (options), `st_not_finite`, `st_bad_load`, `st_bad_material`,
     !> `st_workspace_too_small` (no gap set, capacity for too few strips), `st_out_of_range` and
-    !> `st_linear_algebra` (a contact beyond all proportion; a penetration that is not positive),
+    !> `st_linear_algebra` (a contact beyond all proportion; fill values below the gap),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not settle and
     !> `faststrip_normal_lattice` gave the answer; `st_more_strips`, more strips than asked were
@@ -134,10 +134,12 @@ contains
             call set_status(status, st_no_contact, 'the bodies do not touch: penetration ' &
                             //trim(number_text(penetration))//' mm, lowest gap ' &
                             //trim(number_text(workspace%curve%h_lowest))//' mm')
-        else
+            return
+        end if
+        call check_depth(depth, status)
+        if (.not. is_error(status)) &
             call solve(workspace, compliance, demand_t(by_load=.false., penetration=depth), &
                        options, strips, result, status)
-        end if
     end subroutine strip_solve_penetration
 
     subroutine solve(workspace, compliance, demand, options, strips, result, status)
@@ -191,7 +193,7 @@ contains
         call name_limitations(workspace%curve, strips, status)
         if (.not. is_error(status)) &
             call name_steps(workspace%curve, penetration, strips, status)
-        call check_penetration(workspace%curve, result%penetration, status)
+        call check_lowest(workspace%curve, penetration, status)
         if (is_error(status)) then
             workspace%old%n = 0
             result = normal_result_t()

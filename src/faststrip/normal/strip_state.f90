@@ -20,7 +20,7 @@ module faststrip_normal_strip_state
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
-    real(wp), parameter :: flattest = 1.0e-9_wp
+    real(wp), parameter :: flattest = 1.0e-30_wp
     ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp

@@ -53,7 +53,8 @@ module faststrip_tangential_fastsim
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                               check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, state_adhesion, state_slip
+                                          add_element, stick_share, state_adhesion, &
+                                          state_slip
     implicit none
     private
 
@@ -122,7 +123,7 @@ contains
         call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
                          combined_shear_modulus(material), mu, creepage, nx, ny, chosen(variant), &
                          result, areas, field)
-        result%stick_fraction = areas%stuck/areas%covered
+        result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_solve
 
     !> Forces by FASTSIM on an ellipse with creepage coefficients the caller has, what vehicle codes
@@ -174,7 +175,7 @@ contains
         else
             call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
                              creepage, nx, ny, chosen(), result, areas, field)
-            result%stick_fraction = areas%stuck/areas%covered
+            result%stick_fraction = stick_share(areas%stuck, areas%covered)
         end if
     end subroutine fastsim_coefficients_solve
 
@@ -224,7 +225,7 @@ contains
             call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, nx, ny, &
                              chosen(variant), result, areas, field)
         end do
-        if (areas%covered > 0.0_wp) result%stick_fraction = areas%stuck/areas%covered
+        result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_strips_solve
 
     !> Refuse what no FASTSIM can work on, and empty the field.

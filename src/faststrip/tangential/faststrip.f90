@@ -93,7 +93,7 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
-                                          empty_field, field_power, most_points
+                                          empty_field, field_power, most_points, stick_share
     implicit none
     private
 
@@ -194,7 +194,7 @@ contains
                            per_strip)
         if (is_error(status)) return
         result = sums%result
-        if (sums%covered > 0.0_wp) result%stick_fraction = sums%stuck/sums%covered
+        result%stick_fraction = stick_share(sums%stuck, sums%covered)
     end subroutine faststrip_tangential_solve
 
     !> Empty the sums of strips that are about to be filled, if they have the capacity.

@@ -41,11 +41,11 @@ contains
     !> Inside the table (0.1 <= a/b <= 10; Kalker 1990, Table E3; C33: Kalker 1967) a cubic spline
     !> in ln C against ln(a/b), exact at the nodes. Outside, Kalker's asymptotic expressions times
     !> the misfit at the end of the table, which fades towards the limit: continuous with its first
-    !> derivative across the ends. In nu the quadratic through 0, 0.25 and 0.5; below zero, where
-    !> there is no table, the values of nu = 0.
+    !> derivative across the ends. In nu the quadratic through 0, 0.25 and 0.5; there is no table
+    !> below zero.
     pure subroutine kalker_coefficients(a_over_b, nu, coefficients, status)
         real(wp), intent(in) :: a_over_b !! semi-axis along x over semi-axis along y, 1e-12 to 1e12
-        real(wp), intent(in) :: nu       !! combined Poisson's ratio, in (-1, 0.5]
+        real(wp), intent(in) :: nu       !! combined Poisson's ratio, 0 to 0.5
         type(kalker_coefficients_t), intent(out) :: coefficients !! zero when there is an error
         type(status_t), intent(out) :: status
             !! `st_not_finite`, `st_out_of_range` (a_over_b), `st_bad_material` (nu)
@@ -64,15 +64,15 @@ contains
                             trim(number_text(a_over_b)))
             return
         end if
-        if (nu <= -1.0_wp .or. nu > 0.5_wp) then
+        if (nu < 0.0_wp .or. nu > 0.5_wp) then
             call set_status(status, st_bad_material, &
-                            "Poisson's ratio must be above -1 and at most 0.5, got " // &
+                            "Poisson's ratio must be 0 to 0.5, got " // &
                             trim(number_text(nu)))
             return
         end if
 
         log_ratio = log(a_over_b)
-        weight = quadratic_weights(max(nu, 0.0_wp))
+        weight = quadratic_weights(nu)
         if (log_ratio < table_log_ratio(1)) then
             c = outside(log_ratio, 1, weight)
         else if (log_ratio > table_log_ratio(n_ratios)) then

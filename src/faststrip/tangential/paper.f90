@@ -42,7 +42,8 @@ module faststrip_tangential_paper
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, most_points, state_adhesion, state_slip
+                                          add_element, most_points, stick_share, &
+                                          state_adhesion, state_slip
     implicit none
     private
 
@@ -170,7 +171,7 @@ contains
             stuck = stuck + total%stuck
             covered = covered + total%covered
         end do
-        if (covered > 0.0_wp) result%stick_fraction = stuck/covered
+        result%stick_fraction = stick_share(stuck, covered)
     end subroutine solve_patches
 
     !> Eqs. (25)-(48) statement by statement on one patch, with the chosen ones as printed.

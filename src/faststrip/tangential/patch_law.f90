@@ -53,7 +53,7 @@ module faststrip_tangential_patch_law
 
     !> A patch or a strip that can carry less than this, N, carries nothing.
     ! Tuned [N]. Origin: safeguard.
-    real(wp), parameter :: smallest_force = 1.0e-20_wp
+    real(wp), parameter :: smallest_force = 1.0e-60_wp
 
     !> What the strips of one patch, or of one sub-patch, share.
     type :: patch_law_t

@@ -8,7 +8,7 @@ module faststrip_tangential_types
 
     public :: strip_forces_t, reserve_strip_forces
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
-              put_element, field_power
+              put_element, field_power, stick_share
     public :: state_adhesion, state_slip, most_points
 
     !> State of an element, the numbers CONTACT uses.
@@ -153,6 +153,16 @@ contains
         field%sy(i) = sy
         field%state(i) = state
     end subroutine put_element
+
+    !> Share of an area in adhesion. Both are sums of the same areas, in different orders: rounding
+    !> makes no share of more than all.
+    pure real(wp) function stick_share(stuck, covered)
+        real(wp), intent(in) :: stuck   !! area in adhesion, mm^2
+        real(wp), intent(in) :: covered !! all of it, mm^2
+
+        stick_share = 0.0_wp
+        if (covered > 0.0_wp) stick_share = min(stuck/covered, 1.0_wp)
+    end function stick_share
 
     !> Friction power density of an element, MPa: heat per area and distance rolled,
     !> `-(px sx + py sy)`; times the rolling speed the heat flux.
