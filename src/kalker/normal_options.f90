@@ -17,9 +17,9 @@ module faststrip_kalker_normal_options
     !> Tuned [elements]. Origin: capacity.
     integer, parameter :: norm_most_elements = 4000000
 
-    ! Elements across half of a small contact.
-    ! Tuned [1]. Origin: chosen: a round contact has its pmax and area within 1 %.
-    real(wp), parameter :: fewest = 6.0_wp
+    ! Elements that half a contact holds or it is small, and those of half a small one.
+    ! Tuned [1]. Origin: chosen: pmax within 1 %; twice as many for the area, which is counted.
+    real(wp), parameter :: fewest = 6.0_wp, usual = 12.0_wp
     ! Sizes beyond which nothing is promised.
     ! Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: smallest = 1.0e-60_wp, largest = 1.0e60_wp
@@ -47,12 +47,12 @@ module faststrip_kalker_normal_options
 
 contains
 
-    !> A side of which half the contact holds at least six.
+    !> The side that was meant, if half the contact holds six of it; else a twelfth of that.
     pure real(wp) function fitting_side(side, half)
-        real(wp), intent(in) :: side !! the longest, mm
+        real(wp), intent(in) :: side !! that was meant, mm
         real(wp), intent(in) :: half !! half the contact's length or width, mm
 
-        fitting_side = min(side, half/fewest)
+        fitting_side = merge(side, half/usual, half >= fewest*side)
     end function fitting_side
 
     !> Refuse a compliance, sides, an error target or a tolerance that cannot be.

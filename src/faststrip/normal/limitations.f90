@@ -118,12 +118,11 @@ contains
             if (last < n) step = max(step, h(last + 1) - h(last))
             if (step < max(depth, fill_step*maxval(h) - fill_step*h(lowest))) return
             if (is_curve(first, last)) return
-            first = 1
+            last = 0
             do
-                call find_stretch(curve, first, first, last)
-                if (is_curve(first, last)) exit
                 if (last == n) return
-                first = last + 1
+                call find_stretch(curve, last + 1, first, last)
+                if (is_curve(first, last)) exit
             end do
             words = 'the heights must not hold fill values below the gap: '//number_text(h(lowest))
             call add_words(words, ' mm at y = '//number_text(curve%y(lowest)))
