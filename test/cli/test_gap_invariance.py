@@ -161,7 +161,8 @@ class GapInvariance(ProgramTest):
             self.assertEqual(found["norm"]["status"], "ok", load)
             for figure in ("pmax_MPa", "penetration_mm", "area_mm2"):
                 self.assert_close(float(found["norm"][figure]), float(found["hertz"][figure]),
-                                  relative=0.03, what=(load, figure))
+                                  relative=0.05 if figure == "area_mm2" else 0.01,
+                                  what=(load, figure))
             if load not in ("1e-15", "1e5"):
                 self.assert_close(float(found["hertz"]["Fx_N"]), float(found["norm"]["Fx_N"]),
                                   relative=0.01, what=load)

@@ -263,9 +263,9 @@ contains
     end subroutine finish_faces
 
     !> Hold the force in the plane to mu N: between nodes an interpolation may pass it by its error.
-    !> A force of the size m over mu N gets m - (m - (1 - d))^2/(4 d) from 1 - d to 1 + d, with d the
-    !> `bend`, and 1 beyond: derivatives stay continuous, and nothing moves by more than d/4 but what
-    !> is above.
+    !> A force of the size m over mu N gets m - (m - (1 - d))^2/(4 d) from 1 - d to 1 + d, with d
+    !> the `bend`, and 1 beyond: derivatives stay continuous, and nothing that is not above moves by
+    !> more than d/4.
     pure subroutine bound_force(f, by_creepage, slopes)
         real(wp), intent(inout) :: f(3), by_creepage(3, 3), slopes(:, :)
 
