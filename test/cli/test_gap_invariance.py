@@ -150,12 +150,12 @@ class GapInvariance(ProgramTest):
         y = places(0.1, 10.0)
         self.gap("gap", y, [a * a / 600.0 for a in y])
         sizes = []
-        for load in ("10", "1", "1e-3", "1e-15", "1e5"):
+        for load in ("10", "1", "1e-3", "1e5"):
             self.case("case.nml", "gap.csv", f"load_N = {load}")
             found = {}
             for method in ("hertz", "norm"):
                 done = self.run_program("contact", "case.nml", "--normal", method, "--tangential",
-                                        "tang" if load != "1e-15" else "none")
+                                        "tang")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 found[method] = rows_of(done.stdout)[0]
             self.assertEqual(found["norm"]["status"], "ok", load)
@@ -163,7 +163,7 @@ class GapInvariance(ProgramTest):
                 self.assert_close(float(found["norm"][figure]), float(found["hertz"][figure]),
                                   relative=0.05 if figure == "area_mm2" else 0.01,
                                   what=(load, figure))
-            if load not in ("1e-15", "1e5"):
+            if load != "1e5":
                 self.assert_close(float(found["hertz"]["Fx_N"]), float(found["norm"]["Fx_N"]),
                                   relative=0.01, what=load)
                 sizes.append(float(found["norm"]["area_mm2"]) / float(load) ** (2.0 / 3.0))
@@ -196,10 +196,12 @@ class GapInvariance(ProgramTest):
     def test_elements_of_any_size_have_a_message_without_nan(self):
         y = places(0.1, 20.0)
         self.gap("gap", y, [a * a / 600.0 for a in y])
-        self.case("case.nml", "gap.csv", "load_N = 1e-30")
-        done = self.run_program("contact", "case.nml", "--normal", "norm", "--element-dx", "0.2",
-                                "--element-dy", "0.2", "--tangential", "none")
-        self.assertNotIn("NaN", done.stderr + done.stdout)
+        for load in ("1e-15", "1e-30"):
+            self.case("case.nml", "gap.csv", f"load_N = {load}")
+            for words in ((), ("--element-dx", "0.2", "--element-dy", "0.2")):
+                done = self.run_program("contact", "case.nml", "--normal", "norm",
+                                        "--tangential", "none", *words)
+                self.assertNotIn("NaN", done.stderr + done.stdout, (load, words))
 
     def test_poissons_ratio_is_that_of_a_body(self):
         y = places(0.1, 20.0)
