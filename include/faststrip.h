@@ -293,8 +293,9 @@ int faststrip_get_steps(faststrip_workspace *workspace, int capacity, int *n, in
 typedef struct faststrip_wear_law {
     int n;                 /* regimes, 1 to 32 */
     const double *regimes; /* 4 n numbers, of each: T gamma/A where it begins, as the one before
-                            * ends, the first at 0, and where it ends, N/mm^2; constant,
-                            * ug/(m mm^2), and slope, ug/(m N), of its wear rate */
+                            * ends, the first at 0, and where it ends, N/mm^2, of the last one
+                            * infinity for nowhere; constant, ug/(m mm^2), and slope, ug/(m N),
+                            * of its wear rate */
     double density;        /* of what is worn, kg/m^3 */
 } faststrip_wear_law;
 

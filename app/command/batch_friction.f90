@@ -10,11 +10,14 @@ module faststrip_command_batch_friction
     implicit none
     private
 
-    public :: read_row_friction
+    public :: read_row_friction, friction_columns
 
     character(len=*), parameter :: kind_column = 'friction_kind'
     character(len=*), parameter :: number_columns(4) = [character(len=20) :: &
         'mu_kinetic', 'half_slip_speed_mm_s', 'initial_slope_factor', 'speed_mm_s']
+    !> The columns that a table may have for it.
+    character(len=*), parameter :: friction_columns(5) = [character(len=20) :: &
+        kind_column, number_columns]
     ! Where they are.
     integer, parameter :: at_kinetic = 1, at_half = 2, at_slope = 3, at_speed = 4
 

@@ -6,8 +6,9 @@ module faststrip_command_batch_rows
     use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument
     use faststrip_contact_case, only: contact_case_t
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, &
-                                   cell_text, cell_number, put_cell, end_row, take_only_row
-    use faststrip_command_batch_friction, only: read_row_friction
+                                   cell_text, cell_number, put_cell, end_row, take_only_row, &
+                                   refuse_misspelt
+    use faststrip_command_batch_friction, only: read_row_friction, friction_columns
     use faststrip_command_case_file, only: beside
     use faststrip_command_console, only: concerns_gap
     use faststrip_command_files, only: trouble_t
@@ -50,6 +51,11 @@ contains
             if (is_error(status)) return
         end do
         columns%penetration = column_index(table, penetration_column)
+        call refuse_misspelt(table, penetration_column, status)
+        do i = 1, size(friction_columns)
+            call refuse_misspelt(table, trim(friction_columns(i)), status)
+        end do
+        if (is_error(status)) return
         do i = 1, table%n_columns
             if (.not. any(result_columns == table%names(i)%text)) cycle
             ! A table that has a column the result would add cannot be carried through.

@@ -5,8 +5,8 @@ module faststrip_command_integral
                                      st_bad_argument, st_out_of_range
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
-                                   column_index, cell_number, cell_integer, open_csv, put_header, &
-                                   put_cell, end_row, close_csv, abort_csv
+                                   column_index, cell_number, cell_integer, refuse_misspelt, &
+                                   open_csv, put_header, put_cell, end_row, close_csv, abort_csv
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at
     use faststrip_influence_polynomial, only: table_influence
@@ -92,6 +92,8 @@ contains
         call require_column(table, 'b', b_column, status)
         call fail_on_error(status)
         x_column = column_index(table, 'X')
+        call refuse_misspelt(table, 'X', status)
+        call fail_on_error(status)
         allocate (n(table%n_rows), b(table%n_rows), x(table%n_rows))
         do row = 1, table%n_rows
             call cell_integer(table, row, n_column, n(row), status)

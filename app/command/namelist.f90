@@ -20,7 +20,6 @@ module faststrip_command_namelist
     !> What names are made of.
     character(len=*), parameter :: word_letters = &
         'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
-    character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
 
     !> A case file as it was read.
     type :: namelist_file_t
@@ -66,7 +65,6 @@ contains
                 call move_alloc(more, content%line)
             end if
             n = n + 1
-            if (n == 1 .and. index(text, byte_order_mark) == 1) text = text(4:)
             if (n > most_case_lines) call refuse_line(content, n, 'a case file must have at most ' &
                 // integer_text(most_case_lines) // ' lines', '')
             if (len(text) > line_length) call refuse_line(content, n, 'a line must have at most ' &

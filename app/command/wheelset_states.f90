@@ -5,7 +5,7 @@ module faststrip_command_wheelset_states
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, cell_text, &
-                                   cell_number
+                                   cell_number, refuse_misspelt
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_wheelset_types, only: wheelset_demand_t, wheelset_model_t, demand_position, &
                                         demand_loads, demand_axle_load, side_right, side_left
@@ -67,6 +67,7 @@ contains
                 call require_column(table, trim(state_names(i)), columns%number(i), status)
             else
                 columns%number(i) = column_index(table, trim(state_names(i)))
+                call refuse_misspelt(table, trim(state_names(i)), status)
             end if
         end do
     end subroutine find_state_columns

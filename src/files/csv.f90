@@ -1,14 +1,17 @@
 !> Tables of comma-separated values: a strict reader, and a writer that leaves either the whole
 !> new file or the old one.
 !>
-!> The dialect: comment lines start with `#`, the first other line names the columns, then one
-!> row a line. Cells are separated by commas; blanks around a cell do not count; a cell in double
-!> quotes may hold commas, blanks and doubled quotes, but no line break. Empty lines are passed
-!> over. Line ends LF or CRLF, a byte order mark in front is tolerated.
+!> The dialect: comment lines start with `#`, above the names with `!` or `%`, too; the first other
+!> line names the columns, then one row a line. Cells are separated by what separates the names:
+!> commas, else semicolons, else tabulators, else blanks, or what a first line `sep=;` tells; blanks
+!> around a cell do not count; a cell in double quotes may hold separators and doubled quotes, but
+!> no line break. Numbers have a point. Empty lines are passed over. Line ends LF, CRLF or CR, a
+!> byte order mark in front is tolerated, UTF-16 is not.
 module faststrip_files_csv
     use faststrip_files_csv_table, only: csv_text_t, csv_table_t, read_csv, column_index, &
                                          require_column, cell_text, cell_number, cell_integer, &
-                                         column_numbers, several_columns, take_only_row
+                                         column_numbers, several_columns, take_only_row, &
+                                         refuse_misspelt
     use faststrip_files_csv_stream, only: csv_stream_t, csv_scan_t, row_place_t, open_stream, &
                                           find_row, row_place, go_to_row, close_stream, scan_csv, &
                                           find_row_place
@@ -24,7 +27,7 @@ module faststrip_files_csv
 
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers, several_columns, take_only_row
+    public :: column_numbers, several_columns, take_only_row, refuse_misspelt
     public :: csv_stream_t, csv_scan_t, row_place_t
     public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
     public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name

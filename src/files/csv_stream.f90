@@ -5,9 +5,9 @@ module faststrip_files_csv_stream
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format
     use faststrip_base_text, only: set_place_status
-    use faststrip_files_csv_table, only: csv_table_t, start_table, take_names, take_only_row, &
-                                         leave_blanks, byte_order_mark
-    use faststrip_files_lines, only: text_file_t, open_text, close_text, find_line, place_t, &
+    use faststrip_files_csv_table, only: csv_table_t, start_table, find_content, take_names, &
+                                         take_only_row
+    use faststrip_files_lines, only: text_file_t, open_text, close_text, place_t, &
                                      place_in, go_to_place, count_anew
     use faststrip_files_sha256, only: sha256_start, sha256_digest, digest_length
     implicit none
@@ -66,7 +66,7 @@ contains
         if (is_error(status)) return
         stream%file%is_hashed = is_hashed
         if (is_hashed) call sha256_start(stream%file%hash)
-        call next_line(stream, first, last, found, status)
+        call find_content(stream%file, stream%table, .false., first, last, found, status)
         if (.not. is_error(status)) then
             if (found) then
                 call take_names(stream%table, stream%file%buffer(first:last), stream%file%line, &
@@ -89,32 +89,12 @@ contains
         type(status_t), intent(out) :: status       !! `st_file_format`: reading failed, or there
                                                     !! are too many lines without a row
 
-        call next_line(stream, first, last, found, status)
+        call clear_status(status)
+        call find_content(stream%file, stream%table, .false., first, last, found, status)
         if (is_error(status) .or. .not. found) return
         call count_anew(stream%file)
         stream%row = stream%row + 1
     end subroutine find_row
-
-    ! The next line that is not empty and no comment.
-    subroutine next_line(stream, first, last, found, status)
-        type(csv_stream_t), intent(inout) :: stream
-        integer, intent(out) :: first, last
-        logical, intent(out) :: found
-        type(status_t), intent(out) :: status
-
-        call clear_status(status)
-        do
-            call find_line(stream%file, first, last, found, status)
-            if (is_error(status) .or. .not. found) return
-            associate (buffer => stream%file%buffer)
-                if (stream%file%line == 1 .and. index(buffer(first:last), byte_order_mark) == 1) &
-                    first = first + len(byte_order_mark)
-                call leave_blanks(buffer, first, last)
-                if (last < first) cycle
-                if (buffer(first:first) /= '#') return
-            end associate
-        end do
-    end subroutine next_line
 
     !> Where the next row is read from.
     pure type(row_place_t) function row_place(stream)

@@ -5,15 +5,16 @@ module faststrip_files_csv_table
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_file_format
     use faststrip_base_text, only: trim_blanks, parse_real, parse_integer, integer_text, &
-                                   set_place_status
+                                   lower_case, set_place_status
+    use faststrip_files_column_names, only: is_nearly
     use faststrip_files_lines, only: text_file_t, open_text, close_text, find_line
     implicit none
     private
 
     public :: csv_text_t, csv_table_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers, several_columns
-    public :: start_table, take_names, take_only_row, leave_blanks, byte_order_mark
+    public :: column_numbers, several_columns, refuse_misspelt
+    public :: start_table, find_content, take_names, take_only_row, leave_blanks
 
     !> One text of its own length.
     type :: csv_text_t
@@ -33,14 +34,20 @@ module faststrip_files_csv_table
         integer, allocatable :: line(:)               !! line of the file each row stands on
         type(csv_text_t), allocatable :: comments(:)  !! comment lines, without the `#`
         integer, allocatable :: comment_line(:)       !! line of the file each stands on
+        integer, private :: n_comments = 0            !! used of them while they are read
+        ! What parts the cells; a blank stands for any number of blanks and tabulators.
+        character(len=1), private :: separator = ','
+        logical, private :: has_names = .false.       ! was there a line of names?
     end type csv_table_t
 
     ! More cells than this are no table, or have no end: 1 GB in memory with the texts.
     integer, parameter :: most_cells = 25000000
 
     character(len=1), parameter :: tab = achar(9)
-    !> What may stand in front of a text in UTF-8.
-    character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
+    ! What may part cells; of those that stand in the line of names the first of these does.
+    character(len=*), parameter :: separators = ',;' // tab // ' '
+    ! A first line that begins so tells it, as spreadsheets write it.
+    character(len=*), parameter :: separator_line = 'sep='
 
 contains
 
@@ -95,39 +102,25 @@ contains
         type(text_file_t), intent(inout) :: file
         type(csv_table_t), intent(inout) :: table
         type(status_t), intent(inout) :: status
-        integer :: n_comments, first, last, filled, n
-        logical :: found, has_header
+        integer :: first, last, filled, n
+        logical :: found
 
-        n_comments = 0
         filled = 0
-        has_header = .false.
         do
-            call find_line(file, first, last, found, status)
+            call find_content(file, table, .true., first, last, found, status)
             if (status%code /= 0) return
             if (.not. found) exit
-            if (file%line == 1 .and. index(file%buffer(first:last), byte_order_mark) == 1) &
-                first = first + len(byte_order_mark)
-            call leave_blanks(file%buffer, first, last)
-            if (last < first) cycle
-            if (file%buffer(first:first) == '#') then
-                call append_comment(table, n_comments, &
-                                    trim_blanks(file%buffer(first + 1:last)), file%line)
-                cycle
-            end if
-            call take_cells(file%buffer(first:last), table, filled, n, file%line, status)
-            if (status%code /= 0) return
-            if (has_header) then
-                call keep_row(table, filled, n, file%line, status)
+            if (table%has_names) then
+                call take_cells(file%buffer(first:last), table, filled, n, file%line, status)
+                if (status%code == 0) call keep_row(table, filled, n, file%line, status)
             else
-                call take_header(table, n, file%line, status)
-                has_header = .true.
-                filled = 0
+                call take_names(table, file%buffer(first:last), file%line, status)
             end if
             if (status%code /= 0) return
         end do
-        table%comments = table%comments(:n_comments)
-        table%comment_line = table%comment_line(:n_comments)
-        if (.not. has_header) then
+        table%comments = table%comments(:table%n_comments)
+        table%comment_line = table%comment_line(:table%n_comments)
+        if (.not. table%has_names) then
             call set_place_status(status, st_file_format, &
                                   'column names must be given, got none', '', &
                                   table%file, 0)
@@ -136,7 +129,70 @@ contains
         table%line = table%line(:table%n_rows)
     end subroutine read_rows
 
-    !> Take one line as the names of the columns.
+    !> Find the next line that holds names or a row: one that is not empty, no comment, and not a
+    !> first line like `sep=;`, which tells what parts the cells. Above the names `!` and `%` begin
+    !> comments, too.
+    subroutine find_content(file, table, keeps_comments, first, last, found, status)
+        type(text_file_t), intent(inout) :: file  !! counts the lines
+        type(csv_table_t), intent(inout) :: table !! of `start_table`, with names or without
+        logical, intent(in) :: keeps_comments     !! are comments kept in the table?
+        integer, intent(out) :: first, last       !! a range of `file%buffer`, without blanks at
+                                                  !! its ends
+        logical, intent(out) :: found             !! was there a line left?
+        type(status_t), intent(inout) :: status   !! set if not all is well, as of `find_line`
+        integer :: at
+
+        do
+            call find_line(file, first, last, found, status)
+            if (status%code /= 0 .or. .not. found) return
+            associate (buffer => file%buffer)
+                call leave_blanks(buffer, first, last, keeps_tabs=table%separator == tab)
+                if (verify(buffer(first:last), ' ' // tab) == 0) cycle
+                if (buffer(first:first) /= '#') then
+                    if (table%has_names) return
+                    if (scan(buffer(first:first), '!%') == 0) then
+                        if (.not. is_separator_line(file%line, buffer(first:last))) return
+                        at = first + len(separator_line)
+                        if (at == last) table%separator = buffer(at:at)
+                        cycle
+                    end if
+                end if
+                if (keeps_comments) call append_comment( &
+                    table, trim_blanks(buffer(first + 1:last)), file%line)
+            end associate
+        end do
+    end subroutine find_content
+
+    ! Is it a first line that tells what parts the cells? Of a tabulator nothing is left.
+    pure logical function is_separator_line(number, line)
+        integer, intent(in) :: number
+        character(len=*), intent(in) :: line
+
+        is_separator_line = number == 1 .and. index(lower_case(line), separator_line) == 1 &
+            .and. len(line) <= len(separator_line) + 1
+        if (is_separator_line) &
+            is_separator_line = verify(line(len(separator_line) + 1:), separators) == 0
+    end function is_separator_line
+
+    ! What parts the names in a line: the first of the separators that no quotes enclose.
+    pure character(len=1) function separator_of(line)
+        character(len=*), intent(in) :: line
+        integer :: i, at, best
+        logical :: is_quoted
+
+        best = len(separators) + 1
+        is_quoted = .false.
+        do i = 1, len(line)
+            if (line(i:i) == '"') is_quoted = .not. is_quoted
+            at = index(separators, line(i:i))
+            if (at > 0 .and. .not. is_quoted) best = min(best, at)
+        end do
+        if (best > len(separators)) best = 1
+        separator_of = separators(best:best)
+    end function separator_of
+
+    !> Take one line as the names of the columns. What parts them parts the cells of all rows:
+    !> commas, or semicolons, or tabulators, or blanks.
     subroutine take_names(table, line, number, status)
         type(csv_table_t), intent(inout) :: table !! of `start_table`
         character(len=*), intent(in) :: line      !! without blanks at its ends, not empty
@@ -145,6 +201,8 @@ contains
         integer :: n
 
         call clear_status(status)
+        table%has_names = .true.
+        if (table%separator == separators(1:1)) table%separator = separator_of(line)
         call take_cells(line, table, 0, n, number, status)
         if (status%code == 0) call take_header(table, n, number, status)
     end subroutine take_names
@@ -166,38 +224,43 @@ contains
     end subroutine take_only_row
 
     !> Leave out the blanks and tabulators at both ends of a range.
-    pure subroutine leave_blanks(text, first, last)
+    pure subroutine leave_blanks(text, first, last, keeps_tabs)
         character(len=*), intent(in) :: text    !! all of it
         integer, intent(inout) :: first, last   !! the range; empty if there is nothing else
+        logical, intent(in), optional :: keeps_tabs !! are tabulators cells' ends, and stay?
+        character(len=1) :: other
 
+        other = tab
+        if (present(keeps_tabs)) other = merge(' ', tab, keeps_tabs)
         do while (last >= first)
-            if (text(last:last) /= ' ' .and. text(last:last) /= tab) exit
+            if (text(last:last) /= ' ' .and. text(last:last) /= other) exit
             last = last - 1
         end do
         do while (first < last)
-            if (text(first:first) /= ' ' .and. text(first:first) /= tab) exit
+            if (text(first:first) /= ' ' .and. text(first:first) /= other) exit
             first = first + 1
         end do
     end subroutine leave_blanks
 
-    pure subroutine append_comment(table, n, text, line)
+    pure subroutine append_comment(table, text, line)
         type(csv_table_t), intent(inout) :: table
-        integer, intent(inout) :: n
         character(len=*), intent(in) :: text
         integer, intent(in) :: line
         type(csv_text_t), allocatable :: wider(:)
         integer, allocatable :: more_lines(:)
 
-        if (n == size(table%comments)) then
-            allocate (wider(2*n + 8), more_lines(2*n + 8))
-            wider(:n) = table%comments
-            more_lines(:n) = table%comment_line
-            call move_alloc(wider, table%comments)
-            call move_alloc(more_lines, table%comment_line)
-        end if
-        n = n + 1
-        table%comments(n)%text = text
-        table%comment_line(n) = line
+        associate (n => table%n_comments)
+            if (n == size(table%comments)) then
+                allocate (wider(2*n + 8), more_lines(2*n + 8))
+                wider(:n) = table%comments
+                more_lines(:n) = table%comment_line
+                call move_alloc(wider, table%comments)
+                call move_alloc(more_lines, table%comment_line)
+            end if
+            n = n + 1
+            table%comments(n)%text = text
+            table%comment_line(n) = line
+        end associate
     end subroutine append_comment
 
     ! The first `n` cells are the names.
@@ -297,14 +360,17 @@ contains
                     call take_quoted_cells(line, table, filled, n, number, status)
                     return
                 end if
-                if (line(i:i) /= ',') cycle
+                if (line(i:i) /= table%separator) then
+                    if (table%separator /= ' ' .or. line(i:i) /= tab) cycle
+                end if
             end if
             first = start
             last = i - 1
+            start = i + 1
             call leave_blanks(line, first, last)
+            if (last < first .and. table%separator == ' ') cycle
             call put_cell(line(first:last), table, filled + n)
             n = n + 1
-            start = i + 1
         end do
     end subroutine take_cells
 
@@ -323,7 +389,7 @@ contains
         n = 0
         start = 1
         do
-            call take_cell(line, start, text, next, valid)
+            call take_cell(line, start, table%separator, text, next, valid)
             if (.not. valid) then
                 call set_place_status(status, st_file_format, 'quotes must enclose all of ' &
                                       // 'cell ' // integer_text(n + 1), &
@@ -334,6 +400,7 @@ contains
             n = n + 1
             if (next > len(line)) exit
             start = next + 1
+            if (table%separator == ' ') start = next + verify(line(next:), ' ' // tab) - 1
         end do
     end subroutine take_quoted_cells
 
@@ -371,29 +438,26 @@ contains
         end associate
     end subroutine put_cell
 
-    ! The cell that starts at a place of a line; `next` is the comma after it, or beyond the line.
-    pure subroutine take_cell(line, start, text, next, valid)
+    ! The cell that starts at a place of a line; `next` is the separator after it, or beyond the
+    ! line.
+    pure subroutine take_cell(line, start, separator, text, next, valid)
         character(len=*), intent(in) :: line
         integer, intent(in) :: start
+        character(len=1), intent(in) :: separator
         character(len=:), allocatable, intent(out) :: text
         integer, intent(out) :: next
         logical, intent(out) :: valid
-        integer :: i, first
+        integer :: i
 
         valid = .true.
-        next = len(line) + 1
-        if (start <= len(line)) then
-            i = index(line(start:), ',')
-            if (i > 0) next = start + i - 1
-        end if
+        next = end_of_cell(start)
         text = trim_blanks(line(start:next - 1))
         if (index(text, '"') == 0) return
 
         valid = text(1:1) == '"'
         if (.not. valid) return
-        first = start + index(line(start:), '"') - 1
+        i = start + index(line(start:), '"')
         text = ''
-        i = first + 1
         do
             valid = i <= len(line)
             if (.not. valid) return
@@ -405,13 +469,23 @@ contains
             text = text // line(i:i)
             i = i + 1
         end do
-        next = index(line(i + 1:), ',')
-        if (next == 0) then
-            next = len(line) + 1
-        else
-            next = i + next
-        end if
+        next = end_of_cell(i + 1)
         valid = len(trim_blanks(line(i + 1:next - 1))) == 0
+
+    contains
+
+        ! The first separator from one place on.
+        pure integer function end_of_cell(from) result(at)
+            integer, intent(in) :: from
+
+            at = 0
+            if (separator == ' ') then
+                at = scan(line(from:), ' ' // tab)
+            else
+                at = index(line(from:), separator)
+            end if
+            at = merge(from + at - 1, len(line) + 1, at > 0)
+        end function end_of_cell
     end subroutine take_cell
 
     !> Number of the column of that name (upper and lower case differ); 0 if there is none.
@@ -432,13 +506,38 @@ contains
         integer, intent(out) :: column           !! its number; 0 if there is none
         type(status_t), intent(out) :: status    !! `st_file_format`
 
+        character(len=:), allocatable :: got
+        integer :: i
+
         call clear_status(status)
         column = column_index(table, name)
-        if (column == 0) then
-            call set_place_status(status, st_file_format, &
-                                  'missing column: ' // name, '', table%file, 0)
-        end if
+        if (column > 0) return
+        got = ''
+        do i = 1, table%n_columns
+            if (table%n_columns == 1 .or. is_nearly(table%names(i)%text, name)) &
+                got = table%names(i)%text
+        end do
+        call set_place_status(status, st_file_format, 'missing column: ' // name, got, &
+                              table%file, 0)
     end subroutine require_column
+
+    !> Refuse a column that has nearly the name of one that may be left out, and is: it would be
+    !> taken for none.
+    pure subroutine refuse_misspelt(table, name, status)
+        type(csv_table_t), intent(in) :: table   !! a table that was read
+        character(len=*), intent(in) :: name     !! of a column that may be left out
+        type(status_t), intent(inout) :: status  !! `st_file_format`
+
+        integer :: i
+
+        if (status%code /= 0 .or. column_index(table, name) > 0) return
+        do i = 1, table%n_columns
+            if (.not. is_nearly(table%names(i)%text, name)) cycle
+            call set_place_status(status, st_file_format, 'a column must be named ' // name, &
+                                  table%names(i)%text, table%file, 0)
+            return
+        end do
+    end subroutine refuse_misspelt
 
     !> The text of a cell; empty outside the table.
     pure function cell_text(table, row, column) result(text)
@@ -464,7 +563,14 @@ contains
         call check_cell(table, row, column, status)
         if (status%code /= 0) return
         call parse_cell(table, row, column, value, valid)
-        if (.not. valid) then
+        if (valid) return
+        if (has_decimal_comma(cell_text(table, row, column))) then
+            call set_place_status(status, st_file_format, 'a number must have a point for its ' // &
+                                  'decimals, not a comma, in column ' // &
+                                  table%names(column)%text, &
+                                  "'" // cell_text(table, row, column) // "'", &
+                                  table%file, table%line(row))
+        else
             call set_place_status(status, st_file_format, &
                                   'a finite number must stand in column ' // &
                                   table%names(column)%text, &
@@ -472,6 +578,17 @@ contains
                                   table%file, table%line(row))
         end if
     end subroutine cell_number
+
+    ! Is a text a number but for a comma instead of its point?
+    pure logical function has_decimal_comma(text) result(has)
+        character(len=*), intent(in) :: text
+        real(wp) :: value
+        integer :: i
+
+        i = index(text, ',')
+        has = i > 0
+        if (has) call parse_real(text(:i - 1) // '.' // text(i + 1:), value, has)
+    end function has_decimal_comma
 
     !> The whole number in a cell.
     pure subroutine cell_integer(table, row, column, value, status)

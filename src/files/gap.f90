@@ -13,7 +13,7 @@ module faststrip_files_gap
 contains
 
     !> Read the columns `y_mm`, `h_mm` and `inv2R_per_mm`, in any order; other columns are passed
-    !> over. Nothing is repaired: what `check_gap` would refuse is refused here with the file,
+    !> over, and so is a row that was written twice. Nothing is repaired: what `check_gap` would refuse is refused here with the file,
     !> the line and the value.
     subroutine read_gap_file(path, gap, status)
         character(len=*), intent(in) :: path   !! name of the file
@@ -26,7 +26,7 @@ contains
         character(len=*), parameter :: names(3) = [character(len=12) :: &
             'y_mm', 'h_mm', 'inv2R_per_mm']
         type(status_t) :: read
-        integer :: column(size(names)), i, n, row
+        integer :: column(size(names)), i, n, row, kept
         real(wp), allocatable :: values(:, :)
 
         call read_csv(path, table, status)
@@ -36,8 +36,13 @@ contains
             if (is_error(status)) return
         end do
         call several_columns(table, column, values, n, read)
+        kept = min(n, 1)
         do row = 2, n
-            if (values(row, 1) > values(row - 1, 1)) cycle
+            ! A row that was written twice is one.
+            if (all(values(row, :) == values(kept, :))) cycle
+            kept = kept + 1
+            values(kept, :) = values(row, :)
+            if (values(kept, 1) > values(kept - 1, 1)) cycle
             call set_place_status(status, st_not_increasing, &
                                   'y_mm must be above that of the row before', &
                                   cell_text(table, row, column(1)), path, table%line(row))
@@ -45,14 +50,15 @@ contains
         end do
         status = read
         if (is_error(status)) return
+        n = kept
         if (n < min_gap_points) then
             call set_place_status(status, st_too_few_points, 'a gap must have at least ' // &
                                   integer_text(min_gap_points) // ' points', &
                                   integer_text(n), path, 0)
             return
         end if
-        gap%y = values(:, 1)
-        gap%h = values(:, 2)
-        gap%inv2r = values(:, 3)
+        gap%y = values(:n, 1)
+        gap%h = values(:n, 2)
+        gap%inv2r = values(:n, 3)
     end subroutine read_gap_file
 end module faststrip_files_gap

@@ -1,6 +1,7 @@
 !> Lines of text files, read strictly: the file goes through a buffer, and a line is a range of it.
 !>
-!> A line ends with LF, CRLF or CR; the last one may have no end.
+!> A line ends with LF, CRLF or CR; the last one may have no end. A byte order mark of UTF-8 in front
+!> is passed over; a file in UTF-16 is refused by that name.
 module faststrip_files_lines
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long, c_null_char, &
                                            c_null_ptr, c_ptr, c_size_t
@@ -53,6 +54,9 @@ module faststrip_files_lines
     end type place_t
 
     character(len=1), parameter :: line_feed = achar(10), carriage_return = achar(13)
+    ! What may stand in front of a text in UTF-8, and in UTF-16.
+    character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
+    character(len=*), parameter :: wide_marks(2) = [char(255) // char(254), char(254) // char(255)]
 
     interface
         function c_access(path, mode) bind(c, name='access') result(code)
@@ -203,6 +207,12 @@ contains
             if (file%buffer(i:i + 1) == carriage_return // line_feed) file%next = i + 2
         end if
         file%bytes = file%bytes + last - first + 2
+        if (file%line == 1) then
+            if (is_wide(file%buffer(first:last))) &
+                call refuse('a file must be text of one byte a character, this one is UTF-16')
+            if (index(file%buffer(first:last), byte_order_mark) == 1) &
+                first = first + len(byte_order_mark)
+        end if
         if (file%lines > most_lines .or. file%line == huge(file%line)) then
             call refuse('a file must have at most ' // integer_text(most_lines) // ' lines' &
                         // file%without)
@@ -219,6 +229,15 @@ contains
             call set_place_status(status, st_file_format, what, '', file%path, file%line)
         end subroutine refuse
     end subroutine find_line
+
+    ! Is it the first line of a text of two bytes a character, with its mark or without?
+    pure logical function is_wide(line)
+        character(len=*), intent(in) :: line
+        character(len=2) :: pair
+
+        pair = line
+        is_wide = any(wide_marks == pair) .or. (index(pair, achar(0)) > 0 .and. len(line) > 1)
+    end function is_wide
 
     ! Read on, behind what was not yet given, which moves to the beginning of the buffer.
     subroutine fill(file)

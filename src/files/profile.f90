@@ -24,11 +24,6 @@ module faststrip_files_profile
     public :: read_profile, profile_file_t, profile_options_t, key_t, length_unit, ends_with
     public :: body_wheel, body_rail
 
-    character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
-    ! The same of UTF-16.
-    character(len=*), parameter :: wide_mark = char(255) // char(254), &
-                                   wide_mark_2 = char(254) // char(255)
-
     ! Formats.
     integer, parameter :: is_text = 0, is_simpack = 1, is_miniprof = 2, is_vampire = 3, &
                           is_gensys_wheel = 4, is_gensys_rail = 5
@@ -54,18 +49,6 @@ contains
         if (is_error(status)) return
         call read_lines(path, lines, status)
         if (is_error(status)) return
-        if (size(lines) > 0) then
-            if (index(lines(1)%text, byte_order_mark) == 1) &
-                lines(1)%text = lines(1)%text(len(byte_order_mark) + 1:)
-        end if
-        if (size(lines) > 0) then
-            if (index(lines(1)%text, wide_mark) == 1 .or. index(lines(1)%text, wide_mark_2) == 1) &
-                then
-                call set_place_status(status, st_file_format, 'a profile must be text of one ' // &
-                                      'byte a character, this one is UTF-16', '', path, 1)
-                return
-            end if
-        end if
         deallocate (profile%y, profile%z, profile%line, profile%keys)
         profile%kind = kind_of_name(path)
         select case (format_of(path, lines))

@@ -17,7 +17,7 @@ module faststrip_files_profile_miniprof
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t, line_t, &
                                               append_point, add_key, add_note, split_key, &
                                               parse_words, is_number_line, without_comment, &
-                                              split_words
+                                              split_words, largest_coordinate
     implicit none
     private
 
@@ -249,18 +249,21 @@ contains
             range = 'column letters with commas between them, X and Y among them'
             call take_columns(without_blanks(text), header, valid)
         case ('xypoints')
-            range = 'a whole number'
+            range = 'a whole number from 0 on'
             if (len(text) == 0) return
             call parse_integer(text, header%n_points, valid)
+            valid = valid .and. header%n_points >= 0
             header%line_of_count = number
         case ('xoffset', 'yoffset')
-            range = 'a finite number'
+            range = 'a finite number within 1e9'
             if (len(text) == 0) return
             if (lower_case(key) == 'xoffset') then
                 call parse_real(text, header%offset_x, valid)
             else
                 call parse_real(text, header%offset_y, valid)
             end if
+            valid = valid .and. max(abs(header%offset_x), abs(header%offset_y)) &
+                    <= largest_coordinate
         case ('wheeldiametertaperline')
             ! Where the tape circle is; what cannot be a place on a wheel means something else.
             call parse_real(text, taper_line, valid)

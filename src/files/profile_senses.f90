@@ -5,7 +5,7 @@ module faststrip_files_profile_senses
     use faststrip_base_status, only: status_t, clear_status, number_text, st_file_format, &
                                      st_too_few_points
     use faststrip_base_text, only: integer_text, set_place_status
-    use faststrip_geometry_touchable, only: body_wheel, body_rail
+    use faststrip_geometry_touchable, only: body_wheel, body_rail, same_place
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t
     implicit none
     private
@@ -17,6 +17,8 @@ module faststrip_files_profile_senses
 
     ! Lengths of profiles, along the points: shorter or longer ones are not in mm.
     real(wp), parameter :: shortest = 1.0_wp, longest = 3000.0_wp
+    ! The same of a wheel or a rail, unless the user says the unit: those in inches are shorter.
+    real(wp), parameter :: shortest_body = 10.0_wp
     ! The same where nothing tells the unit: those of inches or centimetres are shorter.
     real(wp), parameter :: shortest_without_unit = 30.0_wp
     ! A flange, or the face of a rim, is as high.
@@ -58,7 +60,7 @@ contains
         type(status_t), intent(inout) :: status
 
         real(wp) :: length, chord, next
-        integer :: i, n, n_back, at
+        integer :: i, before, n, n_back, at
 
         n = size(profile%y)
         if (n < min_points) then
@@ -69,17 +71,22 @@ contains
         length = 0.0_wp
         n_back = 0
         associate (y => profile%y, z => profile%z)
+            before = 1
             do i = 2, n
-                chord = hypot(y(i) - y(i - 1), z(i) - z(i - 1))
+                chord = hypot(y(i) - y(before), z(i) - z(before))
+                if (chord <= same_place) cycle
                 length = length + chord
+                at = before
+                before = i
                 if (i == n) exit
-                if (abs(atan2((y(i) - y(i - 1))*(z(i + 1) - z(i)) &
-                              - (z(i) - z(i - 1))*(y(i + 1) - y(i)), &
-                              (y(i) - y(i - 1))*(y(i + 1) - y(i)) &
-                              + (z(i) - z(i - 1))*(z(i + 1) - z(i)))) <= turned_back) cycle
+                next = hypot(y(i + 1) - y(i), z(i + 1) - z(i))
+                if (next <= same_place) cycle
+                if (abs(atan2((y(i) - y(at))*(z(i + 1) - z(i)) &
+                              - (z(i) - z(at))*(y(i + 1) - y(i)), &
+                              (y(i) - y(at))*(y(i + 1) - y(i)) &
+                              + (z(i) - z(at))*(z(i + 1) - z(i)))) <= turned_back) cycle
                 n_back = n_back + 1
                 ! The far end of the longer chord is the point that does not belong.
-                next = hypot(y(i + 1) - y(i), z(i + 1) - z(i))
                 at = merge(i + 1, i, next > chord)
                 chord = max(chord, next)
                 if (chord <= longest_fold) cycle
@@ -94,6 +101,10 @@ contains
             length < shortest_without_unit) then
             call set_place_status(status, st_file_format, 'a profile in no unit must be 30 mm ' // &
                                   'long or more (--unit says in what unit a file is)', &
+                                  trim(number_text(length)) // ' mm', path, 0)
+        else if (profile%kind > 0 .and. .not. has_unit .and. length < shortest_body) then
+            call set_place_status(status, st_file_format, 'a profile of a wheel or a rail must ' // &
+                                  'be 10 mm long or more (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (.not. (length >= shortest .and. length <= longest)) then
             call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long' // &

@@ -109,9 +109,10 @@ contains
         case ('gaugepoint us'); length = us_gauge_point
         case default
             if (valid) call parse_real(word, length, valid)
+            valid = valid .and. length > 0.0_wp
         end select
         if (.not. valid) call set_place_status(status, st_file_format, 'line 3 and 4 must be ' // &
                                                'TREADDATUM and FLANGEBACK, or GAUGEPOINT and ' // &
-                                               'GAUGE, with a length', lines(i)%text, path, i)
+                                               'GAUGE, with a length above 0', lines(i)%text, path, i)
     end subroutine take_length
 end module faststrip_files_profile_vampire

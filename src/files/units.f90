@@ -1,9 +1,10 @@
 !> Units of table columns, which stand at the end of their names, in the words of UDUNITS.
 module faststrip_files_units
+    use faststrip_base_text, only: lower_case
     implicit none
     private
 
-    public :: column_unit
+    public :: column_unit, without_unit
 
     type :: unit_t
         character(len=11) :: ending !! of a column's name, behind an underscore
@@ -44,4 +45,19 @@ contains
             if (name(from:) == '_' // trim(units(i)%ending)) unit = trim(units(i)%unit)
         end do
     end function column_unit
+
+    !> A column's name in small letters without its unit: `inv2r` of `inv2r_per_mm`.
+    pure function without_unit(name) result(what)
+        character(len=*), intent(in) :: name !! of a column, in small letters
+        character(len=:), allocatable :: what
+        integer :: i, from, first
+
+        first = len(name) + 1
+        do i = 1, size(units)
+            from = len(name) - len_trim(units(i)%ending)
+            if (from < 2) cycle
+            if (name(from:) == '_' // lower_case(trim(units(i)%ending))) first = min(first, from)
+        end do
+        what = name(:first - 1)
+    end function without_unit
 end module faststrip_files_units

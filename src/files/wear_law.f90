@@ -5,8 +5,9 @@ module faststrip_files_wear_law
                                      st_bad_argument
     use faststrip_base_text, only: integer_text, lower_case, parse_real, set_place_status, &
                                    trim_blanks
-    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_number
-    use faststrip_tangential_wear_law, only: wear_law_t, check_wear_law, most_regimes
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_number, cell_text
+    use faststrip_tangential_wear_law, only: wear_law_t, check_wear_law, most_regimes, &
+                                             no_limit
     implicit none
     private
 
@@ -14,14 +15,15 @@ module faststrip_files_wear_law
 
     character(len=*), parameter :: columns(4) = [character(len=24) :: &
         'from_N_per_mm2', 'to_N_per_mm2', 'constant_ug_per_m_mm2', 'slope_ug_per_m_N']
+    integer, parameter :: to_column = 2 ! of these
 
 contains
 
     !> Read the comment lines `# source: ...` (where the numbers stand), `# body: wheel` or `rail`
     !> (which of them wears so) and `# density_kg_per_m3: ...`, each once, and one row a regime with
     !> the columns `from_N_per_mm2`, `to_N_per_mm2`, `constant_ug_per_m_mm2`, `slope_ug_per_m_N`, in
-    !> any order. Nothing is repaired: what `check_wear_law` would refuse is refused here with the
-    !> file and the line.
+    !> any order. The last regime has no end where `inf` or nothing stands for it. Nothing is
+    !> repaired: what `check_wear_law` would refuse is refused here with the file and the line.
     subroutine read_wear_law(path, law, source, status)
         character(len=*), intent(in) :: path       !! name of the file
         type(wear_law_t), intent(out) :: law       !! no regimes on an error
@@ -126,6 +128,10 @@ contains
         law%n = table%n_rows
         do row = 1, table%n_rows
             do i = 1, size(columns)
+                if (i == to_column .and. row == table%n_rows) then
+                    number(i) = no_limit
+                    if (has_no_end(cell_text(table, row, column(i)))) cycle
+                end if
                 call cell_number(table, row, column(i), number(i), status)
                 if (is_error(status)) return
             end do
@@ -141,4 +147,14 @@ contains
             call set_place_status(status, words%code, trim(words%message), '', table%file, i)
         end if
     end subroutine take_regimes
+
+    ! Does a cell say that a regime goes on for ever?
+    pure logical function has_no_end(text)
+        character(len=*), intent(in) :: text
+
+        select case (lower_case(text))
+        case ('', 'inf', '+inf', 'infinity'); has_no_end = .true.
+        case default; has_no_end = .false.
+        end select
+    end function has_no_end
 end module faststrip_files_wear_law

@@ -6,7 +6,7 @@ module faststrip_netcdf_table
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_columns, only: holds_text, is_variable_name
     use faststrip_files_csv_stream, only: csv_stream_t, open_stream, find_row, close_stream
-    use faststrip_files_csv_table, only: cell_text, take_only_row, leave_blanks, byte_order_mark
+    use faststrip_files_csv_table, only: cell_text, take_only_row, leave_blanks
     use faststrip_files_lines, only: text_file_t, open_text, find_line, close_text
     use faststrip_netcdf_columns, only: table_column_t, make_column, look_at, settle, &
                                         reserve_rows, keep_cell
@@ -93,8 +93,6 @@ contains
         do
             call find_line(file, first, last, found, status)
             if (is_error(status) .or. .not. found) exit
-            if (file%line == 1 .and. index(file%buffer(first:last), byte_order_mark) == 1) &
-                first = first + len(byte_order_mark)
             call leave_blanks(file%buffer, first, last)
             if (last < first) cycle
             if (file%buffer(first:first) /= '#') exit

@@ -7,6 +7,9 @@
 !> profile's radius jumps, is linear between them. The curve is cut once into monotone pieces, so
 !> that the level sets are found exactly, however small they are beside the distance of the points.
 !>
+!> Points that lie so close that their heights tell no slope are one that was measured or written
+!> twice: of them the curve has the middle.
+!>
 !> Of a gap and its mirror image (y to -y) one counts as the image of the other (`is_mirror_image`),
 !> and its curve is made from the other's: so the two curves agree to the last digit.
 module faststrip_geometry_gap_curve
@@ -31,6 +34,13 @@ module faststrip_geometry_gap_curve
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
     !> Tuned [1]. Origin: chosen; lengths go with the square root.
     real(wp), parameter :: flattest_ratio = 0.03_wp
+    ! Points closer than this, over the mean distance of points, are one if their heights are as
+    ! close, too: rounding of places, and what two scans of one place differ by.
+    ! Tuned [1]. Origin: 1e-6 mm of rounding in points 0.05 mm apart.
+    real(wp), parameter :: double_distance = 2.0e-5_wp
+    ! Tuned [1]: heights, over the same distance. Origin: slopes to the next points change by as
+    ! much, a hundredth of those of a patch.
+    real(wp), parameter :: double_height = 1.0e-4_wp
     ! Tuned [halvings]: most of them for the place of a level. Origin: all digits of an interval.
     integer, parameter :: most_halvings = 60
 
@@ -104,21 +114,12 @@ contains
 
         call check_gap(gap, status)
         if (is_error(status)) return
-        call take_points(curve, gap%y, gap%h, gap%inv2r, status)
-        if (is_error(status)) return
-        curve%inclination_is_known = allocated(gap%inclination)
-        if (curve%inclination_is_known) call take_inclination(curve, gap%inclination)
+        if (allocated(gap%inclination)) then
+            call take_points(curve, gap%y, gap%h, gap%inv2r, status, gap%inclination)
+        else
+            call take_points(curve, gap%y, gap%h, gap%inv2r, status)
+        end if
     end subroutine set_gap_curve
-
-    !> Take over the inclination of the surfaces at the points.
-    subroutine take_inclination(curve, inclination)
-        type(gap_curve_t), intent(inout) :: curve
-        real(wp), intent(in) :: inclination(:) ! rad
-
-        curve%inclination_is_known = .true.
-        curve%inclination(:curve%n) = inclination
-        call set_blocks(curve%inclined, curve%inclination(:curve%n))
-    end subroutine take_inclination
 
     !> The same from plain arrays.
     subroutine set_gap_curve_points(curve, y, h, inv2r, status, inclination)
@@ -133,9 +134,7 @@ contains
         call check_capacity(curve, size(y), status)
         if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, inclination)
         if (is_error(status)) return
-        call take_points(curve, y, h, inv2r, status)
-        if (is_error(status) .or. .not. present(inclination)) return
-        call take_inclination(curve, inclination)
+        call take_points(curve, y, h, inv2r, status, inclination)
     end subroutine set_gap_curve_points
 
     !> The same from a curve that was set: nothing is checked or fitted again. Allocates nothing.
@@ -200,10 +199,56 @@ contains
         end do
     end subroutine find_even_parts
 
-    subroutine take_points(curve, y, h, inv2r, status)
+    !> Make one point of those that were written twice.
+    pure subroutine join_doubles(curve, n)
+        type(gap_curve_t), intent(inout) :: curve ! its points are set
+        integer, intent(inout) :: n               ! their number
+
+        integer :: i, first, kept
+        real(wp) :: close, alike
+
+        close = double_distance*(curve%y(n) - curve%y(1))/(n - 1)
+        alike = double_height*(curve%y(n) - curve%y(1))/(n - 1)
+        if (all(curve%y(2:n) - curve%y(:n - 1) > close)) return
+        if (count(.not. is_double([(i, i=2, n)])) < 4) return ! Given: fewest points of a gap
+        kept = 0
+        first = 1
+        do i = 1, n
+            if (i < n) then
+                if (is_double(i + 1)) cycle
+            end if
+            kept = kept + 1
+            call take_middle(curve%y)
+            call take_middle(curve%h)
+            call take_middle(curve%inv2r)
+            if (curve%inclination_is_known) call take_middle(curve%inclination)
+            first = i + 1
+        end do
+        n = kept
+
+    contains
+
+        !> Is a point the one before once more?
+        elemental logical function is_double(i)
+            integer, intent(in) :: i
+
+            is_double = curve%y(i) - curve%y(i - 1) <= close &
+                        .and. abs(curve%h(i) - curve%h(i - 1)) <= alike
+        end function is_double
+
+        pure subroutine take_middle(values)
+            real(wp), intent(inout) :: values(:)
+
+            values(kept) = values(i)
+            if (first < i) values(kept) = 0.5_wp*(values(first) + values(i))
+        end subroutine take_middle
+    end subroutine join_doubles
+
+    subroutine take_points(curve, y, h, inv2r, status, inclination)
         type(gap_curve_t), intent(inout) :: curve
         real(wp), intent(in) :: y(:), h(:), inv2r(:)
         type(status_t), intent(inout) :: status
+        real(wp), intent(in), optional :: inclination(:)
 
         integer :: n, side
 
@@ -215,13 +260,16 @@ contains
         curve%y(:n) = y
         curve%h(:n) = h
         curve%inv2r(:n) = inv2r
-        curve%inclination_is_known = .false.
-        side = side_of(y, h, inv2r)
+        curve%inclination_is_known = present(inclination)
+        if (present(inclination)) curve%inclination(:n) = inclination
+        call join_doubles(curve, n)
+        side = side_of(curve%y(:n), curve%h(:n), curve%inv2r(:n))
         curve%is_even = side == 0
         if (side < 0) then
             call reverse_negated(curve%y(:n))
             call reverse(curve%h(:n))
             call reverse(curve%inv2r(:n))
+            if (curve%inclination_is_known) call reverse_negated(curve%inclination(:n))
         end if
         curve%least_inv2r = flattest_ratio*usual_inv2r(curve%inv2r(:n))
         call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
@@ -240,6 +288,8 @@ contains
         else
             call set_blocks(curve%blocks, curve%h_node(:curve%n_pieces + 1))
             call find_even_parts(curve)
+            if (curve%inclination_is_known) &
+                call set_blocks(curve%inclined, curve%inclination(:n))
         end if
     end subroutine take_points
 
@@ -410,20 +460,24 @@ contains
         real(wp), intent(out) :: steepest      !! height of a step over its length
         real(wp), intent(out) :: y             !! lower end of the highest, mm
 
-        real(wp) :: step, dy, slope
-        integer :: i
+        real(wp) :: step, dy, slope, before, behind
+        integer :: i, first, last
 
         highest = 0.0_wp
         steepest = 0.0_wp
         y = y_from
         if (.not. curve%has_steps) return
+        last = 0
         do i = interval_of(curve, y_from), curve%n - 1
             if (curve%y(i) >= y_to) exit
             if (.not. curve%is_step(i) .or. curve%y(i + 1) <= y_from) cycle
-            ! The intervals at the ends of the points are no steps.
             dy = curve%y(i + 1) - curve%y(i)
-            slope = 0.5_wp*(merge(0.0_wp, curve%slope_to(i - 1), curve%is_step(i - 1)) &
-                            + merge(0.0_wp, curve%slope_from(i + 1), curve%is_step(i + 1)))
+            if (i > last) call find_row(curve, i, first, last, before, behind)
+            ! In a row of steps the slope goes over from one side's to the other's.
+            slope = 0.5_wp*(before + behind)
+            if (first < last) slope = before + (behind - before) &
+                *(0.5_wp*(curve%y(i) + curve%y(i + 1)) - curve%y(first)) &
+                /(curve%y(last + 1) - curve%y(first))
             step = abs(curve%h(i + 1) - curve%h(i) - slope*dy)
             steepest = max(steepest, step/dy)
             if (step <= highest) cycle
@@ -431,6 +485,26 @@ contains
             y = curve%y(merge(i, i + 1, curve%h(i) < curve%h(i + 1)))
         end do
     end subroutine largest_step
+
+    !> The row of steps that interval i belongs to, and the slopes on both its sides. The intervals
+    !> at the ends of the points are no steps.
+    pure subroutine find_row(curve, i, first, last, before, behind)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        integer, intent(out) :: first, last      ! intervals of the row
+        real(wp), intent(out) :: before, behind  ! slopes
+
+        first = i
+        do while (curve%is_step(first - 1))
+            first = first - 1
+        end do
+        last = i
+        do while (curve%is_step(last + 1))
+            last = last + 1
+        end do
+        before = curve%slope_to(first - 1)
+        behind = curve%slope_from(last + 1)
+    end subroutine find_row
 
     !> Half the second derivative of the height, the B of a Hertzian gap `A x^2 + B y^2`, 1/mm.
     pure real(wp) function gap_curvature(curve, y) result(b)

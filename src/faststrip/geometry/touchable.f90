@@ -5,8 +5,8 @@
 !> The contact search wants z(y). From the highest place of a rail (the lowest of a wheel) the curve
 !> is followed to both sides as long as it goes on outwards. Points that fold back, a zig-zag, are
 !> passed over where the curve goes on beyond them right away; where it does not, at an overhang or
-!> an upright side, the rest of that side is clipped. Nothing is moved, and what was left out is
-!> told.
+!> an upright side, the rest of that side is clipped. A point that lies where the one before does is
+!> that one written twice, and no fold. Nothing is moved, and what was left out is told.
 module faststrip_geometry_touchable
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: add_words, number_text, count_text
@@ -14,7 +14,7 @@ module faststrip_geometry_touchable
     private
 
     public :: touchable_t, find_touchable, touchable_words, words_length
-    public :: body_wheel, body_rail
+    public :: body_wheel, body_rail, same_place
 
     !> What a profile is of.
     !> Given: numbers of kinds.
@@ -41,9 +41,17 @@ module faststrip_geometry_touchable
     ! 10 um over points 2 mm apart this.
     real(wp), parameter :: upright = 200.0_wp
 
+    !> Points no farther apart are one that was written twice.
+    !> Tuned [mm]. Origin: a tenth of the last of four printed decimals, far below the noise of any
+    !> measurement.
+    real(wp), parameter :: same_place = 1.0e-5_wp
+
     ! A fold, or a dent, after which the curve goes on farther off than this is none.
     ! Tuned [mm]. Origin: dents and zig-zags of measured profiles are 0.1 to 1.5 mm long.
     real(wp), parameter :: bridge = 2.0_wp
+    ! Where points are far apart anyway, the next one may be so many times as far as they are.
+    ! Tuned [1]. Origin: chosen: points along a profile are mostly even.
+    real(wp), parameter :: usual_step = 2.0_wp
 
     ! The field side's top of a rail counts as its highest place if it is lower by no more.
     ! Tuned [mm]. Origin: a guard rail beside the head may be a little higher.
@@ -76,18 +84,27 @@ contains
             type(touchable_t), intent(inout) :: part
 
             integer :: i, last, end_point, folded, at
+            real(wp) :: step, steps
             logical :: is_near
 
             n_kept = 0
             folded = 0
             last = start
+            steps = 0.0_wp
             end_point = merge(n, 1, side > 0)
             do i = start + side, end_point, side
-                is_near = hypot(y(i) - y(last), z(i) - z(last)) <= bridge
-                if (goes_on(last, i, side) .and. (is_near .or. folded == 0)) then
+                step = hypot(y(i) - y(last), z(i) - z(last))
+                if (folded == 0 .and. step <= same_place) then
+                    if (i == end_point) last = i
+                    cycle
+                end if
+                is_near = step <= bridge
+                if (goes_on(last, i, side) .and. (is_near .or. folded == 0 &
+                                                  .or. step <= usual_step*steps)) then
                     n_kept = n_kept + 1
                     kept(n_kept) = i
                     last = i
+                    steps = step
                     part%n_folded = part%n_folded + folded
                     folded = 0
                 else

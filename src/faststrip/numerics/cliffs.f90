@@ -14,6 +14,10 @@
 !> Where one side is too rough to foretell anything, as in a block of fill values, or has too few
 !> points, the other decides.
 !>
+!> Where stitched scans scatter, one point in two or three stands out by the same and the median
+!> deviation of the others is nothing: what stands out so on both sides again and again, and by no
+!> more than a thousandth of the points' distance, is no tear.
+!>
 !> Only ratios of differences count: units of length, the curve's direction and a height added to
 !> all points change nothing but rounding.
 module faststrip_numerics_cliffs
@@ -52,6 +56,12 @@ module faststrip_numerics_cliffs
     ! The nearest three c of a smooth side differ by less than this from what it foretells.
     ! Tuned [1]. Origin: chosen; round.
     real(wp), parameter :: agreement = 0.25_wp
+    ! Scatter that comes again: so many of the c on each side stand out as far as half of it.
+    ! Tuned [points]. Origin: of a window of 7 one in three.
+    integer, parameter :: again = 2
+    ! Its height over the chord of the points beside it, over their distance.
+    ! Tuned [1]. Origin: chosen: slopes that change by less are a twentieth of those of a patch.
+    real(wp), parameter :: scatter_height = 1.0e-3_wp
     ! Rounding of heights and places, in units of their last digit.
     ! Tuned [units in the last place]. Origin: some roundings of a third difference, with a margin.
     real(wp), parameter :: rounding = 64.0_wp
@@ -163,7 +173,36 @@ contains
                      .and. change*chord_factor(n, x, k) &
                      > max(scatter_factor*max(left%uneven, right%uneven), &
                            rounding_of(n, x, y, k))
+        if (is_torn(k)) is_torn(k) = .not. comes_again(n, x, c, k, excess(k))
     end subroutine look_at
+
+    !> Does what a second derivative has too much come again and again on both sides of its point?
+    pure logical function comes_again(n, x, c, k, excess)
+        integer, intent(in) :: n, k
+        real(wp), intent(in) :: x(n), c(n), excess
+
+        integer :: i, step, n_seen, n_again
+        logical :: any_side
+
+        comes_again = .false.
+        any_side = .false.
+        if (abs(excess)*chord_factor(n, x, k) > 0.5_wp*scatter_height*(x(k + 1) - x(k - 1))) return
+        do step = -1, 1, 2
+            n_seen = 0
+            n_again = 0
+            i = k + step
+            do while (i > 1 .and. i < n .and. n_seen < window)
+                n_seen = n_seen + 1
+                if ((c(i) - (c(k) - 0.5_wp*excess))*sign(1.0_wp, excess) >= 0.0_wp) &
+                    n_again = n_again + 1
+                i = i + step
+            end do
+            if (n_seen < fewest) cycle
+            if (n_again < again*n_seen/window) return
+            any_side = .true.
+        end do
+        comes_again = any_side
+    end function comes_again
 
     !> Points of a rough stretch as seen from the smooth side before it: the last points that are
     !> not torn foretell, until others agree with them, or with each other.
@@ -191,6 +230,7 @@ contains
             if (change <= max(rough_factor*abs(before%c), scatter_factor*before%scatter)) cycle
             if (change*chord_factor(n, x, k) &
                 <= max(scatter_factor*before%uneven, rounding_of(n, x, y, k))) cycle
+            if (comes_again(n, x, c, k, c(k) - before%c)) cycle
             after = foretold(n, x, c, is_torn, .false., k, step)
             if (after%is_known .and. after%agrees .and. scatter_factor*after%scatter < change &
                 .and. abs(excess_over(c(k), before, after)) &

@@ -2,7 +2,9 @@
 !>
 !> A law gives the wear rate K in ug per metre rolled and mm^2 of contact, piece by piece: in each
 !> regime of T gamma/A, from one limit to the next, `K = constant + slope (T gamma/A)`. Where two
-!> regimes meet the upper one counts. Above the last one the law says nothing.
+!> regimes meet the upper one counts. Above the last one the law says nothing, unless it is open:
+!> then it has no end. Coefficients are printed rounded, so that rates and limits have to fit within
+!> that only; a rate that comes out below 0 by it is 0.
 !>
 !> A strip of area A_k loses `m = K A_k` ug per metre rolled, which is the volume `m/rho` mm^3 per
 !> metre, rho in kg/m^3. Rolled over once, wheel or rail loses across the strip the area
@@ -22,11 +24,17 @@ module faststrip_tangential_wear_law
 
     public :: wear_law_t, wear_t, check_wear_law, find_wear_rate, find_strip_wear, &
               wheel_depth_per_km
-    public :: most_regimes
+    public :: most_regimes, no_limit
 
     !> The most regimes of a law.
     !> Tuned [regimes]. Origin: capacity.
     integer, parameter :: most_regimes = 32
+    !> Where a regime ends that has no end, N/mm^2.
+    real(wp), parameter :: no_limit = huge(1.0_wp)
+    !> By how much of its parts a rate may be below 0, and of itself a limit beside the one before.
+    !> Tuned [1]. Origin: a coefficient of three figures is rounded by up to half a percent, one of
+    !> four by less than this; the published ones have three to five.
+    real(wp), parameter :: print_rounding = 1.0e-3_wp
 
     ! Given: units: mm in a metre and in a kilometre.
     real(wp), parameter :: mm_per_m = 1.0e3_wp
@@ -36,7 +44,8 @@ module faststrip_tangential_wear_law
     type :: wear_law_t
         integer :: n = 0                             !! number of regimes; 0: no law
         real(wp) :: from(most_regimes) = 0.0_wp      !! T gamma/A where a regime begins, N/mm^2
-        real(wp) :: to(most_regimes) = 0.0_wp        !! where it ends, N/mm^2
+        real(wp) :: to(most_regimes) = 0.0_wp        !! where it ends, N/mm^2; of the last one
+                                                     !! `no_limit` or infinity: nowhere
         real(wp) :: constant(most_regimes) = 0.0_wp  !! of the wear rate, ug/(m mm^2)
         real(wp) :: slope(most_regimes) = 0.0_wp     !! the same over T gamma/A, ug/(m N)
         real(wp) :: density = 0.0_wp                 !! of what is worn, kg/m^3
@@ -53,7 +62,7 @@ module faststrip_tangential_wear_law
 contains
 
     !> Is it a law? Its regimes have to begin at 0, to follow each other without a hole, and no
-    !> wear rate may be negative.
+    !> wear rate may be negative, both as far as rounded figures tell.
     pure subroutine check_wear_law(law, status, regime)
         type(wear_law_t), intent(in) :: law   !! to be checked
         type(status_t), intent(out) :: status !! `st_bad_argument`, `st_not_increasing`
@@ -61,6 +70,7 @@ contains
 
         real(wp) :: last
         integer :: i
+        logical :: is_open
 
         call clear_status(status)
         if (present(regime)) regime = 0
@@ -78,27 +88,48 @@ contains
         last = 0.0_wp
         do i = 1, law%n
             if (present(regime)) regime = i
-            if (law%from(i) /= last) then
+            is_open = i == law%n .and. law%to(i) >= no_limit
+            if (.not. abs(law%from(i) - last) <= print_rounding*last) then
                 call set_status(status, st_not_increasing, 'a regime must begin where the one ' &
                                 // 'before ends, the first at 0, got ' &
                                 // trim(number_text(law%from(i))) // ' after ' &
                                 // trim(number_text(last)))
-            else if (.not. (law%to(i) > law%from(i) .and. ieee_is_finite(law%to(i)))) then
+            else if (.not. (law%to(i) > law%from(i) .and. (law%to(i) < no_limit .or. is_open))) then
                 call set_status(status, st_not_increasing, 'a regime must end above its ' &
                                 // 'beginning, got ' // trim(number_text(law%to(i))) &
                                 // ' after ' // trim(number_text(law%from(i))))
-            else if (.not. (law%constant(i) + law%slope(i)*law%from(i) >= 0.0_wp .and. &
-                            law%constant(i) + law%slope(i)*law%to(i) >= 0.0_wp)) then
-                call set_status(status, st_bad_argument, 'a wear rate must not be negative ' &
-                                // 'within its regime, got ' &
-                                // trim(number_text(law%constant(i) + law%slope(i)*law%from(i))) &
-                                // ' and ' &
-                                // trim(number_text(law%constant(i) + law%slope(i)*law%to(i))))
+            else if (.not. is_rate(law%constant(i), law%slope(i)*law%from(i))) then
+                call refuse_rate(law%constant(i) + law%slope(i)*law%from(i), law%from(i), status)
+            else if (is_open) then
+                if (.not. law%slope(i) >= 0.0_wp) &
+                    call set_status(status, st_bad_argument, 'the wear rate of a regime without ' &
+                                    // 'an end must not fall, got a slope of ' &
+                                    // number_text(law%slope(i)))
+            else if (.not. is_rate(law%constant(i), law%slope(i)*law%to(i))) then
+                call refuse_rate(law%constant(i) + law%slope(i)*law%to(i), law%to(i), status)
             end if
             if (is_error(status)) return
             last = law%to(i)
         end do
         if (present(regime)) regime = 0
+
+    contains
+
+        pure logical function is_rate(constant, rise)
+            real(wp), intent(in) :: constant, rise ! its two parts
+
+            is_rate = ieee_is_finite(constant + rise) .and. &
+                constant + rise >= -print_rounding*(abs(constant) + abs(rise))
+        end function is_rate
+
+        pure subroutine refuse_rate(rate, density, status)
+            real(wp), intent(in) :: rate, density
+            type(status_t), intent(inout) :: status
+
+            call set_status(status, st_bad_argument, 'a wear rate must not be negative within ' &
+                            // 'its regime, got ' // trim(number_text(rate)) // ' ug/(m mm2) at ' &
+                            // trim(number_text(density)) // ' N/mm2')
+        end subroutine refuse_rate
     end subroutine check_wear_law
 
     !> Wear rate at a T gamma/A.
@@ -117,7 +148,7 @@ contains
         do i = law%n, 1, -1
             if (density >= law%from(i)) exit
         end do
-        rate = law%constant(i) + law%slope(i)*density
+        rate = max(law%constant(i) + law%slope(i)*density, 0.0_wp)
     end subroutine find_wear_rate
 
     !> Wear of each strip and of the contact, which is their sum. The arrays are the caller's; their
