@@ -198,7 +198,7 @@ def gap_files(rng, i):
     elif kind == 2:
         lines[at] = ",".join(cells + ["1"] * rng.choice([1, 5]))
     elif kind == 3:
-        lines.insert(at, lines[at])
+        lines.insert(at, f"{cells[0]},1e3,{cells[2]}")
     elif kind == 4:
         lines[1:] = reversed(lines[1:])
     elif kind == 5:
@@ -326,6 +326,54 @@ def batches(rng, i):
             "b.csv": text_of([COLUMNS, ",".join(cells)])}, rows=True)
     return Try("batches", ["batch", "b.csv"], files={"b.csv": text_of(
         [",".join(names), ",".join(cells)])})
+
+
+# Tables of every kind, and what reads them.
+TABLES = (
+    ("gap.csv", gap_lines(), ["contact", "case.nml"]),
+    ("radii.csv", RADII, ["conicity", "--delta-r", "radii.csv"]),
+    ("law.csv", ["# source: none", "# body: rail", "# density_kg_per_m3: 7850",
+                 "from_N_per_mm2,to_N_per_mm2,constant_ug_per_m_mm2,slope_ug_per_m_N",
+                 "0,10.5,0,2.5", "10.5,inf,26.3,0.1"], ["contact", "case.nml", "--wear",
+                                                     "law.csv"]),
+    ("b.csv", [COLUMNS + ",given_penetration_mm,friction_kind,mu_kinetic", ROW + ",,,"],
+     ["batch", "b.csv"]),
+    ("s.csv", ["case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N,vy_mm_s,"
+               "curve_radius_mm", "a,both,1.5,,0,20000,,160000.5,,"],
+     ["wheelset", "axle.nml", "--states", "s.csv"]))
+
+
+def tables(rng, i):
+    """Tables of other dialects than there are, and columns of nearly the right name."""
+    name, lines, words = TABLES[i % len(TABLES)]
+    lines = lines[:]
+    at = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+    names = lines[at].split(",")
+    kind = rng.randrange(6)
+    encoding = "utf-8"
+    if kind == 0:  # a comma for the point
+        lines[at:] = [line.replace(",", ";").replace(".", ",") for line in lines[at:]]
+        lines[-1] = "0,5" + lines[-1][lines[-1].index(";"):] if name != "b.csv" else lines[-1] + ";"
+    elif kind == 1:
+        encoding = rng.choice(["utf-16", "utf-16-le", "utf-16-be"])
+    elif kind == 2:
+        separator = rng.choice("|:/~")
+        lines[at:] = [line.replace(",", separator) for line in lines[at:]]
+    elif kind == 3:  # names parted otherwise than cells
+        lines[at] = lines[at].replace(",", rng.choice(";\t"))
+    elif kind == 4:
+        del lines[at]
+    else:
+        column = rng.choice([k for k, one in enumerate(names) if one not in ("case", "side")])
+        wrong = rng.choice([str.upper, str.title, lambda one: one + "m", lambda one: one + ","])
+        names[column] = wrong(names[column])
+        if names[column] in COLUMNS or names[column].lower() == "nu":
+            names[column] = "Status"
+        lines[at] = ",".join(names)
+    return Try("tables", words, rows=True, may_pass=kind == 5, files={
+        name: text_of(lines).encode(encoding), "axle.nml": text_of(
+            ["&wheel", "  profile = 's1002'", "/", "&rail", "  profile = 'uic60'", "/",
+             "&material", "  mu = 0.3", "/"])})
 
 
 BAD_VALUES = {"N": ["1.7", "0", "-1", "99999999999", "", "x", "1e3", "auto!", "\x1b[31m", "²"],
@@ -603,7 +651,7 @@ FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "options": (options, 16), "paths": (paths, 10), "side files": (side_files, 10),
             "permissions": (permissions, 2), "special files": (special_files, 2),
             "signals": (signals, 3), "endless work": (endless_work, 1),
-            "environments": (environments, 3), "sizes": (sizes, 6)}
+            "environments": (environments, 3), "sizes": (sizes, 6), "tables": (tables, 10)}
 
 
 def snapshot(folder):

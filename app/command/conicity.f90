@@ -151,6 +151,7 @@ contains
 
         type(csv_table_t) :: table
         type(status_t) :: status
+        integer, allocatable :: row(:)
 
         call read_csv(path, table, status)
         call fail_on_error(status)
@@ -158,8 +159,25 @@ contains
         call fail_on_error(status)
         call column_numbers(table, 'delta_r_mm', delta_r, status)
         call fail_on_error(status)
-        call check_order(table, y)
+        call drop_double_rows(y, delta_r, row)
+        call check_order(table, y, row)
     end subroutine read_table
+
+    !> Leave out rows that are the ones before once more.
+    subroutine drop_double_rows(y, delta_r, row)
+        real(wp), allocatable, intent(inout) :: y(:), delta_r(:)
+        integer, allocatable, intent(out) :: row(:) ! of the table
+
+        integer :: i
+
+        row = [(i, i=1, size(y))]
+        associate (is_kept => [row == 1 .or. y(max(row - 1, 1)) /= y &
+                               .or. delta_r(max(row - 1, 1)) /= delta_r])
+            row = pack(row, is_kept)
+        end associate
+        y = y(row)
+        delta_r = delta_r(row)
+    end subroutine drop_double_rows
 
     subroutine take_list(command, text, amplitudes)
         type(command_t), intent(in) :: command
@@ -210,18 +228,19 @@ contains
         amplitudes = [(from + i*step, i=0, int((to - from)/step + step_slack))]
     end subroutine take_steps
 
-    subroutine check_order(table, y)
+    subroutine check_order(table, y, row)
         type(csv_table_t), intent(in) :: table
         real(wp), intent(in) :: y(:)
+        integer, intent(in) :: row(:) ! of the table
 
         type(status_t) :: status
-        integer :: row
+        integer :: i
 
-        do row = 2, size(y)
-            if (y(row) > y(row - 1)) cycle
+        do i = 2, size(y)
+            if (y(i) > y(i - 1)) cycle
             call set_place_status(status, st_not_increasing, 'y_mm must rise from row to row', &
-                                  cell_text(table, row, column_index(table, 'y_mm')), &
-                                  table%file, table%line(row))
+                                  cell_text(table, row(i), column_index(table, 'y_mm')), &
+                                  table%file, table%line(row(i)))
             call fail_on_error(status)
         end do
     end subroutine check_order

@@ -86,7 +86,8 @@ class WearLaw:
     ----------
     regimes : sequence of four floats each
         Where T gamma/A begins, as the regime before ends, the first at 0, and where it ends,
-        N/mm^2, of the last one ``math.inf`` for nowhere; then constant, ug/(m mm^2), and slope, ug/(m N), of its wear rate.
+        N/mm^2, of the last one ``math.inf`` for nowhere; then constant, ug/(m mm^2), and slope,
+        ug/(m N), of its wear rate.
     density : float
         kg/m^3.
     """

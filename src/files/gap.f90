@@ -13,8 +13,8 @@ module faststrip_files_gap
 contains
 
     !> Read the columns `y_mm`, `h_mm` and `inv2R_per_mm`, in any order; other columns are passed
-    !> over, and so is a row that was written twice. Nothing is repaired: what `check_gap` would refuse is refused here with the file,
-    !> the line and the value.
+    !> over, and so is a row that was written twice. Nothing is repaired: what `check_gap` would
+    !> refuse is refused here with the file, the line and the value.
     subroutine read_gap_file(path, gap, status)
         character(len=*), intent(in) :: path   !! name of the file
         type(gap_t), intent(out) :: gap        !! the gap, mm, mm, 1/mm; nothing allocated on an

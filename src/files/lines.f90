@@ -1,7 +1,7 @@
 !> Lines of text files, read strictly: the file goes through a buffer, and a line is a range of it.
 !>
-!> A line ends with LF, CRLF or CR; the last one may have no end. A byte order mark of UTF-8 in front
-!> is passed over; a file in UTF-16 is refused by that name.
+!> A line ends with LF, CRLF or CR; the last one may have no end. A byte order mark of UTF-8 in
+!> front is passed over; a file in UTF-16 is refused by that name.
 module faststrip_files_lines
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long, c_null_char, &
                                            c_null_ptr, c_ptr, c_size_t

@@ -103,8 +103,8 @@ contains
                                   'long or more (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (profile%kind > 0 .and. .not. has_unit .and. length < shortest_body) then
-            call set_place_status(status, st_file_format, 'a profile of a wheel or a rail must ' // &
-                                  'be 10 mm long or more (--unit says in what unit a file is)', &
+            call set_place_status(status, st_file_format, 'a profile of a wheel or a rail must' // &
+                                  ' be 10 mm long or more (--unit says in what unit a file is)', &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (.not. (length >= shortest .and. length <= longest)) then
             call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long' // &

@@ -113,6 +113,7 @@ contains
         end select
         if (.not. valid) call set_place_status(status, st_file_format, 'line 3 and 4 must be ' // &
                                                'TREADDATUM and FLANGEBACK, or GAUGEPOINT and ' // &
-                                               'GAUGE, with a length above 0', lines(i)%text, path, i)
+                                               'GAUGE, with a length above 0', &
+                                               lines(i)%text, path, i)
     end subroutine take_length
 end module faststrip_files_profile_vampire

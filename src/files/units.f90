@@ -8,7 +8,7 @@ module faststrip_files_units
 
     type :: unit_t
         character(len=11) :: ending !! of a column's name, behind an underscore
-        character(len=8) :: unit    !! in the words of UDUNITS
+        character(len=10) :: unit   !! in the words of UDUNITS
     end type unit_t
 
     ! Of two that fit the later one counts: an ending stands behind those that it ends with.
@@ -17,12 +17,13 @@ module faststrip_files_units
         unit_t('mm2', 'mm2'), unit_t('mm3', 'mm3'), unit_t('per_mm', 'mm-1'), &
         unit_t('rad', 'rad'), unit_t('mrad', 'mrad'), unit_t('deg', 'degree'), &
         unit_t('rad_per_mm', 'rad mm-1'), &
-        unit_t('N', 'N'), unit_t('kN', 'kN'), unit_t('Nmm', 'N mm'), &
+        unit_t('N', 'N'), unit_t('kN', 'kN'), unit_t('Nmm', 'N mm'), unit_t('Nm', 'N m'), &
+        unit_t('kNm', 'kN m'), &
         unit_t('Pa', 'Pa'), unit_t('MPa', 'MPa'), unit_t('GPa', 'GPa'), &
         unit_t('N_per_mm2', 'N mm-2'), &
         unit_t('s', 's'), unit_t('ms', 'ms'), unit_t('us', 'us'), unit_t('ns', 'ns'), &
         unit_t('mm_s', 'mm s-1'), unit_t('m_s', 'm s-1'), unit_t('km_h', 'km h-1'), &
-        unit_t('rad_s', 'rad s-1'), &
+        unit_t('rad_s', 'rad s-1'), unit_t('mrad_s', 'mrad s-1'), unit_t('deg_s', 'degree s-1'), &
         unit_t('ug_per_m', 'ug m-1'), unit_t('mm3_per_m', 'mm3 m-1'), &
         unit_t('mm_per_km', 'mm km-1'), &
         ! A pass is counted.

@@ -171,7 +171,7 @@ class Field(ProgramTest):
                          f"{1.0 / 920.0!r}" for i in range(-150, 151)]) + "\n")
         done = self.run_program("contact", "case.nml")
         self.assertEqual(rows_of(done.stdout)[0]["status"], "conformal")
-        self.assertIn("a step of 0.01", done.stderr)
+        self.assertIn("a step of 0.100000E-1 mm", done.stderr)
 
 
 if __name__ == "__main__":

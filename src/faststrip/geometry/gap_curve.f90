@@ -205,12 +205,15 @@ contains
         integer, intent(inout) :: n               ! their number
 
         integer :: i, first, kept
-        real(wp) :: close, alike
+        real(wp) :: near, alike
 
-        close = double_distance*(curve%y(n) - curve%y(1))/(n - 1)
+        near = double_distance*(curve%y(n) - curve%y(1))/(n - 1)
         alike = double_height*(curve%y(n) - curve%y(1))/(n - 1)
-        if (all(curve%y(2:n) - curve%y(:n - 1) > close)) return
-        if (count(.not. is_double([(i, i=2, n)])) < 4) return ! Given: fewest points of a gap
+        kept = 1
+        do i = 2, n
+            if (.not. is_double(i)) kept = kept + 1
+        end do
+        if (kept == n .or. kept < 5) return ! Given: fewest points of a gap
         kept = 0
         first = 1
         do i = 1, n
@@ -229,10 +232,10 @@ contains
     contains
 
         !> Is a point the one before once more?
-        elemental logical function is_double(i)
+        pure logical function is_double(i)
             integer, intent(in) :: i
 
-            is_double = curve%y(i) - curve%y(i - 1) <= close &
+            is_double = curve%y(i) - curve%y(i - 1) <= near &
                         .and. abs(curve%h(i) - curve%h(i - 1)) <= alike
         end function is_double
 
