@@ -67,6 +67,22 @@ class Field(ProgramTest):
             for name in FIGURES:
                 self.assert_close(float(row[name]), float(clean[name]), 1e-6, 1e-3, double)
 
+    def test_rows_that_were_written_twice(self):
+        self.write("case.nml", gap_case(motion="cksi = 0.001"))
+        radii = "y_mm,delta_r_mm\n" + "".join(
+            f"{0.5 * i - 8},{0.05 * i - 0.8!r}\n" for i in range(33))
+        found = []
+        for again in (1, 2):
+            for name, text in (("gap.csv", gap_text(fine_parabola, n=61)), ("r.csv", radii)):
+                lines = text.splitlines()
+                lines[20:22] = lines[20:22] if again == 1 else [
+                    lines[20], lines[20], lines[21], lines[21]]
+                self.write(name, "\n".join(lines) + "\n")
+            row = self.good("contact", "case.nml")[0]
+            found.append([[row[name] for name in FIGURES],
+                          self.good("conicity", "--delta-r", "r.csv", "--amplitudes", "3")])
+        self.assertEqual(found[0], found[1])
+
     def test_tables_in_every_dialect(self):
         gap = gap_text(fine_parabola, n=61)
         states = ("case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
