@@ -380,6 +380,7 @@ typedef struct faststrip_wheelset_setup {
 #else
     double inclination;   /* of both rails; cant where the compiler knows nameless unions */
 #endif
+    size_t state_size;    /* of faststrip_wheelset_state, which had no rails before this was here */
 } faststrip_wheelset_setup;
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
@@ -404,19 +405,32 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
 int faststrip_draw_profile(const faststrip_profile *profile, int is_rail, double inclination, int n,
                            double *y, double *z, char *text, size_t length);
 
-/* Position and velocity of a wheelset; all zero: in the middle, at rest. */
+/* How a rail lies and moves beside its place, as irregularities of the track have it. */
+typedef struct faststrip_rail_state {
+    double y;         /* to the right, mm */
+    double z;         /* down, mm */
+    double roll;      /* right side down, about the origin of its profile, rad */
+    double y_rate;    /* mm/s */
+    double z_rate;    /* mm/s */
+    double roll_rate; /* rad/s */
+} faststrip_rail_state;
+
+/* Position and velocity of a wheelset, and of the rails below it; all zero: in the middle, at rest.
+ * Where nothing rolls but something slides all of the contact slides; where nothing moves there are
+ * no friction forces. */
 typedef struct faststrip_wheelset_state {
     double y;          /* lateral displacement, mm */
     double z;          /* vertical displacement of the centre, mm; where it is prescribed */
     double roll;       /* right wheel down, rad; where it is not free */
     double yaw;        /* nose to the right, rad */
-    double speed;      /* along the track, mm/s, not negative */
+    double speed;      /* along the track, mm/s; below 0 it rolls backwards */
     double y_rate;     /* mm/s */
     double z_rate;     /* mm/s */
     double roll_rate;  /* rad/s */
     double yaw_rate;   /* relative to the track, rad/s */
     double pitch_rate; /* about the axle, negative for rolling ahead, rad/s */
     double curvature;  /* of the track, positive to the right, 1/mm */
+    faststrip_rail_state rail[2]; /* right, left */
 } faststrip_wheelset_state;
 
 enum faststrip_demand {

@@ -5,7 +5,7 @@ module faststrip_command_wheelset
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_result_t, &
                                         side_right, side_left
@@ -226,6 +226,8 @@ contains
             end if
         end if
         if (run%beside > 0.0_wp) call put_beside(run, name, wants, state, demand)
+        if (is_at_rest(state)) call note(name // ': nothing moves: without slip there are no ' // &
+                                         'friction forces')
     end subroutine put_state
 
     ! The solutions beside a state, if contacts jump between them.

@@ -6,8 +6,10 @@ C     as bits.
       INTEGER IOPT(9), NPROF(4), IWORK(8), IDMND(4), N, INFO, I, K, IC
       INTEGER ISIDE
       DOUBLE PRECISION PAR(9), SETUP(9), Y(2*NPTS), Z(2*NPTS), S(11)
-      DOUBLE PRECISION DMND(4), CONT(47, 16), WRES(27)
+      DOUBLE PRECISION DMND(4), CONT(47, 16), WRES(27), R(12), RK(12)
       DATA DMND /6.0D4, 5.0D4, 1.2D5, 1.0D6/
+      DATA RK /0.01D0, -0.02D0, 1.0D-4, 2.0D0, -0.5D0, 1.0D-3,
+     &  -0.02D0, 0.01D0, -2.0D-4, -1.0D0, 0.25D0, 2.0D-3/
       DO 90 IC = 1, 2
         CALL FSDFLT(IOPT, PAR)
         CALL FSWDFT(SETUP)
@@ -53,6 +55,11 @@ C     as bits.
           IDMND(3) = 0
           IF (MOD(I, 3) .GT. 0 .AND. I .LT. 7) IDMND(3) = 1
           IDMND(4) = MOD(I, 2)
+C         The rails have moved in the second half.
+          DO 40 K = 1, 12
+            R(K) = RK(K)*I
+   40     CONTINUE
+          IF (I .GT. 6) CALL FSRAIL(IWORK, R, INFO)
           CALL FSWSLV(IWORK, S, IDMND, DMND, 16, N, CONT, WRES, INFO)
           WRITE (*, '(A, 2(1X, I0))') 'solved', INFO, N
           DO 70 ISIDE = 1, 2

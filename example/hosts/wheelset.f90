@@ -69,8 +69,10 @@ contains
         call reserve_wheelset(workspace, model, status)
     end subroutine make
 
+    !> The rails have moved in the second half.
     subroutine ask(i)
         integer, intent(in) :: i
+        real(wp) :: moved
 
         state%y = 0.5_wp*i - 3.0_wp
         state%yaw = 0.001_wp*i
@@ -81,6 +83,11 @@ contains
         state%yaw_rate = 0.01_wp*i
         state%pitch_rate = -20000.0_wp/460.0_wp
         state%curvature = 1.0e-6_wp
+        moved = merge(real(i, wp), 0.0_wp, i > 6)
+        state%rail(1) = rail_state_t(0.01_wp*moved, -0.02_wp*moved, 1.0e-4_wp*moved, 2.0_wp*moved, &
+                                     -0.5_wp*moved, 1.0e-3_wp*moved)
+        state%rail(2) = rail_state_t(-0.02_wp*moved, 0.01_wp*moved, -2.0e-4_wp*moved, -moved, &
+                                     0.25_wp*moved, 2.0e-3_wp*moved)
         demand = wheelset_demand_t(modulo(i, 3))
         demand%load = [60000.0_wp, 50000.0_wp]
         demand%axle_load = 120000.0_wp

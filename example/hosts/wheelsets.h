@@ -59,6 +59,10 @@ enum { ASKED = 12 };
 /* What is asked i-th, i from 1 to ASKED; z and roll stay. */
 static void ask_wheelset(int i, faststrip_wheelset_state *state, faststrip_wheelset_demand *demand)
 {
+    /* The rails have moved in the second half. */
+    const double moved = i > 6 ? i : 0;
+    int side;
+
     memset(demand, 0, sizeof *demand);
     state->y = 0.5 * i - 3.0;
     state->yaw = 0.001 * i;
@@ -69,6 +73,16 @@ static void ask_wheelset(int i, faststrip_wheelset_state *state, faststrip_wheel
     state->yaw_rate = 0.01 * i;
     state->pitch_rate = -20000.0 / 460.0;
     state->curvature = 1e-6;
+    for (side = 0; side < 2; side++) {
+        faststrip_rail_state *rail = &state->rail[side];
+
+        rail->y = (side ? -0.02 : 0.01) * moved;
+        rail->z = (side ? 0.01 : -0.02) * moved;
+        rail->roll = (side ? -2e-4 : 1e-4) * moved;
+        rail->y_rate = (side ? -1.0 : 2.0) * moved;
+        rail->z_rate = (side ? 0.25 : -0.5) * moved;
+        rail->roll_rate = (side ? 2e-3 : 1e-3) * moved;
+    }
     demand->kind = i % 3;
     demand->load_right = 60000.0;
     demand->load_left = 50000.0;

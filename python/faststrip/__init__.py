@@ -23,7 +23,7 @@ from ._plot import plot_profiles
 from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
 from ._results import Elements, Result, Step, Strips
 from ._wear import Friction, StripWear, Wear, WearLaw
-from ._wheelset import WheelContact, Wheelset, WheelsetResult
+from ._wheelset import RailState, WheelContact, Wheelset, WheelsetResult
 
 __all__ = [
     "Conicity",
@@ -40,6 +40,7 @@ __all__ = [
     "Material",
     "Profile",
     "ProgramNotFound",
+    "RailState",
     "Result",
     "Step",
     "StripWear",

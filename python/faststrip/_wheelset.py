@@ -43,15 +43,21 @@ class Setup(ctypes.Structure):
 
     _fields_ = [("size", c_size_t), *((name, c_double) for name in (
         "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-        "rail_distance", "inclination"))]
+        "rail_distance", "inclination")), ("state_size", c_size_t)]
+
+
+class Rail(ctypes.Structure):
+    """``faststrip_rail_state`` of the header."""
+
+    _fields_ = [(name, c_double) for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")]
 
 
 class State(ctypes.Structure):
     """``faststrip_wheelset_state`` of the header."""
 
-    _fields_ = [(name, c_double) for name in (
+    _fields_ = [*((name, c_double) for name in (
         "y", "z", "roll", "yaw", "speed", "y_rate", "z_rate", "roll_rate", "yaw_rate",
-        "pitch_rate", "curvature")]
+        "pitch_rate", "curvature")), ("right_rail", Rail), ("left_rail", Rail)]
 
 
 class Demand(ctypes.Structure):
@@ -88,6 +94,42 @@ class Totals(ctypes.Structure):
     _fields_ = [*((name, c_int * 2) for name in ("status", "n_contacts", "n_solutions")),
                 ("z", c_double * 2), ("roll", c_double),
                 *((name, THREE * 2) for name in ("force", "force_wheelset", "moment"))]
+
+
+@dataclass(frozen=True)
+class RailState:
+    """How a rail lies and moves beside its place, as irregularities of the track have it.
+
+    Attributes
+    ----------
+    y, z : float
+        To the right and down, mm.
+    roll : float
+        Right side down, about the origin of its profile, rad.
+    y_rate, z_rate : float
+        mm/s.
+    roll_rate : float
+        rad/s.
+    """
+
+    y: float = 0.0
+    z: float = 0.0
+    roll: float = 0.0
+    y_rate: float = 0.0
+    z_rate: float = 0.0
+    roll_rate: float = 0.0
+
+
+IN_PLACE = RailState()
+
+
+def rail_of(name: str, rail: Any) -> Rail:
+    """A rail's state as the library takes it."""
+    if not isinstance(rail, RailState):
+        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), f"{name} must be a RailState")
+    names = [field.name for field in fields(RailState)]
+    return Rail(*numbers([f"{name}.{one}" for one in names],
+                          [getattr(rail, one) for one in names]))
 
 
 @dataclass(frozen=True)
@@ -195,7 +237,8 @@ def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any
         ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
          "rail_distance", "inclination"),
         (radius, left, spacing_of(back_spacing), tread_line, gauge, gauge_depth, distance,
-         inclination_of(inclination, cant))))
+         inclination_of(inclination, cant))),
+        ctypes.sizeof(State))
     wheels = (Points * 2)(points_of("wheel", wheel, "wheel"), Points() if wheel_left is None
                           else points_of("wheel_left", wheel_left, "wheel"))
     rails = (Points * 2)(points_of("rail", rail, "rail"), Points() if rail_left is None
@@ -359,7 +402,8 @@ estimate, resolution_limit, force_limit
               roll_rate: float = 0.0, yaw_rate: float = 0.0, pitch_rate: float = 0.0,
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
               axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
-              warm_start: bool = False) -> WheelsetResult:
+              warm_start: bool = False, right_rail: RailState = IN_PLACE,
+              left_rail: RailState = IN_PLACE) -> WheelsetResult:
         """Solve for a position z, a load of each wheel or an axle_load: one of the three.
 
         Parameters
@@ -375,7 +419,7 @@ estimate, resolution_limit, force_limit
         yaw : float
             Nose to the right, rad.
         speed : float
-            mm/s.
+            mm/s; below 0 the wheelset rolls backwards.
         y_rate, z_rate : float
             mm/s.
         roll_rate, yaw_rate, pitch_rate : float
@@ -392,10 +436,17 @@ estimate, resolution_limit, force_limit
             ``both``, ``right`` or ``left``.
         warm_start : bool
             Begin with the last solution, if there is one.
+        right_rail, left_rail : RailState
+            Where the rails lie beside their places, and how they move.
 
         Returns
         -------
         WheelsetResult
+
+        Notes
+        -----
+        Where nothing rolls but something slides, all of the contact slides; where nothing moves
+        there are no friction forces.
 
         Raises
         ------
@@ -416,9 +467,10 @@ estimate, resolution_limit, force_limit
             demand.kind = BY_LOADS
             demand.load_right, demand.load_left = numbers(("load[0]", "load[1]"), loads)
         demand.roll_is_free = roll is None and z is None and demand.wheels == 0
-        names = [field[0] for field in State._fields_]
-        state = State(*numbers(names, (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate,
-                                       roll_rate, yaw_rate, pitch_rate, curvature)))
+        given = (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate, roll_rate, yaw_rate,
+                 pitch_rate, curvature)
+        state = State(*numbers([field[0] for field in State._fields_[:len(given)]], given),
+                      rail_of("right_rail", right_rail), rail_of("left_rail", left_rail))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
         self._n_contacts = 0
         status = self._call(library.faststrip_wheelset_solve, ctypes.byref(state),

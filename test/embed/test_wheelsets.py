@@ -1,5 +1,7 @@
 """Wheelsets are the same in every face: every figure of every contact, bit for bit."""
 
+import csv
+import ctypes
 import math
 import struct
 import unittest
@@ -43,7 +45,7 @@ class Faces(HostTest):
             wheelset, z, roll = make(package, of_points), 0.0, 0.0
             for i in range(1, 13):
                 status, contacts = 100, ()
-                wanted = ask(i, z, roll)
+                wanted = ask(package, i, z, roll)
                 try:
                     result = wheelset.solve(**wanted)
                     status, contacts = result.status, result.contacts
@@ -64,6 +66,83 @@ class Faces(HostTest):
                   for line in wanted]
         self.assertEqual(lines, wanted)
 
+    def test_rails_that_move_have_the_bits_of_the_program(self):
+        package = self.import_package()
+        right = {"y": 0.4, "z": -0.3, "roll": 2e-3, "y_rate": 5.0, "z_rate": -2.0,
+                 "roll_rate": 0.01}
+        left = {"y": -0.2, "z": 0.1, "roll": -1e-3, "y_rate": -3.0, "z_rate": 1.0,
+                "roll_rate": -0.02}
+        units = {"y": "y_mm", "z": "z_mm", "roll": "roll_rad", "y_rate": "vy_mm_s",
+                 "z_rate": "vz_mm_s", "roll_rate": "roll_rate_rad_s"}
+        columns = [f"rail_{side}_{unit}" for side in ("right", "left") for unit in units.values()]
+        numbers = [*right.values(), *left.values()]
+        self.write("moved.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"
+                   "  cant = 0.025\n/\n&material\n  mu = 0.3\n/\n")
+        self.write("moved.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N,"
+                   f"{','.join(columns)}\nmoved,both,2.5,,0.003,20000,-43.5,120000,"
+                   f"{','.join(map(repr, numbers))}\n")
+        self.shell(f"'{self.installed.prefix}/bin/faststrip' wheelset moved.nml --states moved.csv"
+                   " -o moved_out.csv")
+        text = (self.folder / "moved_out.csv").read_text(encoding="utf-8")
+        lines = [line for line in text.splitlines() if line[0] != "#"]
+        rows = {row["side"]: row for row in csv.DictReader(lines)}
+        state = {"y": 2.5, "yaw": 0.003, "speed": 2e4, "pitch_rate": -43.5, "axle_load": 1.2e5}
+        wheelset = package.Wheelset()
+        result = wheelset.solve(right_rail=package.RailState(**right),
+                                left_rail=package.RailState(**left), **state)
+        self.assertEqual([one.side for one in result.contacts], ["right", "left"])
+        for one in result.contacts:
+            row = rows[one.side]
+            for name, number in (("Fx_N", one.fx), ("Fs_N", one.fy), ("Mz_Nmm", one.mz),
+                                 ("N_N", one.load), ("ceta", one.ceta), ("pmax_MPa", one.pmax),
+                                 ("y_rail_mm", one.rail[0]), ("z_track_mm", one.place[2]),
+                                 ("Fy_track_N", one.force[1])):
+                self.assertEqual(float(row[name]), number, (one.side, name))
+        self.assertNotEqual(result.roll, wheelset.solve(**state).roll)
+
+    def test_a_header_without_rails_goes_on(self):
+        package = self.import_package()
+        parts = package._wheelset
+        library, point = parts.library, ctypes.byref
+        loads = {"y": 3.0, "yaw": 0.002, "speed": 2e4, "pitch_rate": -43.0}
+        known = parts.Setup()
+        self.assertEqual(library.faststrip_default_wheelset(point(known), 80), 0)
+        self.assertEqual((known.size, known.state_size), (80, ctypes.sizeof(parts.State)))
+        demand = parts.Demand(kind=1, wheels=1, load_right=8e4)
+        forces = {}
+        for size in (72, 80):
+            setup = parts.Setup(state_size=12345)
+            self.assertEqual(library.faststrip_default_wheelset(point(setup), size), 0)
+            self.assertEqual(setup.state_size, 12345 if size == 72 else known.state_size)
+            # An old caller has something else where the rails would be.
+            state = parts.State(**loads)
+            state.right_rail.y = math.nan if size == 72 else 0.25
+            wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
+            rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
+            case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
+            handle = ctypes.c_void_p()
+            self.assertEqual(library.faststrip_wheelset_new(
+                point(setup), wheels, rails, point(case), point(handle), None, 0), 0)
+            rows, totals, n = (parts.Row * 16)(), parts.Totals(), ctypes.c_int()
+            self.assertEqual(library.faststrip_wheelset_solve(
+                handle, point(state), point(demand), 16, point(n), rows, point(totals)), 0)
+            forces[size] = list(totals.force[0])
+            self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
+        solver = package.Wheelset(strips_per_patch=9, estimate=False)
+        for size, rail in ((72, package.RailState()), (80, package.RailState(y=0.25))):
+            wanted = solver.solve(load=8e4, wheels="right", roll=0.0, right_rail=rail, **loads)
+            self.assertEqual(list(wanted.force[0]), forces[size])
+        self.assertNotEqual(forces[72], forces[80])
+        for change in ({"size": 76}, {"size": 88}, {"state_size": 88}):
+            text = ctypes.create_string_buffer(256)
+            setup = parts.Setup()
+            library.faststrip_default_wheelset(point(setup), 80)
+            for name, value in change.items():
+                setattr(setup, name, value)
+            self.assertEqual(library.faststrip_wheelset_new(
+                point(setup), wheels, rails, point(case), point(handle), text, 256), 100)
+            self.assertIn(b"bytes" if change.get("size") != 76 else b"size", text.value)
+
     def test_python_refuses_by_name(self):
         package = self.import_package()
         wheelset = package.Wheelset(strips_per_patch=5)
@@ -75,6 +154,11 @@ class Faces(HostTest):
                 (lambda: wheelset.solve(load=1e4, y=math.nan), "y must be finite"),
                 (lambda: wheelset.solve(load=1e4, wheels="none"), "wheels must be one of both"),
                 (lambda: wheelset.solve(load=1e4, y=500.0), "no_contact"),
+                (lambda: wheelset.solve(load=1e4, right_rail=0.1), "must be a RailState"),
+                (lambda: wheelset.solve(load=1e4, left_rail=package.RailState(z=math.nan)),
+                 "left_rail.z must be finite"),
+                (lambda: wheelset.solve(load=1e4, left_rail=package.RailState(roll=1.0)),
+                 "roll of a rail"),
                 (lambda: package.Wheelset("round"), "must be s1002, cone20 or cone40, got round"),
                 (lambda: package.Wheelset(rail=3), "rail must be a Profile of a rail or a name"),
                 (lambda: package.Wheelset(normal="auto"), "must not be auto"),
@@ -114,11 +198,17 @@ def make(package, of_points):
                             strips_per_patch=9, **more)
 
 
-def ask(i, z, roll):
+def ask(package, i, z, roll):
+    """The rails have moved in the second half."""
     wanted = {"y": 0.5 * i - 3.0, "yaw": 0.001 * i, "speed": 20000.0, "y_rate": 10.0 * i,
               "z_rate": 1.0, "roll_rate": 0.001, "yaw_rate": 0.01 * i,
               "pitch_rate": -20000.0 / 460.0, "curvature": 1e-6, "roll_moment": 1e6,
               "warm_start": i % 2 == 1, "wheels": "both"}
+    moved = float(i) if i > 6 else 0.0
+    wanted["right_rail"] = package.RailState(0.01 * moved, -0.02 * moved, 1e-4 * moved, 2.0 * moved,
+                                             -0.5 * moved, 1e-3 * moved)
+    wanted["left_rail"] = package.RailState(-0.02 * moved, 0.01 * moved, -2e-4 * moved, -moved,
+                                            0.25 * moved, 2e-3 * moved)
     wanted.update([{"z": z}, {"load": (6e4, 5e4)}, {"axle_load": 1.2e5}][i % 3])
     if i % 3 == 0 or i >= 7:
         wanted["roll"] = roll

@@ -6,6 +6,7 @@
 !> for steps that are taken back.
 module faststrip_contact_solve
     use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument, st_under_resolved, &
@@ -42,6 +43,7 @@ module faststrip_contact_solve
     use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, &
                                             fastsim_variant_t
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve
+    use faststrip_tangential_motion, only: cut_creepage
     use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
                                          law_shen_hedrick_elkins, law_polach
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
@@ -347,6 +349,8 @@ contains
 
         type(status_t) :: estimate
         type(material_t) :: material
+        type(creepage_t) :: creepage
+        real(wp) :: share
         integer :: method, points
 
         is_estimated = .false.
@@ -369,13 +373,14 @@ contains
             return
         end select
         material = softened(case%material, case%friction)
+        call cut_creepage(case%creepage, creepage, share)
         if (workspace%solved_by == normal_hertz) then
             ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
-            call estimate_force_errors(workspace%strips, material, case%mu, case%creepage, &
+            call estimate_force_errors(workspace%strips, material, case%mu, creepage, &
                                        method, points, certificate_t(), errors, estimate, finer)
             if (.not. is_error(estimate)) call add_shape_errors(workspace, case, errors, estimate)
         else
-            call estimate_force_errors(workspace%strips, material, case%mu, case%creepage, &
+            call estimate_force_errors(workspace%strips, material, case%mu, creepage, &
                                        method, points, certificate, errors, estimate, finer)
         end if
         is_estimated = .not. is_error(estimate)
@@ -437,8 +442,12 @@ contains
         type(force_errors_t), intent(inout) :: errors !! of a method on the ellipse
         type(status_t), intent(inout) :: status       !! that of `kalker_coefficients`
 
+        type(creepage_t) :: creepage
+        real(wp) :: share
+
+        call cut_creepage(case%creepage, creepage, share)
         call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), &
-                              softened(case%material, case%friction), case%mu, case%creepage, &
+                              softened(case%material, case%friction), case%mu, creepage, &
                               errors, status)
     end subroutine add_shape_errors
 
@@ -630,7 +639,44 @@ contains
         end associate
     end subroutine solve_approximately
 
+    ! Creepages beyond what methods take are cut; what goes with their size is told of them as they
+    ! are.
     subroutine solve_tangential(workspace, case, tangential, status, field, per_strip)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(tangential_result_t), intent(out) :: tangential
+        type(status_t), intent(out) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        type(contact_case_t) :: slower
+        type(creepage_t) :: creepage
+        real(wp) :: share
+
+        call cut_creepage(case%creepage, creepage, share)
+        if (.not. share < 1.0_wp) then
+            call solve_by_method(workspace, case, tangential, status, field, per_strip)
+            return
+        end if
+        slower%material = case%material
+        slower%mu = case%mu
+        slower%methods = case%methods
+        slower%friction = case%friction
+        slower%friction%speed = case%friction%speed/share
+        slower%creepage = creepage
+        call solve_by_method(workspace, slower, tangential, status, field, per_strip)
+        if (is_error(status)) return
+        tangential%friction_power = tangential%friction_power/share
+        if (present(field)) then
+            field%sx(:field%n) = field%sx(:field%n)/share
+            field%sy(:field%n) = field%sy(:field%n)/share
+        end if
+        if (present(per_strip)) per_strip%friction_power(:per_strip%n) = &
+            per_strip%friction_power(:per_strip%n)/share
+    end subroutine solve_tangential
+
+    subroutine solve_by_method(workspace, case, tangential, status, field, &
+                               per_strip)
         type(workspace_t), intent(in) :: workspace
         type(contact_case_t), intent(in) :: case
         type(tangential_result_t), intent(out) :: tangential
@@ -691,7 +737,7 @@ contains
                 call solve_law(workspace, case, law_polach, tangential, status)
             end select
         end associate
-    end subroutine solve_tangential
+    end subroutine solve_by_method
 
     !> FASTSIM on the Hertz ellipse, if there is one, or on the patches' ellipses.
     subroutine solve_fastsim(workspace, case, variant, tangential, status, field)

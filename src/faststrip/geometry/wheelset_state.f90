@@ -16,13 +16,17 @@ module faststrip_geometry_wheelset_state
     private
 
     public :: wheelset_state_t, wheelset_axes_t, rail_state_t
-    public :: mirrored_state, check_state, wheelset_axes, rigid_creepage, rail_velocity, cross
+    public :: mirrored_state, reversed_state, is_at_rest, check_state, wheelset_axes, &
+              rigid_creepage, rail_velocity, cross
 
     ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
     ! wheel that is turned farther have no meaning.
     real(wp), parameter :: largest_turn = 0.5_wp
     ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_displacement = 1.0e4_wp
+    ! Tuned [1, rad/mm]: creepages are not larger than this. Origin: chosen: what `solve_contact`
+    ! takes; all of any contact slides long before.
+    real(wp), parameter :: largest_creepage = 1.0e6_wp
 
     !> How a rail lies and moves beside its place in the design, in the track frame; it is turned
     !> about the origin of its profile.
@@ -75,6 +79,30 @@ contains
         mirrored%curvature = -state%curvature
         mirrored%rail = mirrored_rail(state%rail(2:1:-1))
     end function mirrored_state
+
+    !> The same wheelset on a track that is looked along from its other end, in a mirror: ahead is
+    !> behind, right stays right.
+    elemental type(wheelset_state_t) function reversed_state(state) result(reversed)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+
+        reversed = state
+        reversed%yaw = -state%yaw
+        reversed%speed = -state%speed
+        reversed%yaw_rate = -state%yaw_rate
+        reversed%pitch_rate = -state%pitch_rate
+    end function reversed_state
+
+    !> Does neither the wheelset move nor a rail? Then there is no slip, and by theories of rolling
+    !> no friction.
+    pure logical function is_at_rest(state)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+
+        associate (rail => state%rail)
+            is_at_rest = .not. any(abs([state%speed, state%y_rate, state%z_rate, &
+                                        state%roll_rate, state%yaw_rate, state%pitch_rate, &
+                                        rail%y_rate, rail%z_rate, rail%roll_rate]) > 0.0_wp)
+        end associate
+    end function is_at_rest
 
     elemental type(rail_state_t) function mirrored_rail(rail) result(mirrored)
         type(rail_state_t), intent(in) :: rail
@@ -156,16 +184,20 @@ contains
     !> Creepages of rigid bodies at a point of the wheel: velocity of the rail relative to the wheel
     !> over the rolling speed, in the contact frame, turned by the contact angle about x. The
     !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle.
+    !>
+    !> Where a wheelset starts or stops the ratio has no bound, but forces have a limit: all slides,
+    !> and only the proportions of the velocities count. So the speed is at least a millionth of
+    !> what slides: creepages times the speed are always the velocities.
     pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving)
         type(wheelset_state_t), intent(in) :: state  !! mm, rad, s
         type(wheelset_axes_t), intent(in) :: axes    !! of the state
         real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
         real(wp), intent(in) :: angle                !! contact angle, rad
-        type(creepage_t), intent(out) :: creepage    !! zero if nothing rolls; -, -, rad/mm
+        type(creepage_t), intent(out) :: creepage    !! zero if nothing moves; -, -, rad/mm
         real(wp), intent(out) :: speed               !! rolling speed, mm/s
         real(wp), intent(in), optional :: moving(3)  !! velocity of the rail there, mm/s
 
-        real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3)
+        real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3), slip(3), fastest
 
         arm = point - axes%centre
         pitch = state%pitch_rate*axes%axle
@@ -181,11 +213,19 @@ contains
             speed = 0.5_wp*(abs(travel(1)) + abs(rolled(1)))
         end associate
         creepage = creepage_t()
-        if (.not. speed > 0.0_wp) return
         if (present(moving)) velocity = velocity - moving
-        creepage%cksi = -velocity(1)/speed
-        creepage%ceta = -(velocity(2)*cos(angle) + velocity(3)*sin(angle))/speed
-        creepage%cphi = -(turning(3)*cos(angle) - turning(2)*sin(angle))/speed
+        slip = -[velocity(1), velocity(2)*cos(angle) + velocity(3)*sin(angle), &
+                 turning(3)*cos(angle) - turning(2)*sin(angle)]
+        fastest = maxval(abs(slip))
+        if (speed > 0.0_wp .and. fastest/largest_creepage <= speed) then
+            slip = slip/speed
+        else if (fastest > 0.0_wp) then
+            slip = largest_creepage*(slip/fastest)
+            speed = fastest/largest_creepage
+        else
+            return
+        end if
+        creepage = creepage_t(slip(1), slip(2), slip(3))
     end subroutine rigid_creepage
 
     !> Velocity of a point of a rail, mm/s.

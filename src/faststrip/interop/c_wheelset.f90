@@ -2,7 +2,7 @@
 !>
 !> `size` of a setup says which header the caller was compiled with, for all structs of wheelsets:
 !> so a new member of any of them comes last, in pieces of eight bytes, and where one grows the
-!> setup has to grow too. This library knows one size of it.
+!> setup has to grow too. A setup without `state_size` is that of a state without rails.
 module faststrip_interop_c_wheelset
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
                                            c_null_char, c_associated, c_f_pointer
@@ -12,10 +12,11 @@ module faststrip_interop_c_wheelset
     use faststrip_interop_c, only: put_text, numbers_at
     use faststrip_interop_c_structs, only: c_case_t, read_case
     use faststrip_interop_flat, only: fill_case, fill_friction
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_setup, n_state, n_choices, &
-                                                 n_loads, n_counts, n_numbers, n_totals, n_sums, &
-                                                 free_wheelset, find_wheelset, wheelset_solve, &
-                                                 contact_count, read_contact, read_totals
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_setup, n_state, n_rails, &
+                                                 n_choices, n_loads, n_counts, n_numbers, &
+                                                 n_totals, n_sums, free_wheelset, find_wheelset, &
+                                                 wheelset_solve, contact_count, read_contact, &
+                                                 read_totals
     use faststrip_interop_wheelset_new, only: profile_source_t, source_name_length, &
                                               default_setup, new_wheelset
     implicit none
@@ -29,6 +30,7 @@ module faststrip_interop_c_wheelset
     type, bind(c) :: c_setup_t
         integer(c_size_t) :: size
         real(c_double) :: numbers(n_setup)
+        integer(c_size_t) :: state_size ! not there in the first size
     end type c_setup_t
 
     !> `faststrip_profile` of the header.
@@ -57,8 +59,10 @@ module faststrip_interop_c_wheelset
         real(c_double) :: totals(n_totals)
     end type c_totals_t
 
-    ! Bytes of the setup: a size and its numbers.
-    integer(c_size_t), parameter :: setup_size = 8*(1 + n_setup)
+    ! Bytes of the setup: a size and its numbers; with the size of the state.
+    integer(c_size_t), parameter :: first_size = 8*(1 + n_setup), setup_size = first_size + 8
+    ! Bytes of the state with its rails.
+    integer(c_size_t), parameter :: state_size = 8*(n_state + n_rails)
 
 contains
 
@@ -76,6 +80,7 @@ contains
         call c_f_pointer(setup, fields)
         fields%size = length
         call default_setup(fields%numbers)
+        if (length > first_size) fields%state_size = state_size
     end function faststrip_default_wheelset
 
     !> Make a wheelset on its track.
@@ -168,12 +173,13 @@ contains
         end if
         code = handle%status%code
         if (is_error(handle%status)) return
-        call c_f_pointer(state, position, [n_state])
+        call c_f_pointer(state, position, [n_state + merge(n_rails, 0, handle%knows_rails)])
+        if (handle%knows_rails) handle%rails = position(n_state + 1:)
         call c_f_pointer(demand, wanted)
         call c_f_pointer(n, number)
         call c_f_pointer(contacts, contact, [capacity])
         call c_f_pointer(result, wheels)
-        call wheelset_solve(handle, position, wanted%choices, wanted%loads)
+        call wheelset_solve(handle, position(:n_state), wanted%choices, wanted%loads)
         number = contact_count(handle)
         if (number > capacity) then
             call set_status(handle%status, st_workspace_too_small, &
@@ -198,6 +204,7 @@ contains
         type(c_case_t) :: of_case
         type(profile_source_t) :: sources(2, 2)
         type(contact_case_t) :: contact
+        type(wheelset_handle_t), pointer :: handle
         real(c_double) :: angle
 
         number = 0
@@ -212,6 +219,9 @@ contains
         contact%force_limit = of_case%force_limit
         call fill_friction(of_case%friction_kind, of_case%friction, contact%friction, angle)
         call new_wheelset(sources(:, 1), sources(:, 2), fields%numbers, contact, number, status)
+        if (is_error(status)) return
+        call find_wheelset(number, handle, status)
+        handle%knows_rails = fields%size > first_size
     end subroutine make_handle
 
     !> A caller's setup, if it is one.
@@ -221,10 +231,15 @@ contains
         type(status_t), intent(out) :: status           !! `st_bad_argument`
 
         fields => null()
-        call check_setup(setup, setup_size, status)
+        call check_setup(setup, first_size, status)
         if (is_error(status)) return
         call c_f_pointer(setup, fields)
         call check_setup(setup, fields%size, status)
+        if (is_error(status) .or. fields%size == first_size) return
+        if (fields%state_size /= state_size) &
+            call set_status(status, st_bad_argument, 'state_size of the setup must be the ' // &
+                            trim(count_text(int(state_size))) // ' bytes of the state, as ' // &
+                            'faststrip_default_wheelset set it')
     end subroutine find_setup
 
     ! Is there a setup, of the size that this library knows?
@@ -243,7 +258,7 @@ contains
             call set_status(status, st_bad_argument, 'the setup must have the ' // &
                             trim(count_text(int(setup_size))) // ' bytes that this library ' // &
                             'knows, got ' // trim(got) // ': the header is newer')
-        else if (length < setup_size) then
+        else if (length /= setup_size .and. length /= first_size) then
             call set_status(status, st_bad_argument, 'the setup must have the size that ' // &
                             'faststrip_default_wheelset set, got ' // got)
         end if

@@ -1,6 +1,7 @@
 !> The F77 face: external subroutines with plain arguments, names of at most six letters.
 !>
-!> INTEGER is four bytes, DOUBLE PRECISION eight. Names carry the trailing underscore most Fortran
+!> INTEGER is four bytes, DOUBLE PRECISION eight; FSINTS tells a host that was compiled with others,
+!> and where IOPT shows it, it is refused. Names carry the trailing underscore most Fortran
 !> compilers add; the installed library has them without it too. A workspace is an INTEGER array
 !> `IWORK` of the caller (`FSINIT` with `LIWORK = -1` tells its length) that holds a handle: FSINIT
 !> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
@@ -51,9 +52,9 @@
 !> count then; where ITARG is 1 or 5, nor do IOPT(4) and IOPT(2), which must not be 0: 1 serves.
 !> RLIM counts only where the tolerance is 0. INFO 7, target_missed: as near as strips come.
 module faststrip_interop_f77
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t
-    use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
-                                     st_bad_argument, st_workspace_too_small
+    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t, c_double, c_size_t, c_char, c_intptr_t
+    use faststrip_base_status, only: status_t, status_word, set_status, clear_status, is_error, &
+                                     count_text, st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_normal_limitations, only: check_resolution
     use faststrip_contact_methods, only: tangential_faststrip
     use faststrip_contact_wanted, only: wanted_t, check_wanted
@@ -73,8 +74,8 @@ module faststrip_interop_f77
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast, fsprof
-    public :: fswant, fstakn, fsstep
-    public :: n_iopt, n_par, n_iwork, set_number, number_of
+    public :: fswant, fstakn, fsstep, fsints
+    public :: n_iopt, n_par, n_iwork, check_choices, set_number, number_of
 
     ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
     ! whether it is known and the strips across.
@@ -219,6 +220,9 @@ contains
             return
         end if
         iwork(:n_iwork) = 0
+        call check_choices(iopt, status)
+        info = status%code
+        if (is_error(status)) return
         call new_handle(flat_methods(iopt), max_points, wants_elements(iopt), number, status)
         info = status%code
         if (is_error(status)) return
@@ -264,6 +268,9 @@ contains
         res = 0.0_c_double
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
+        call check_choices(iopt, handle%status)
+        info = handle%status%code
+        if (is_error(handle%status)) return
         call fill_case(iopt, [par(:6), par(6:)], handle%case)
         call handle_solve(handle, wants_elements(iopt))
         info = handle%status%code
@@ -547,6 +554,33 @@ contains
             call put_text('no workspace, or one that was freed', text, length)
         end if
     end subroutine fslast
+
+    !> CALL FSINTS(IONES, INFO)
+    !>
+    !> Is the caller's INTEGER four bytes long, as all of the library's are? IONES holds two ones.
+    !> INFO, 0 or 100, is as long as the caller has it.
+    subroutine fsints(ones, info) bind(c, name='fsints_')
+        integer(c_int), intent(in) :: ones(2)     !! two numbers as the caller has them, both 1
+        integer(c_int), intent(inout) :: info(*)  !! status
+
+        if (all(ones == 1)) then
+            info(1) = st_ok
+        else
+            info(:2) = transfer(int(st_bad_argument, c_int64_t), info(:2))
+        end if
+    end subroutine fsints
+
+    !> Refuse choices that cannot be of an INTEGER of four bytes: of longer ones every second number
+    !> is the upper half of the one before.
+    pure subroutine check_choices(iopt, status)
+        integer(c_int), intent(in) :: iopt(n_iopt) !! as the caller passed them
+        type(status_t), intent(out) :: status      !! `st_bad_argument`
+
+        call clear_status(status)
+        if (any(iopt(7:) < 0 .or. iopt(7:) > 1) .or. iopt(5) > 0 .and. iopt(6) == 0) &
+            call set_status(status, st_bad_argument, 'IOPT(7) to IOPT(9) must be 0 or 1, and ' // &
+                            'FASTSIM must have rows; INTEGER must be four bytes, see FSINTS')
+    end subroutine check_choices
 
     !> The handle in a workspace array; null, and an error, if there is none.
     subroutine find(iwork, handle, info)

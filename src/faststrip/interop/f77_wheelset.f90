@@ -18,6 +18,9 @@
 !> STATE(4) yaw, nose to the right, rad                STATE(5) speed, mm/s
 !> STATE(6), STATE(7) rates of y and z, mm/s           STATE(8), STATE(9) of roll and yaw, rad/s
 !> STATE(10) pitch rate, negative for rolling ahead    STATE(11) curvature of the track, 1/mm
+!> RAIL(1), RAIL(2) y and z of the right rail beside its place, mm      RAIL(3) its roll, rad
+!> RAIL(4), RAIL(5) rates of y and z, mm/s     RAIL(6) of its roll, rad/s     RAIL(7) to RAIL(12)
+!>        the same of the left rail
 !> IDMND(1) prescribed are: 0 z and roll, 1 the vertical force of each wheel, 2 the axle load
 !> IDMND(2) wheels: 0 both, 1 right, 2 left            IDMND(3) 1: the roll is free, and found
 !> IDMND(4) 1: warm start
@@ -50,10 +53,10 @@ module faststrip_interop_f77_wheelset
                                      st_bad_argument, &
                                      st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_interop_f77, only: n_iopt, n_par, n_iwork, set_number, number_of
+    use faststrip_interop_f77, only: n_iopt, n_par, n_iwork, check_choices, set_number, number_of
     use faststrip_interop_flat, only: fill_case
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_dimensions => n_setup, &
-                                                 n_state, n_choices, n_loads, n_counts, &
+                                                 n_state, n_rails, n_choices, n_loads, n_counts, &
                                                  n_numbers, n_totals, n_sums, free_wheelset, &
                                                  find_wheelset, wheelset_solve, contact_count, &
                                                  read_contact, read_totals
@@ -61,7 +64,7 @@ module faststrip_interop_f77_wheelset
     implicit none
     private
 
-    public :: fswdft, fswnew, fswslv, fswfre
+    public :: fswdft, fswnew, fsrail, fswslv, fswfre
     public :: n_setup, read_sources
 
     integer, parameter :: n_setup = n_dimensions + 1
@@ -106,7 +109,9 @@ contains
         info = st_workspace_too_small
         if (liwork < n_iwork) return
         iwork(:n_iwork) = 0
-        call read_sources(n_profile, y_profile, z_profile, sources, status)
+        call check_choices(iopt, status)
+        if (.not. is_error(status)) &
+            call read_sources(n_profile, y_profile, z_profile, sources, status)
         info = status%code
         if (is_error(status)) return
         call fill_case(iopt, [par(:6), par(6:)], case)
@@ -147,6 +152,22 @@ contains
         end do
     end subroutine read_sources
 
+    !> CALL FSRAIL(IWORK, RAIL, INFO)
+    !>
+    !> Say for all further calls of FSWSLV where the rails lie and how they move; FSWNEW sets zeros.
+    subroutine fsrail(iwork, rail, info) bind(c, name='fsrail_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(in) :: rail(n_rails)  !! as above
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+        type(status_t) :: status
+
+        call find_wheelset(number_of(iwork), handle, status)
+        info = status%code
+        if (.not. is_error(status)) handle%rails = rail
+    end subroutine fsrail
+
     !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
     !>
     !> Solve the contacts of both wheels, those of the right one first. INFO 110: M below N.
@@ -172,6 +193,13 @@ contains
         call find_wheelset(number_of(iwork), handle, status)
         info = status%code
         if (is_error(status)) return
+        if (any(idmnd(3:) < 0 .or. idmnd(3:) > 1)) then
+            call set_status(handle%status, st_bad_argument, 'IDMND(3) and IDMND(4) must be 0 or ' &
+                            // '1; INTEGER must be four bytes, see FSINTS')
+            handle%has = .false.
+            info = handle%status%code
+            return
+        end if
         call wheelset_solve(handle, state, idmnd, dmnd)
         n = contact_count(handle)
         if (n > capacity) then

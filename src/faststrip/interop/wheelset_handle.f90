@@ -10,6 +10,8 @@
 !> state    1 y, mm      2 z, mm        3 roll, rad     4 yaw, rad     5 speed, mm/s
 !>          6, 7 rates of y and z, mm/s      8, 9, 10 rates of roll, yaw and pitch, rad/s
 !>          11 curvature of the track, 1/mm
+!> rails    1, 2 how far the right rail lies beside its place, y and z, mm    3 its roll, rad
+!>          4, 5 rates of y and z, mm/s     6 of its roll, rad/s     7 to 12 of the left rail
 !> choices  1 what is prescribed: 0 position, 1 loads, 2 axle load    2 wheels: 0 both, 1 right,
 !>          2 left      3 is the roll free?      4 warm start? (0: no)
 !> loads    1, 2 vertical force of the right and left wheel, N     3 axle load, N
@@ -37,7 +39,7 @@ module faststrip_interop_wheelset_handle
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_wear_room, only: wear_room_t
     use faststrip_wheelset_solve, only: solve_wheelset
@@ -49,14 +51,14 @@ module faststrip_interop_wheelset_handle
     private
 
     public :: wheelset_handle_t
-    public :: n_setup, n_state, n_choices, n_loads, n_counts, n_numbers, n_totals, n_sums
+    public :: n_setup, n_state, n_rails, n_choices, n_loads, n_counts, n_numbers, n_totals, n_sums
     public :: allocate_wheelset, free_wheelset, find_wheelset, wheelset_solve
     public :: contact_count, contact_place, read_contact, read_totals
 
     !> Lengths of the rows.
     !> Given: by the faces.
-    integer, parameter :: n_setup = 8, n_state = 11, n_choices = 4, n_loads = 4, n_counts = 6, &
-                          n_numbers = 41, n_totals = 21, n_sums = 6
+    integer, parameter :: n_setup = 8, n_state = 11, n_rails = 12, n_choices = 4, &
+                          n_loads = 4, n_counts = 6, n_numbers = 41, n_totals = 21, n_sums = 6
 
     !> One caller's wheelset.
     type :: wheelset_handle_t
@@ -64,6 +66,8 @@ module faststrip_interop_wheelset_handle
         type(wheelset_workspace_t) :: workspace
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
+        logical :: knows_rails = .true. !! has the caller's state them?
+        real(c_double) :: rails(n_rails) = 0.0_c_double !! where and how they are, as above
         type(wheel_strips_t) :: strips !! of the contact whose wear was asked for
         type(wear_room_t) :: wear      !! the same
         type(status_t) :: status    !! of the last call
@@ -112,7 +116,7 @@ contains
         if (.not. is_error(status)) call c_f_pointer(address, handle)
     end subroutine find_wheelset
 
-    !> Solve the contacts of a wheelset; its result has them.
+    !> Solve the contacts of a wheelset on its rails as they are now; its result has them.
     subroutine wheelset_solve(handle, state, choices, loads)
         type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
         real(c_double), intent(in) :: state(n_state)     !! position and velocity
@@ -120,6 +124,7 @@ contains
         real(c_double), intent(in) :: loads(n_loads)     !! the same
 
         type(wheelset_demand_t) :: demand
+        type(rail_state_t) :: rail(2)
 
         handle%has = .false.
         if (choices(2) < 0 .or. choices(2) > 2) then
@@ -127,6 +132,10 @@ contains
                             'right, or 2, left, got ' // count_text(choices(2)))
             return
         end if
+        associate (r => handle%rails)
+            rail = [rail_state_t(r(1), r(2), r(3), r(4), r(5), r(6)), &
+                    rail_state_t(r(7), r(8), r(9), r(10), r(11), r(12))]
+        end associate
         demand = wheelset_demand_t(choices(1), choices(2) /= [2, 1], loads(:2), loads(3), &
                                    choices(3) /= 0, loads(4))
         ! As if it had never been solved.
@@ -134,7 +143,8 @@ contains
         call solve_wheelset(handle%model, handle%workspace, &
                             wheelset_state_t(state(1), state(2), state(3), state(4), state(5), &
                                              state(6), state(7), state(8), state(9), state(10), &
-                                             state(11)), demand, handle%result, handle%status)
+                                             state(11), rail), demand, handle%result, &
+                            handle%status)
         if (.not. is_error(handle%status)) handle%has = demand%wants
     end subroutine wheelset_solve
 

@@ -9,7 +9,7 @@ module faststrip_tangential_motion
     implicit none
     private
 
-    public :: check_motion, check_ellipse, over_force
+    public :: check_motion, cut_creepage, check_ellipse, over_force
 
     !> Friction coefficients and creepages (spin in rad/mm) beyond this are refused.
     !> Tuned [1, rad/mm]. Origin: safeguard.
@@ -51,6 +51,23 @@ contains
                             trim(number_text(creepage%cphi)) // ' rad/mm')
         end if
     end subroutine check_motion
+
+    !> Creepages that methods take: where a vehicle starts or stops they have no bound, but all
+    !> slides long before, and forces hang on their proportions alone.
+    pure subroutine cut_creepage(creepage, cut, share)
+        type(creepage_t), intent(in) :: creepage !! rail relative to wheel
+        type(creepage_t), intent(out) :: cut     !! of the same proportions, not beyond `largest`
+        real(wp), intent(out) :: share           !! of it to the whole, 1 if nothing is cut
+
+        cut = creepage
+        share = 1.0_wp
+        associate (most => max(abs(creepage%cksi), abs(creepage%ceta), abs(creepage%cphi)))
+            if (.not. (most > largest .and. most <= huge(most))) return
+            share = largest/most
+            cut = creepage_t(largest*(creepage%cksi/most), largest*(creepage%ceta/most), &
+                             largest*(creepage%cphi/most))
+        end associate
+    end subroutine cut_creepage
 
     !> Refuse what is no Hertz ellipse.
     pure subroutine check_ellipse(hertz, status)

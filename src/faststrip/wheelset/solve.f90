@@ -17,7 +17,7 @@ module faststrip_wheelset_solve
     use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, usual_approach
@@ -28,7 +28,7 @@ module faststrip_wheelset_solve
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, most_contacts
-    use faststrip_wheelset_wheel, only: estimate_wheel, mirror_wheel
+    use faststrip_wheelset_wheel, only: estimate_wheel, mirror_wheel, reverse_wheel
     implicit none
     private
 
@@ -93,7 +93,9 @@ contains
         end do
     end subroutine reserve_wheelset
 
-    !> The contacts of a wheelset and their forces.
+    !> The contacts of a wheelset and their forces. One that rolls backwards, by the mean of its
+    !> speed and that of its wheels' surfaces, is solved as its image that rolls ahead: x of the
+    !> figures is that of the track either way.
     subroutine solve_wheelset(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
@@ -106,6 +108,7 @@ contains
             !! those of contacts; `st_target_missed`: the force jumps over the load
 
         type(environment_t) :: environment
+        integer :: side
 
         result%wheel%n = 0
         result%wheel%solutions = 0
@@ -114,7 +117,16 @@ contains
         call check_workspace(model, workspace, status)
         if (is_error(status)) return
         call hold_environment(environment)
-        call solve_checked(model, workspace, state, demand, result, status)
+        workspace%is_reversed = state%speed < state%pitch_rate*model%radius
+        if (workspace%is_reversed) then
+            call solve_checked(model, workspace, reversed_state(state), demand, result, status)
+            do side = side_right, side_left
+                if (demand%wants(side)) call reverse_wheel(result%wheel(side))
+            end do
+            workspace%last_state = reversed_state(workspace%last_state)
+        else
+            call solve_checked(model, workspace, state, demand, result, status)
+        end if
         call restore_environment(environment)
     end subroutine solve_wheelset
 
@@ -185,10 +197,7 @@ contains
 
         call check_state(state, status)
         if (is_error(status)) return
-        if (state%speed < 0.0_wp) then
-            call set_status(status, st_bad_argument, 'the speed must not be below 0 (turn the ' // &
-                            'track round), got ' // trim(number_text(state%speed)) // ' mm/s')
-        else if (.not. any(demand%wants)) then
+        if (.not. any(demand%wants)) then
             call set_status(status, st_bad_argument, 'a wheel must be asked for')
         else if (all(demand%kind /= [demand_position, demand_loads, demand_axle_load])) then
             call set_status(status, st_bad_argument, 'the demand must be one of the three kinds')

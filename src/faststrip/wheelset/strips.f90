@@ -70,6 +70,10 @@ contains
             case = model%case
             case%by_load = .false.
             call take_motion(model, result%wheel(side)%contact(i), case)
+            if (workspace%is_reversed) then
+                case%creepage%cksi = -case%creepage%cksi
+                case%creepage%cphi = -case%creepage%cphi
+            end if
             if (side == side_left) then
                 case%creepage%ceta = -case%creepage%ceta
                 case%creepage%cphi = -case%creepage%cphi
@@ -77,6 +81,7 @@ contains
             call solve_contact_tangential(workspace%wheel(side)%contact(i), case, again, status, &
                                           per_strip=found%forces)
             if (is_error(status)) return
+            if (workspace%is_reversed) found%forces%fx = -found%forces%fx
         end if
         call find_places(model, model%pair(side), workspace%wheel(side), i, &
                          result%wheel(side)%z, found, status)

@@ -111,5 +111,6 @@ module faststrip_wheelset_types
         type(wheel_workspace_t) :: wheel(2)   !! right, left
         type(wheelset_state_t) :: last_state  !! of the last solution, with its z and roll
         logical :: has_last = .false.         !! was there one?
+        logical :: is_reversed = .false.      !! did it roll backwards?
     end type wheelset_workspace_t
 end module faststrip_wheelset_types

@@ -21,11 +21,14 @@ module faststrip_wheelset_wheel
     implicit none
     private
 
-    public :: solve_wheel_at, estimate_wheel, mirror_wheel, take_motion
+    public :: solve_wheel_at, estimate_wheel, mirror_wheel, reverse_wheel, take_motion
 
     ! Tuned [1]: of the strips' last step. Origin: searches of a load see no noise beside the
     ! equilibrium of 1e-10 that they look for.
     real(wp), parameter :: strip_tolerance = 1.0e-10_wp
+    ! Tuned [mm/s]: falling friction takes a wheelset that rolls slower than this as one that rolls
+    ! so. Origin: chosen: the least that friction takes; slip is nothing there.
+    real(wp), parameter :: least_speed = 1.0e-12_wp
 
 contains
 
@@ -213,7 +216,7 @@ contains
 
         case%creepage = contact%creepage
         case%mu = friction_at_angle(model%case%friction, model%case%mu, contact%angle)
-        case%friction%speed = contact%speed
+        case%friction%speed = max(contact%speed, least_speed)
     end subroutine take_motion
 
     ! Where a point of the track is in the frame of the wheel's profile.
@@ -265,4 +268,28 @@ contains
             end associate
         end do
     end subroutine mirror_wheel
+
+    !> A wheel that was solved as if it rolled ahead, as it is: it rolls backwards.
+    pure subroutine reverse_wheel(wheel)
+        type(wheel_result_t), intent(inout) :: wheel !! of a reversed state
+
+        integer :: i
+
+        wheel%force(1) = -wheel%force(1)
+        wheel%force_wheelset(1) = -wheel%force_wheelset(1)
+        wheel%moment(2:3) = -wheel%moment(2:3)
+        do i = 1, wheel%n
+            associate (contact => wheel%contact(i))
+                contact%place(1) = -contact%place(1)
+                contact%wheel(1) = -contact%wheel(1)
+                contact%creepage%cksi = -contact%creepage%cksi
+                contact%creepage%cphi = -contact%creepage%cphi
+                contact%force(1) = -contact%force(1)
+                contact%force_wheelset(1) = -contact%force_wheelset(1)
+                contact%moment(2:3) = -contact%moment(2:3)
+                contact%figures%tangential%fx = -contact%figures%tangential%fx
+                contact%figures%tangential%mz = -contact%figures%tangential%mz
+            end associate
+        end do
+    end subroutine reverse_wheel
 end module faststrip_wheelset_wheel
