@@ -63,6 +63,8 @@ PROFILES = ["&contact", "  load_N = 1e5", "  shift_mm = 0", "/", "&wheel", "  pr
 WHEELSET = ["&wheel", "  profile = 'w.txt'", "  profile_left = 's1002'",
             "  radius_left_mm = 459.5", "/", "&rail", "  profile = 'uic60'",
             "  profile_left = '60e1'", "  rail_distance_mm = 1500", "/"]
+AXLE = ["&wheel", "  profile = 's1002'", "/", "&rail", "  profile = '60e1'", "  cant = 0.025", "/",
+        "&material", "  mu = 0.3", "/"]
 RADII = ["y_mm,delta_r_mm"] + [f"{y / 2},{(y / 8) ** 3 / 10 + y / 20}" for y in range(-20, 21)]
 POINTS = [f"{y} {abs(y) ** 1.5 / 100.0}" for y in range(-30, 31)]
 GOOD = {"gap.csv": text_of(gap_lines()), "case.nml": text_of(CASE), "prof.nml": text_of(PROFILES),
@@ -293,6 +295,33 @@ def pairs(rng, i):
              for line in PROFILES]
     return Try("pairs", rng.choice([["contact", "prof.nml"], ["conicity", "prof.nml"]]),
                files={"prof.nml": text_of(lines)})
+
+
+def wheelset_states(rng, i):
+    """Wheelsets that stand, slide, stop and roll back, at every pace; and cells that are none."""
+    names = ["y_mm", "roll_rad", "yaw_rad", "speed_mm_s", "pitch_rate_rad_s", "Fz_N", "vy_mm_s",
+             "yaw_rate_rad_s", "rail_right_y_mm", "rail_left_roll_rad", "rail_right_vy_mm_s"]
+    cells = dict.fromkeys(names, "0") | {"roll_rad": "", "Fz_N": "160000"}
+
+    def pace():
+        return rng.choice(["0", "-0", repr(rng.choice([-1, 1]) * 10.0 ** rng.uniform(-323, 9))])
+
+    for name in ("speed_mm_s", "pitch_rate_rad_s", "vy_mm_s", "yaw_rate_rad_s",
+                 "rail_right_vy_mm_s"):
+        if rng.random() < 0.5:
+            cells[name] = pace()
+    cells["y_mm"] = repr(rng.uniform(-8, 8))
+    cells["yaw_rad"] = rng.choice(["0", repr(rng.uniform(-0.1, 0.1))])
+    cells["rail_right_y_mm"] = rng.choice(["", repr(rng.uniform(-9, 9))])
+    is_bad = i % 2 == 0
+    if is_bad:
+        name = rng.choice(names)
+        cells[name] = rng.choice(["NaN", "inf", "1e400", "1,5", "x", "1e309", "--1"])
+        if "," in cells[name]:
+            cells[name] = f'"{cells[name]}"'
+    text = text_of(["case,side," + ",".join(names), "a,both," + ",".join(cells.values())])
+    return Try("wheelset states", ["wheelset", "axle.nml", "--states", "states.csv"], rows=True,
+               files={"states.csv": text, "axle.nml": text_of(AXLE)}, may_pass=not is_bad)
 
 
 def batches(rng, i):
@@ -651,7 +680,8 @@ FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
             "options": (options, 16), "paths": (paths, 10), "side files": (side_files, 10),
             "permissions": (permissions, 2), "special files": (special_files, 2),
             "signals": (signals, 3), "endless work": (endless_work, 1),
-            "environments": (environments, 3), "sizes": (sizes, 6), "tables": (tables, 10)}
+            "environments": (environments, 3), "sizes": (sizes, 6), "tables": (tables, 10),
+            "wheelset states": (wheelset_states, 10)}
 
 
 def snapshot(folder):

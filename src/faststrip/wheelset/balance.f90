@@ -15,7 +15,7 @@ module faststrip_wheelset_balance
     implicit none
     private
 
-    public :: solve_for_balance
+    public :: solve_for_balance, name_missing
 
     ! Tuned [1]: equilibrium of two wheels, of the load. Origin: above the digits of a contact's
     ! solution.
@@ -87,11 +87,11 @@ contains
         call name_missing(demand, missing, status)
     end subroutine solve_for_balance
 
-    ! Where forces jump over the load, something of it is missing.
+    !> Where forces jump over the load, something of it is missing.
     subroutine name_missing(demand, missing, status)
-        type(wheelset_demand_t), intent(in) :: demand
-        real(wp), intent(in) :: missing
-        type(status_t), intent(inout) :: status
+        type(wheelset_demand_t), intent(in) :: demand !! axle load, N
+        real(wp), intent(in) :: missing               !! of the load
+        type(status_t), intent(inout) :: status       !! `st_target_missed`, `st_no_convergence`
 
         if (missing <= largest_jump) then
             call set_status(status, st_target_missed, 'the forces jump over the axle load and ' // &
