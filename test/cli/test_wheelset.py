@@ -46,6 +46,30 @@ class Wheelset(ProgramTest):
         self.write("states.csv", "\n".join([header, *states]) + "\n")
         return self.good("wheelset", case, "--states", "states.csv")
 
+    def test_a_wheelset_that_starts_or_stops_has_coulombs_force(self):
+        speeds = ("0", "1e-320", "1e-9", "1e-3", "-1e-9", "-0")
+        self.write("axle.nml", CASE.replace("'uic60'", "'60e1'\n  cant = 0.025"))
+        rows = self.solved(*(f"{speed},both,0,,0,{speed},0,160000,1" for speed in speeds),
+                           header=HEADER + ",vy_mm_s", case="axle.nml")
+        self.assertEqual([row["status"] for row in rows], ["ok"] * 2 * len(speeds))
+        for left, right in zip(rows[::2], rows[1::2], strict=True):
+            normal = float(left["N_N"]) + float(right["N_N"])
+            force = float(left["Fs_N"]) + float(right["Fs_N"])
+            self.assert_close(force, 0.3 * normal, absolute=0.3, what=left["case"])
+            self.assert_close(force, 4.8e4, absolute=200.0, what=left["case"])
+        # Rolling back is the image of rolling ahead.
+        ahead, back = rows[4:6], rows[8:10]
+        for one, other in zip(ahead, back, strict=True):
+            self.assertEqual(float(one["Fx_N"]), -float(other["Fx_N"]))
+            self.assertEqual(one["Fs_N"], other["Fs_N"])
+
+    def test_a_wheelset_at_rest_is_named(self):
+        self.write("states.csv", f"{HEADER}\nstill,right,0,0,0,0,0,1e4\non,right,0,0,0,1,,1e4\n")
+        run = self.run_program("wheelset", "case.nml", "--states", "states.csv")
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(run.stderr, "faststrip: still: nothing moves: without slip there are no "
+                         "friction forces\n")
+
     def test_the_manchester_benchmark(self):
         """As near as the benchmark's own grid lets judge, but at 5 mm, where the right wheel
         touches at tread and flange: which of them carries how much hangs on micrometres."""

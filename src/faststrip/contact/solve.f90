@@ -654,7 +654,8 @@ contains
         real(wp) :: share
 
         call cut_creepage(case%creepage, creepage, share)
-        if (.not. share < 1.0_wp) then
+        ! Linear forces have no limit.
+        if (.not. share < 1.0_wp .or. case%methods%tangential == tangential_linear) then
             call solve_by_method(workspace, case, tangential, status, field, per_strip)
             return
         end if

@@ -15,7 +15,7 @@ module faststrip_geometry_wheelset_state
     implicit none
     private
 
-    public :: wheelset_state_t, wheelset_axes_t, rail_state_t
+    public :: wheelset_state_t, wheelset_axes_t, rail_state_t, largest_creepage
     public :: mirrored_state, reversed_state, is_at_rest, check_state, wheelset_axes, &
               rigid_creepage, rail_velocity, cross
 
@@ -24,8 +24,8 @@ module faststrip_geometry_wheelset_state
     real(wp), parameter :: largest_turn = 0.5_wp
     ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_displacement = 1.0e4_wp
-    ! Tuned [1, rad/mm]: creepages are not larger than this. Origin: chosen: what `solve_contact`
-    ! takes; all of any contact slides long before.
+    !> Creepages are not larger than this.
+    !> Tuned [1, rad/mm]. Origin: chosen: what methods take; all of any contact slides long before.
     real(wp), parameter :: largest_creepage = 1.0e6_wp
 
     !> How a rail lies and moves beside its place in the design, in the track frame; it is turned

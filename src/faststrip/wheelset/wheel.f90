@@ -2,11 +2,11 @@
 module faststrip_wheelset_wheel
     use faststrip_base_friction, only: friction_at_angle
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact_errors, &
                                        estimate_contact_forces
-    use faststrip_contact_methods, only: normal_strip, normal_hertz
+    use faststrip_contact_methods, only: normal_strip, normal_hertz, tangential_linear
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
                                                 in_track, along_normal
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
@@ -15,7 +15,7 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
                                                  rail_state_t, rigid_creepage, rail_velocity, &
-                                                 cross
+                                                 cross, largest_creepage
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
     implicit none
@@ -194,6 +194,14 @@ contains
         point = along_normal(frame, case%penetration)
         call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed, &
                             rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
+        associate (c => contact%creepage)
+            if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_creepage &
+                .and. case%methods%tangential == tangential_linear) then
+                call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
+                                'where a wheelset slides but hardly rolls: take another method')
+                return
+            end if
+        end associate
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
         call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
