@@ -62,7 +62,8 @@ WHEELSET = """
 class Integers(HostTest):
     def ran(self, text, flags=""):
         self.write("host.f", text)
-        self.shell(f"gfortran -std=legacy -O1 {flags} host.f $(pkg-config --libs faststrip) -o host")
+        self.shell(f"gfortran -std=legacy -O1 {flags} host.f -o host"
+                   " $(pkg-config --libs faststrip)")
         return self.shell("./host").split("\n")[:-1]
 
     def test_of_four_bytes_all_is_well(self):
