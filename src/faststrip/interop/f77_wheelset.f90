@@ -19,8 +19,8 @@
 !> STATE(6), STATE(7) rates of y and z, mm/s           STATE(8), STATE(9) of roll and yaw, rad/s
 !> STATE(10) pitch rate, negative for rolling ahead    STATE(11) curvature of the track, 1/mm
 !> RAIL(1), RAIL(2) y and z of the right rail beside its place, mm      RAIL(3) its roll, rad
-!> RAIL(4), RAIL(5) rates of y and z, mm/s     RAIL(6) of its roll, rad/s     RAIL(7) to RAIL(12)
-!>        the same of the left rail
+!> RAIL(4), RAIL(5) rates of y and z, mm/s     RAIL(6) of its roll, rad/s
+!> RAIL(7) to RAIL(12) the same of the left rail
 !> IDMND(1) prescribed are: 0 z and roll, 1 the vertical force of each wheel, 2 the axle load
 !> IDMND(2) wheels: 0 both, 1 right, 2 left            IDMND(3) 1: the roll is free, and found
 !> IDMND(4) 1: warm start
