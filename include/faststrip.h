@@ -15,9 +15,9 @@
  * faststrip_copy allocate, faststrip_free frees, nothing else does (but the like of wheelsets,
  * faststrip_solve_many, faststrip_check_case, which tries, the words of an error, made with a
  * little memory of the Fortran run-time library, and the forces of a patch with a neck of more than
- * 128 strips). A call needs less than 64 kB of stack. No function stops, prints, reads or writes a
- * file, changes the locale, or leaves floating-point flags, traps or rounding other than it found
- * them.
+ * 128 strips, and faststrip_read_profile, the only one that reads a file). A call needs less than
+ * 64 kB of stack. No function stops, prints, writes a file, changes the locale, or leaves
+ * floating-point flags, traps or rounding other than it found them.
  *
  * The structs may grow in later releases, at their ends. A program compiled with an older header
  * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
@@ -64,7 +64,9 @@ enum faststrip_status {
     FASTSTRIP_OUT_OF_RANGE = 109,
     FASTSTRIP_WORKSPACE_TOO_SMALL = 110,
     FASTSTRIP_LINEAR_ALGEBRA = 111,
-    FASTSTRIP_NO_FINITE_PATCH = 113
+    FASTSTRIP_NO_FINITE_PATCH = 113,
+    FASTSTRIP_FILE_MISSING = 120, /* of faststrip_read_profile: there is none, or none to be read */
+    FASTSTRIP_FILE_FORMAT = 121
 };
 
 /* BEGIN methods, written by tools/methods.py */
@@ -385,7 +387,8 @@ typedef struct faststrip_wheelset_setup {
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
  * (1:20), cone40, of rails uic60, 60e1, 54e1; or n points along the curve, y to the field side, z
- * down, mm, of the wheel from the tape circle. A left one of neither is as the right one. */
+ * down, mm, of the wheel from the tape circle, as faststrip_read_profile reads them from a file.
+ * Names may have capital letters. A left one of neither is as the right one. */
 typedef struct faststrip_profile {
     const char *name; /* null: by points */
     const double *y;
@@ -399,6 +402,57 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
                        const double setup[9], int capacity, int *n, double *y, double *h,
                        double *inv2r, double *inclination, double contact[6], char *text,
                        size_t length);
+
+/* How a profile is read from a file, and what is done to its points then, in the order of the
+ * members; nothing is repaired unasked. Fill it in with faststrip_default_reading first. */
+typedef struct faststrip_reading {
+    size_t size;          /* of this struct as the caller knows it */
+    int kind;             /* 1: of a wheel, 2: of a rail, 0: the file or the end of its name says it */
+    int section;          /* which one of a file with several, from 1 on; 0: the only one */
+    int side;             /* of a file with both sides 1: right, -1: left */
+    int y_sense;          /* of y in the file, 1: to the field side, -1: to the gauge side, 0: as its
+                           * format has it */
+    int z_sense;          /* of z in the file, 1: down, -1: up, 0: as its format has it */
+    int any_count;        /* take a number of points that the header denies? */
+    int ignore_smoothing; /* pass over the smoothing that a file asks for? */
+    int has_tape_circle;  /* does tape_circle count? */
+    int keeps;            /* does keep count? */
+    int drops_folds;      /* drop points in which the profile turns back? */
+    int mirrors;          /* mirror y? */
+    int rounds_kinks;     /* smooth and resample over kinks? */
+    double unit;          /* mm to a unit of the file; 0: as the file or its format has it */
+    double tape_circle;   /* of a wheel: where it is, in y of the file, mm */
+    double keep[2];       /* range of y of the points that are kept, mm */
+    double drop_double;   /* drop points no farther from the one before, mm; below 0: none */
+    double shift[2];      /* along y and z, mm */
+    double turn;          /* about the origin, from y to z, rad; -atan(cant) turns a rail as a cant */
+    double smooth_wavelength; /* halve waves of this length, remove shorter ones, mm; 0: none */
+    double smooth_noise;  /* smooth for this standard deviation of the points, mm; 0: none */
+    double resample;      /* points at this distance along the profile, mm; 0: those there are */
+    double kink_angle;    /* what turns by more in one point is a kink, rad */
+} faststrip_reading;
+
+/* What a file says of its profile, and measures of a wheel's flange by EN 15313, on the points. */
+typedef struct faststrip_profile_about {
+    int kind;        /* 1: of a wheel, 2: of a rail, 0: not known */
+    int has_flange;  /* are the next three known? */
+    double sd;       /* thickness, mm */
+    double sh;       /* height, mm */
+    double qr;       /* steepness, mm */
+    char format[16]; /* simpack, miniprof, vampire, gensys, text, csv; miniprof mpt */
+} faststrip_profile_about;
+
+/* Nothing is said about the file, nothing is done. length is sizeof reading. */
+int faststrip_default_reading(faststrip_reading *reading, size_t length);
+
+/* Read a profile of any format that `faststrip profile` knows: y to the field side, z down, mm, of a
+ * wheel from the tape circle, in the order of a faststrip_profile. path is the file's name, reading
+ * and about may be null, capacity is the length of y and z; *n becomes the points of the profile,
+ * even if these are more (110). text, if not null, says what is wrong, with file, line and value, or
+ * what was left out or done. This function reads a file, and allocates. */
+int faststrip_read_profile(const char *path, const faststrip_reading *reading, int capacity, int *n,
+                           double *y, double *z, faststrip_profile_about *about, char *text,
+                           size_t length);
 
 /* n points, at least two, of what can be touched of a profile, at equal distances of y: y to the
  * field side, z down, mm, of a rail with its inclination. */

@@ -4,13 +4,14 @@ pkg-config and CMake about them.
 
     install.py --stage FOLDER --program FILE --prefix FOLDER
 
-FOLDER of --stage is what `fpm install` made of the core, and FILE the program, beside which lies
-what it loads to write NetCDF. The core's archive could be handed on as it is, but for what hosts of
-other languages need and what they must not see:
+FOLDER of --stage is what `fpm install` made of the core and of src/files, whose readers of profiles
+belong to the library too, and FILE the program, beside which lies what it loads to write NetCDF.
+The archives could be handed on as they are, but for what hosts of other languages need and what
+they must not see:
 
 - Only public names are visible: what `use faststrip` gives, and the C and F77 faces. No host can
   come to depend on a procedure behind them, or clash with it. Local names do not reach across
-  files, so what the public names need of the archive is linked into one object first. The rest,
+  files, so what the public names need of the archives is linked into one object first. The rest,
   words for the packages above, stays out, and with it variables of the compiler's.
 - F77's procedures have second names without underscore, for hosts that are compiled with
   -fno-underscoring, and for C.
@@ -95,10 +96,10 @@ def command(*words):
     return done.stdout
 
 
-def defined_names(archive):
-    """All global functions and data of an archive."""
+def defined_names(archives):
+    """All global functions and data of archives."""
     names = set()
-    for line in command("nm", "--defined-only", "--extern-only", archive).splitlines():
+    for line in command("nm", "--defined-only", "--extern-only", *archives).splitlines():
         words = line.split()
         if len(words) == 3 and words[1] in "TDBR":
             names.add(words[2])
@@ -115,24 +116,24 @@ def umbrella_names():
     return names
 
 
-def public_names(archive):
+def public_names(archives):
     """Names that stay visible, and those that get a second name without underscore."""
-    defined = defined_names(archive)
+    defined = defined_names(archives)
     c_face = {name for name in defined if re.fullmatch(r"faststrip_[a-z_]+", name)}
     f77_face = {name for name in defined if re.fullmatch(r"fs[a-z]{1,4}_", name)}
     if not c_face or not f77_face:
-        sys.exit(f"install: {archive} has no C or F77 face")
+        sys.exit(f"install: {archives[0]} has no C or F77 face")
     return (umbrella_names() & defined) | c_face | f77_face, f77_face
 
 
-def link_object(archive, names, aliases, target):
+def link_object(archives, names, aliases, target):
     """One object of what the names need, in which only they and the second ones are visible."""
     listed = target.with_suffix(".names")
     listed.write_text("".join(f"{name}\n" for name in sorted(names | plain(aliases))),
                       encoding="utf-8")
     needed = [word for name in sorted(names) for word in ("-u", name)]
     second = [f"--defsym={name[:-1]}={name}" for name in sorted(aliases)]
-    command("ld", "-r", *needed, *second, archive, "-o", target)
+    command("ld", "-r", *needed, *second, *archives, "-o", target)
     command("objcopy", f"--keep-global-symbols={listed}", target)
 
 
@@ -145,10 +146,11 @@ def install_library(stage, prefix, version):
     library.mkdir(parents=True, exist_ok=True)
     work = stage / "link"
     work.mkdir(exist_ok=True)
-    archive = stage / "lib" / "libfaststrip.a"
-    names, aliases = public_names(archive)
+    # The one that needs the other goes before it.
+    archives = [stage / "lib" / f"lib{name}.a" for name in ("faststrip-files", "faststrip")]
+    names, aliases = public_names(archives)
     whole = work / "faststrip.o"
-    link_object(archive, names, aliases, whole)
+    link_object(archives, names, aliases, whole)
     static = library / "libfaststrip.a"
     static.unlink(missing_ok=True)
     command("ar", "rcs", static, whole)

@@ -101,7 +101,8 @@ PROGRAMS = {
     "faststrip": (*PACKAGES, "app/command/", "app/programs/faststrip.f90"),
     "faststrip-lab": (*PACKAGES, "app/command/", "app/lab/", "app/programs/faststrip_lab.f90"),
 }
-LIBRARY = ("src/faststrip/",)
+# Of the archives that are installed: the core, and what the readers of profiles are taken from.
+LIBRARY = ("src/faststrip/", "src/files/")
 # What the program loads to write NetCDF: bin/faststrip_netcdf.so.
 NETCDF_PACKAGE = "src/netcdf/"
 
@@ -406,8 +407,9 @@ class Job:
         if not made.exists():
             made = self.base.objects / "faststrip.mod"
         shutil.copy(made, stage / "include")
-        call(["ar", "rcs", stage / "lib" / "libfaststrip.a", *self.object_paths(LIBRARY)],
-             self.folder)
+        for name, beginning in zip(("faststrip", "faststrip-files"), LIBRARY):
+            call(["ar", "rcs", stage / "lib" / f"lib{name}.a", *self.object_paths((beginning,))],
+                 self.folder)
         call([self.base.python, "tools/install.py", "--stage", stage, "--program",
               self.folder / "bin" / "faststrip", "--prefix", self.prefix], self.folder)
 

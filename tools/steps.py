@@ -735,8 +735,8 @@ def lookup(*words):
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
-    fpm("stage", ".", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix", "build/stage",
-        trouble="fpm install failed", twin="app")
+    fpm("stage", "src/files", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix",
+        str(ROOT / "build/stage"), trouble="fpm install failed", twin="app")
     if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
                        "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
         raise Trouble("the installation failed")

@@ -2,7 +2,7 @@
 module faststrip_command_case_profiles
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text
-    use faststrip_base_text, only: integer_text
+    use faststrip_base_text, only: integer_text, lower_case
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_curve_profile, unset_inclination
     use faststrip_geometry_gauge_fit, only: find_back_spacing
@@ -144,10 +144,11 @@ contains
 
         shape%name = trim(profile)
         shape%words = ''
-        select case (profile)
+        select case (lower_case(profile))
         case (''); call refuse(content, group, key, 'must be given', '')
         case ('s1002', 'cone20', 'cone40')
-            call make_wheel_profile(trim(profile), shape%profile, status)
+            shape%name = lower_case(trim(profile))
+            call make_wheel_profile(shape%name, shape%profile, status)
             call fail_on_error(status)
         case default
             call read_points(content, group, profile, options, 0.0_wp, shape)
@@ -253,10 +254,11 @@ contains
                         'inclination, -1 to 1', number_text(inclination))
         shape%name = trim(profile)
         shape%words = ''
-        select case (profile)
+        select case (lower_case(profile))
         case (''); call refuse(content, group, key, 'must be given', '')
         case ('uic60', '60e1', '54e1')
-            call make_rail_profile(trim(profile), inclination, shape%profile, status)
+            shape%name = lower_case(trim(profile))
+            call make_rail_profile(shape%name, inclination, shape%profile, status)
             if (is_error(status)) call refuse(content, group, trim(name), status%message, '')
         case default
             call read_points(content, group, profile, options, inclination, shape)

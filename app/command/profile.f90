@@ -16,8 +16,9 @@ module faststrip_command_profile
                                          version_text, printable, exit_bad_input
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word, refuse_value
-    use faststrip_command_profile_curation, only: curation_t, curation_options, take_curation, &
-                                                  curate
+    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_taken, only: take_profile
+    use faststrip_command_profile_curation, only: curation_options, take_curation
     use faststrip_command_profile_measures, only: measures_t, measure_profile, &
                                                   put_measures_header, put_measures
     use faststrip_command_profile_picture, only: draw_profile, nominal_t
@@ -131,7 +132,7 @@ contains
         options%tape_circle = option_number(command, '--tape-circle', 0.0_wp)
     end subroutine take_reading
 
-    !> Read, curate and measure one file.
+    !> Take one file and measure it.
     subroutine describe(path, options, curation, measures)
         character(len=*), intent(in) :: path
         type(profile_options_t), intent(in) :: options
@@ -139,19 +140,8 @@ contains
         type(measures_t), intent(out) :: measures
 
         measures%path = path
-        measures%words = ''
-        measures%done = ''
-        call read_profile(path, options, measures%points, measures%status)
-        if (is_error(measures%status)) return
-        call curate(curation, measures%points, measures%done, measures%status)
-        if (.not. is_error(measures%status)) then
-            call measure_profile(curation%kink_angle, measures)
-        end if
-        if (is_error(measures%status)) measures%status%message = &
-            trim(measures%status%message) // ' (' // path // ')'
-        if (len(measures%done) == 0) return
-        if (len(measures%words) > 0) measures%words = '; ' // measures%words
-        measures%words = measures%done // measures%words
+        call take_profile(path, options, curation, measures%taken_profile_t, measures%status)
+        if (.not. is_error(measures%status)) call measure_profile(curation%kink_angle, measures)
     end subroutine describe
 
     !> Wear against a nominal profile.

@@ -1,14 +1,12 @@
 !> What `faststrip profile` tells of one file.
 module faststrip_command_profile_measures
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error, status_word
+    use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_geometry_arc_spline, only: find_kinks
-    use faststrip_geometry_flange, only: flange_t, measure_flange
-    use faststrip_geometry_profile, only: profile_t, make_curve_profile
-    use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
+    use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_geometry_wear, only: rail_wear_t
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
-    use faststrip_files_profile, only: profile_file_t
+    use faststrip_files_profile_taken, only: taken_profile_t
     use faststrip_command_console, only: printable
     implicit none
     private
@@ -28,51 +26,28 @@ module faststrip_command_profile_measures
     real(wp), parameter :: reach = 1.0_wp
 
     !> One profile, and how it ended.
-    type :: measures_t
+    type, extends(taken_profile_t) :: measures_t
         character(len=:), allocatable :: path      !! name of the file
-        type(profile_file_t) :: points             !! as read and curated
-        type(profile_t) :: profile                 !! what can be touched of it
-        type(touchable_t) :: part                  !! the same
-        type(flange_t) :: flange                   !! of a wheel
         type(rail_wear_t) :: wear                  !! of a rail against a nominal one
         real(wp) :: largest_wear = 0.0_wp          !! mm
         logical :: has_wear = .false.              !! was there a nominal profile?
         logical, allocatable :: is_kink(:)         !! at the points
         real(wp), allocatable :: curvature(:)      !! at the touchable points, 1/mm
-        character(len=:), allocatable :: done      !! by curation
-        character(len=:), allocatable :: words     !! what was noticed; empty: nothing
         type(status_t) :: status                   !! of reading or curating it
     end type measures_t
 
 contains
 
-    !> Measure what was read.
+    !> Measure what was taken.
     subroutine measure_profile(kink_angle, measures)
         real(wp), intent(in) :: kink_angle             !! turn from which a point is a kink, rad
-        type(measures_t), intent(inout) :: measures    !! points and status are filled
+        type(measures_t), intent(inout) :: measures    !! its profile is taken
 
-        character(len=:), allocatable :: clipped
-        integer :: n
-
-        call clear_status(measures%status)
-        n = size(measures%points%y)
-        allocate (measures%is_kink(n), source=.false.)
-        allocate (measures%part%point(0), measures%curvature(0))
-        associate (y => measures%points%y, z => measures%points%z, kind => measures%points%kind)
+        associate (y => measures%points%y, z => measures%points%z)
+            allocate (measures%is_kink(size(y)), source=.false.)
             call find_kinks(y, z, kink_angle, measures%is_kink)
-            if (kind == body_wheel) &
-                call measure_flange(y, z, measures%points%flange_back, measures%flange)
-            if (kind == body_wheel .or. kind == body_rail) then
-                call make_curve_profile(y, z, kind, 0.0_wp, kink_angle, measures%profile, &
-                                        measures%part, measures%status)
-                if (is_error(measures%status)) return
-                measures%curvature = curvatures(y(measures%part%point), z(measures%part%point))
-            end if
+            measures%curvature = curvatures(y(measures%part%point), z(measures%part%point))
         end associate
-        clipped = trim(touchable_words(measures%part))
-        measures%words = trim(measures%points%notes)
-        if (len(measures%words) > 0 .and. len(clipped) > 0) measures%words = measures%words // '; '
-        measures%words = measures%words // clipped
     end subroutine measure_profile
 
     !> Curvature of the circles through points a millimetre apart, positive where the curve bends

@@ -15,12 +15,12 @@ forces act on the rail.
 
 from ._contact import Contact, Material, fastsim, hertz, kalker, library_version
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
-from ._library import FaststripError, LibraryNotFound
+from ._library import FaststripError, LibraryNotFound, ProgramNotFound
 from ._lookup import LookedUp, Lookup
 from ._lookup_wheel import WheelContacts, WheelLookup
 from ._many import ManyResult, solve_many
 from ._plot import plot_profiles
-from ._profile import Gap, Profile, ProgramNotFound, draw_profile, profile_gap
+from ._profile import Gap, Profile, draw_profile, profile_gap
 from ._results import Elements, Result, Step, Strips
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import RailState, WheelContact, Wheelset, WheelsetResult

@@ -38,6 +38,7 @@ from ._library import (
     library,
     word_of,
 )
+from ._profile import Gap
 from ._results import Elements, Result, Step, Strips
 from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
@@ -200,6 +201,14 @@ def _three_creepages(creepage: Any) -> Tuple[Any, ...]:
     return several("creepage", creepage, "longitudinal, lateral and spin", (3,))
 
 
+def parts_of_gap(name: str, gap: Union[Tuple[Any, ...], Gap]) -> List[Any]:
+    """y, h, inv2r and, if there is one, the inclination; a `Gap` has more."""
+    if not (isinstance(gap, Gap) or len(gap) in (3, 4)):
+        raise refused(name, "a tuple (y, h, inv2r) or (y, h, inv2r, inclination)", gap)
+    parts = list(gap[:4])
+    return parts[:3] if len(parts) == 4 and parts[3] is None else parts
+
+
 def grid_of(name: str, grid: Any) -> Tuple[int, int]:
     """Points along a row, and rows."""
     nx, ny = several(name, grid, "points along a row and rows", (2,))
@@ -336,15 +345,17 @@ class Contact:
         raise TypeError("a Contact cannot be copied or pickled: make one in every process, "
                         "or use copy_from")
 
-    def set_gap(self, y: npt.ArrayLike, h: npt.ArrayLike, inv2r: npt.ArrayLike,
+    def set_gap(self, y: Union[npt.ArrayLike, Gap, Tuple[Array, ...]],
+                h: Optional[npt.ArrayLike] = None, inv2r: Optional[npt.ArrayLike] = None,
                 inclination: Optional[npt.ArrayLike] = None,
                 turn: Optional[npt.ArrayLike] = None) -> None:
         """The gap of the undeformed bodies, ``h(x, y) = h(y) + x**2 inv2r(y)``; it is copied.
 
         Parameters
         ----------
-        y : array_like, shape (n,)
-            Lateral coordinate, strictly increasing, mm; 5 to 1000000 points.
+        y : array_like, shape (n,), or Gap
+            Lateral coordinate, strictly increasing, mm; 5 to 1000000 points. Or all of the gap, as
+            `profile_gap` and `Wheelset.gap` give it, and nothing else.
         h : array_like, shape (n,) or ()
             Gap on the line x = 0, mm.
         inv2r : array_like, shape (n,) or ()
@@ -365,6 +376,11 @@ class Contact:
                 raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
                                      "inclination must not be given twice, got turn too")
             inclination = turn
+        if isinstance(y, (Gap, tuple)) and h is None and inv2r is None and inclination is None:
+            y, h, inv2r, inclination = [*parts_of_gap("a gap", y), None][:4]
+        elif isinstance(y, Gap):
+            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
+                                 "a Gap must be given alone: it has h, inv2r and inclination")
         points = array("y", y)
         if points.ndim != 1:
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),

@@ -24,6 +24,10 @@ class LibraryNotFound(ImportError):
     """There is no libfaststrip where it was looked for."""
 
 
+class ProgramNotFound(ImportError):
+    """There is no program faststrip where it was looked for."""
+
+
 class FaststripError(Exception):
     """A call without a result.
 
@@ -156,6 +160,9 @@ def _declare(library: ctypes.CDLL) -> None:
                         *[c_void_p] * 5],
         "pair_gap": [*[c_void_p] * 3, c_int, POINTER(c_int), *[c_void_p] * 5, c_char_p, c_size_t],
         "draw_profile": [c_void_p, c_int, number, c_int, *[c_void_p] * 2, c_char_p, c_size_t],
+        "default_reading": [c_void_p, c_size_t],
+        "read_profile": [c_char_p, c_void_p, c_int, POINTER(c_int), *[c_void_p] * 3, c_char_p,
+                         c_size_t],
         "wheelset_get_gap": [handle, c_int, c_int, POINTER(c_int), *[c_void_p] * 4],
         "wheelset_new": [*[c_void_p] * 3, POINTER(Case), POINTER(handle), c_char_p, c_size_t],
         "wheelset_free": [POINTER(handle)],

@@ -19,6 +19,7 @@ from ._contact import (
     Contact,
     Material,
     new_case,
+    parts_of_gap,
     take_material,
     want,
 )
@@ -34,6 +35,7 @@ from ._library import (
     word_of,
 )
 from ._profile import Gap
+from ._record import Shown
 from ._tables import dataset, extra, frame
 from ._wear import CONSTANT, Friction, take_friction
 
@@ -55,7 +57,7 @@ CALL_SECONDS = 0.25
 
 
 @dataclass(frozen=True)
-class ManyResult:
+class ManyResult(Shown):
     """Figures of many contacts, all arrays of one shape; forces act on the rail.
 
     Numbers of a contact without a result are nan, or 0 where they count something.
@@ -211,7 +213,7 @@ class _Gaps:
             raise refused("gaps", "a tuple (y, h, inv2r) of arrays, or a list of such", gaps)
 
     def _take_arrays(self, gaps: Union[Tuple[Any, ...], Gap]) -> None:
-        values = _parts("gaps", gaps)
+        values = parts_of_gap("gaps", gaps)
         names = GAP_NAMES[:len(values)]
         arrays = [array(name, value) for name, value in zip(names, values)]
         n = _points(arrays[0])
@@ -246,7 +248,7 @@ class _Gaps:
         for i, gap in enumerate(gaps):
             if not isinstance(gap, (tuple, Gap)):
                 raise refused(f"gaps[{i}]", "a tuple (y, h, inv2r) of arrays", gap)
-            values = _parts(f"gaps[{i}]", gap)
+            values = parts_of_gap(f"gaps[{i}]", gap)
             names = [f"gaps[{i}] {name}" for name in GAP_NAMES]
             arrays = [array(name, value) for name, value in zip(names, values)]
             n = _points(arrays[0], names[0])
@@ -263,14 +265,6 @@ class _Gaps:
 
 def _bad(message: str) -> FaststripError:
     return FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), message)
-
-
-def _parts(name: str, gap: Union[Tuple[Any, ...], Gap]) -> List[Any]:
-    """y, h, inv2r and, if there is one, the inclination; a `Gap` has more."""
-    if not (isinstance(gap, Gap) or len(gap) in (3, 4)):
-        raise refused(name, "a tuple (y, h, inv2r) or (y, h, inv2r, inclination)", gap)
-    parts = list(gap[:4])
-    return parts[:3] if len(parts) == 4 and parts[3] is None else parts
 
 
 def _points(y: Array, name: str = "y") -> int:

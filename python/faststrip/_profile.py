@@ -1,32 +1,34 @@
-"""Profiles: read from files by the program, drawn, and made into gaps by the library."""
+"""Profiles: read from files, drawn, and made into gaps by the library."""
 
 from __future__ import annotations
 
-import csv
 import ctypes
 import dataclasses
+import math
 import os
 import pathlib
-import shutil
-import subprocess
-import tempfile
-from typing import Any, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, ClassVar, Dict, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import above_zero, number, numbers, refused, whole
-from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, library, word_of
-from ._record import Table
+from ._arguments import above_zero, flag, from_zero, number, numbers, refused, several, whole
+from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, check, library, word_of
+from ._record import Shown, Table
 
 Array = npt.NDArray[np.float64]
 Path = Union[str, "os.PathLike[str]"]
-FILE_FORMAT = 121
 FIRST_CAPACITY = 4000
 MOST_POINTS = 1000000
 # What the library takes for an inclination of which nothing is said: 1:40 of a name, an error of
 # points.
 UNSET_INCLINATION = 999.0
+# Profiles that the library knows by name.
+NAMES = {"wheel": ("s1002", "cone20", "cone40"), "rail": ("uic60", "60e1", "54e1")}
+KINDS = "unknown", "wheel", "rail"
+UM = 1e-3  # mm
+MOST_SECTIONS = 2**31 - 1
+Choice = TypeVar("Choice", int, float)
 
 
 class Points(ctypes.Structure):
@@ -36,8 +38,28 @@ class Points(ctypes.Structure):
                 ("n", ctypes.c_int)]
 
 
-class ProgramNotFound(ImportError):
-    """There is no program faststrip where it was looked for; it reads the files."""
+class Reading(ctypes.Structure):
+    """``faststrip_reading`` of the header."""
+
+    _fields_ = [
+        ("size", ctypes.c_size_t),
+        *((name, ctypes.c_int) for name in (
+            "kind", "section", "side", "y_sense", "z_sense", "any_count", "ignore_smoothing",
+            "has_tape_circle", "keeps", "drops_folds", "mirrors", "rounds_kinks")),
+        ("unit", ctypes.c_double), ("tape_circle", ctypes.c_double),
+        ("keep", ctypes.c_double * 2), ("drop_double", ctypes.c_double),
+        ("shift", ctypes.c_double * 2),
+        *((name, ctypes.c_double) for name in ("turn", "smooth_wavelength", "smooth_noise",
+                                               "resample", "kink_angle")),
+    ]
+
+
+class About(ctypes.Structure):
+    """``faststrip_profile_about`` of the header."""
+
+    _fields_ = [("kind", ctypes.c_int), ("has_flange", ctypes.c_int),
+                *((name, ctypes.c_double) for name in ("sd", "sh", "qr")),
+                ("format", ctypes.c_char * 16)]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -96,42 +118,8 @@ class Gap(Table):
                           "gap at $x$ = 0, mm")
 
 
-def _candidates() -> Iterator[str]:
-    if "FASTSTRIP_PROGRAM" in os.environ:
-        yield os.environ["FASTSTRIP_PROGRAM"]
-        return
-    if "FASTSTRIP_PREFIX" in os.environ:
-        yield str(pathlib.Path(os.environ["FASTSTRIP_PREFIX"]) / "bin" / "faststrip")
-        return
-    yield str(pathlib.Path(library._name).parent.parent / "bin" / "faststrip")
-    yield shutil.which("faststrip") or ""
-
-
-def _program() -> str:
-    tried = [name for name in _candidates() if name]
-    for name in tried:
-        if os.access(name, os.X_OK) and os.path.isfile(name):
-            return name
-    raise ProgramNotFound("no program faststrip: install it with ./run install --prefix FOLDER and "
-                          "set FASTSTRIP_PREFIX to that folder, or FASTSTRIP_PROGRAM to the file; "
-                          "tried " + (", ".join(tried) or "PATH"))
-
-
-def _words(options: "dict[str, Any]") -> List[str]:
-    """Options of the command line from keywords: ``tape_circle=73`` is ``--tape-circle 73``."""
-    words = []
-    for name, value in options.items():
-        if value is None or value is False:
-            continue
-        words.append("--" + name.replace("_", "-"))
-        if value is not True:
-            words.append(",".join(map(repr, value)) if isinstance(value, (tuple, list))
-                         else str(value))
-    return words
-
-
 @dataclasses.dataclass
-class Profile:
+class Profile(Shown):
     """A profile: points along its curve.
 
     Parameters
@@ -166,17 +154,66 @@ class Profile:
             raise refused("y and z", "two arrays of one length", (self.y.shape, self.z.shape))
 
     @classmethod
-    def read(cls, path: Path, **options: Any) -> "Profile":
-        """Read a file of any format that ``faststrip profile`` knows, by the program.
+    def read(cls, path: Path, *, kind: Optional[str] = None, section: Optional[int] = None,
+             side: str = "right", y_positive_to: Optional[str] = None,
+             z_positive_to: Optional[str] = None, unit: Optional[str] = None,
+             any_count: bool = False, ignore_smoothing: bool = False,
+             tape_circle: Optional[float] = None, keep: Optional[Tuple[float, float]] = None,
+             drop_double: Optional[float] = None, drop_folds: bool = False, mirror: bool = False,
+             shift_y: float = 0.0, shift_z: float = 0.0, rotate: float = 0.0, cant: float = 0.0,
+             smooth_wavelength: Optional[float] = None, smooth_noise: Optional[float] = None,
+             resample: Optional[float] = None, kink_angle: Optional[float] = None,
+             round_kinks: bool = False) -> "Profile":
+        """Read a file of any format that ``faststrip profile`` knows.
+
+        Nothing is repaired unasked; what is asked for is done in the order of the options.
 
         Parameters
         ----------
         path : str or path
             The file.
-        **options
-            Those of the command line with underscores: ``kind="wheel"``, ``section=2``,
-            ``unit="m"``, ``tape_circle=73``, ``any_count=True``, ``smooth_wavelength=2``,
-            ``keep=(-30, 40)``...
+        kind : str
+            ``wheel`` or ``rail``, where the file does not say.
+        section : int
+            Which one, of a file with several.
+        side : str
+            ``right`` or ``left``, of a file with both.
+        y_positive_to : str
+            ``field`` or ``gauge``: the sense of y in the file.
+        z_positive_to : str
+            ``down`` or ``up``: the sense of z in the file.
+        unit : str
+            ``mm``, ``m`` or ``in``: the unit of the file.
+        any_count : bool
+            Take a number of points that the header denies?
+        ignore_smoothing : bool
+            Pass over the smoothing that a file asks for?
+        tape_circle : float
+            Where the tape circle of a wheel is, in y of the file, mm.
+        keep : two floats
+            Range of y of the points that are kept, mm.
+        drop_double : float
+            Drop points no farther from the one before, mm; 0: those in one place.
+        drop_folds : bool
+            Drop points in which the profile turns back?
+        mirror : bool
+            Mirror y?
+        shift_y, shift_z : float
+            Shift along y and z, mm.
+        rotate : float
+            Turn about the origin, from y to z, degrees.
+        cant : float
+            Tangent by which a rail is turned so that its top leans to the gauge side.
+        smooth_wavelength : float
+            Halve waves of this length, remove shorter ones, mm.
+        smooth_noise : float
+            Smooth for this standard deviation of the points, um.
+        resample : float
+            Points at this distance along the profile, mm.
+        kink_angle : float
+            What turns by more in one point is a kink, degrees; 20 unless told otherwise.
+        round_kinks : bool
+            Smooth and resample over kinks?
 
         Returns
         -------
@@ -185,26 +222,63 @@ class Profile:
         Raises
         ------
         FaststripError
-            With the program's words for what is wrong with the file.
-        ProgramNotFound
-            Where there is no program.
+            ``file_missing``, ``file_format``, ``too_few_points`` and others, with the file, the
+            line and the value.
         """
-        with tempfile.TemporaryDirectory() as folder:
-            points = pathlib.Path(folder) / "points.csv"
-            done = subprocess.run([_program(), "profile", *_words(options), "-o", str(points),
-                                   "--", os.fspath(path)], stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  encoding="utf-8", errors="replace", check=False)
-            if done.returncode != 0:
-                words = (done.stderr.strip().splitlines() or ["no words"])[-1]
-                raise FaststripError(FILE_FORMAT, word_of(FILE_FORMAT),
-                                     words[words.find(": ") + 2:])
-            y, z = np.loadtxt(_data_lines(points.read_text(encoding="utf-8").splitlines()),
-                              delimiter=",", unpack=True, ndmin=2, skiprows=1)
-        row = next(csv.DictReader(_data_lines(done.stdout.splitlines())))
-        measures = [float(row[name]) if row[name] else None
-                    for name in ("Sd_mm", "Sh_mm", "qR_mm")]
-        return cls(y, z, row["kind"], os.fspath(path), row["format"], row["message"], *measures)
+        reading = Reading()
+        check(library.faststrip_default_reading(ctypes.byref(reading), ctypes.sizeof(Reading)))
+        reading.kind = _choice("kind", kind, {None: 0, "wheel": 1, "rail": 2})
+        reading.section = 0 if section is None else whole("section", section, 1, MOST_SECTIONS)
+        reading.side = _choice("side", side, {"right": 1, "left": -1})
+        reading.y_sense = _choice("y_positive_to", y_positive_to, {None: 0, "field": 1,
+                                                                   "gauge": -1})
+        reading.z_sense = _choice("z_positive_to", z_positive_to, {None: 0, "down": 1, "up": -1})
+        reading.unit = _choice("unit", unit, {None: 0.0, "mm": 1.0, "m": 1000.0, "in": 25.4})
+        reading.any_count = flag("any_count", any_count)
+        reading.ignore_smoothing = flag("ignore_smoothing", ignore_smoothing)
+        if tape_circle is not None:
+            reading.has_tape_circle = True
+            reading.tape_circle = number("tape_circle", tape_circle)
+        if keep is not None:
+            reading.keeps = True
+            reading.keep[:] = numbers(("keep[0]", "keep[1]"),
+                                      several("keep", keep, "from and to", (2,)))
+        if drop_double is not None:
+            reading.drop_double = from_zero("drop_double", drop_double)
+        reading.drops_folds = flag("drop_folds", drop_folds)
+        reading.mirrors = flag("mirror", mirror)
+        reading.shift[:] = numbers(("shift_y", "shift_z"), (shift_y, shift_z))
+        reading.turn = math.radians(number("rotate", rotate)) - math.atan(number("cant", cant))
+        for name, value, scale in (("smooth_wavelength", smooth_wavelength, 1.0),
+                                   ("smooth_noise", smooth_noise, UM),
+                                   ("resample", resample, 1.0),
+                                   ("kink_angle", kink_angle, math.pi / 180.0)):
+            if value is not None:
+                setattr(reading, name, above_zero(name, value) * scale)
+        reading.rounds_kinks = flag("round_kinks", round_kinks)
+        return cls._read(os.fspath(path), reading)
+
+    @classmethod
+    def _read(cls, path: Any, reading: Reading) -> "Profile":
+        name = os.fsencode(path)
+        if b"\0" in name:
+            raise refused("path", "the name of a file", path)
+        n, capacity, text = ctypes.c_int(), FIRST_CAPACITY, ctypes.create_string_buffer(TEXT)
+        about = About()
+        while True:
+            y, z = np.zeros((2, capacity))
+            status = library.faststrip_read_profile(
+                name, ctypes.byref(reading), capacity, ctypes.byref(n), y.ctypes.data,
+                z.ctypes.data, ctypes.byref(about), text, TEXT)
+            if status != TOO_SMALL or n.value <= capacity:
+                break
+            capacity = n.value
+        words = text.value.decode("utf-8", "replace")
+        if status >= FIRST_ERROR:
+            raise FaststripError(status, word_of(status), words)
+        flange = (about.sd, about.sh, about.qr) if about.has_flange else (None, None, None)
+        return cls(y[:n.value].copy(), z[:n.value].copy(), KINDS[about.kind], os.fsdecode(name),
+                   about.format.decode("ascii"), words, *flange)
 
     def plot(self, axes: Any = None, **style: Any) -> Any:
         """Draw the points, z down.
@@ -225,14 +299,27 @@ class Profile:
         return plot_profile(self, axes, style)
 
 
-def _data_lines(lines: Sequence[str]) -> List[str]:
-    return [line for line in lines if not line.startswith("#")]
+def _choice(name: str, value: Any, choices: Dict[Any, Choice]) -> Choice:
+    """What one of some words stands for."""
+    if value is not None and not isinstance(value, str) or value not in choices:
+        raise refused(name, "one of " + ", ".join(word for word in choices if word), value)
+    return choices[value]
+
+
+def _is_path(profile: Any) -> bool:
+    """Is that the path of a file: by its form, or because there is one?"""
+    return not isinstance(profile, str) or bool(
+        pathlib.PurePath(profile).suffix or {"/", os.sep} & {*profile}
+        or os.path.exists(profile))
 
 
 def points_of(name: str, profile: Any, kind: str) -> Points:
     """A profile as the library takes it: a name, or points that have to be kept."""
-    if isinstance(profile, str):
-        return Points(profile.encode("ascii", "replace"))
+    if isinstance(profile, (str, os.PathLike)):
+        if str(profile).lower() not in NAMES[kind] and _is_path(profile):
+            raise refused(name, f"a Profile of a {kind} or a name ({', '.join(NAMES[kind])}); "
+                          "Profile.read(path) reads one from a file", profile)
+        return Points(str(profile).encode("ascii", "replace"))
     if not isinstance(profile, Profile) or profile.kind not in (kind, "unknown"):
         raise refused(name, f"a Profile of a {kind} or a name", profile)
     return Points(None, profile.y.ctypes.data, profile.z.ctypes.data, len(profile.y))

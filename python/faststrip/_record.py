@@ -5,15 +5,44 @@ from __future__ import annotations
 import dataclasses
 from typing import Any, ClassVar, Dict, Iterator, Mapping, TypeVar
 
+import numpy as np
+
 from ._tables import dataset, frame
 
 Self = TypeVar("Self", bound="Record")
+# Arrays of more numbers are told by their size and range.
+MOST_SHOWN = 6
 
 
-class Record:
-    """A frozen dataclass that can be unpacked, and asked by a place, as a tuple."""
+class Shown:
+    """A dataclass whose text tells of long arrays size and range alone."""
 
     __dataclass_fields__: ClassVar[Dict[str, Any]]
+
+    def __init_subclass__(cls, **words: Any) -> None:
+        super().__init_subclass__(**words)
+        # Where there is one already, a dataclass makes none.
+        setattr(cls, "__repr__", Shown.__repr__)
+
+    def __repr__(self) -> str:
+        found = [f"{one.name}={_shown(getattr(self, one.name))}"
+                 for one in dataclasses.fields(self) if one.repr]
+        return f"{type(self).__qualname__}({', '.join(found)})"
+
+
+def _shown(value: Any) -> str:
+    if not isinstance(value, np.ndarray):
+        return repr(value)
+    if value.size <= MOST_SHOWN:
+        return repr(value.tolist())
+    shape = " x ".join(map(str, value.shape))
+    numbers = value[np.isfinite(value)]
+    return f"<{shape} {value.dtype}" + (
+        f" from {numbers.min():.6g} to {numbers.max():.6g}>" if numbers.size else ">")
+
+
+class Record(Shown):
+    """A frozen dataclass that can be unpacked, and asked by a place, as a tuple."""
 
     def __iter__(self) -> Iterator[Any]:
         return (getattr(self, one.name) for one in dataclasses.fields(self))

@@ -15,7 +15,8 @@ module faststrip
                                      st_not_finite, st_not_increasing, st_too_few_points, &
                                      st_bad_material, st_bad_load, st_no_contact, &
                                      st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
-                                     st_workspace_too_small, st_linear_algebra
+                                     st_workspace_too_small, st_linear_algebra, &
+                                     st_file_missing, st_file_format
     use faststrip_base_material, only: material_t, check_material, normal_compliance, &
                                        combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t

@@ -67,8 +67,8 @@ module faststrip_files_lines
         end function c_access
     end interface
 
-    ! Given: of access(), may it be read?
-    integer(c_int), parameter :: to_read = 4
+    ! Given: of access(), is it there, and may it be read?
+    integer(c_int), parameter :: is_there = 0, to_read = 4
 
 contains
 
@@ -78,14 +78,10 @@ contains
         type(text_file_t), intent(out) :: file  !! to be closed by `close_text` if all is well
         type(status_t), intent(out) :: status   !! `st_file_missing`: not there, a folder, or not
                                                 !! readable
-        logical :: exists
-
         call clear_status(status)
         file%path = path
         file%without = ''
-        exists = .false.
-        if (len_trim(path) > 0) inquire (file=path, exist=exists)
-        if (.not. exists) then
+        if (.not. may(path, is_there)) then
             call set_status(status, st_file_missing, 'no such file: ' // path)
         else if (is_folder(path)) then
             call set_status(status, st_file_missing, 'a folder, not a file: ' // path)
@@ -96,8 +92,8 @@ contains
                 return
             end if
             call set_status(status, st_file_missing, 'cannot read the file: ' // path)
-            if (c_access(trim(path) // c_null_char, to_read) /= 0) status%message = &
-                trim(status%message) // ': permission denied'
+            if (.not. may(path, to_read)) &
+                status%message = trim(status%message) // ': permission denied'
         end if
     end subroutine open_text
 
@@ -150,8 +146,17 @@ contains
     logical function is_folder(path)
         character(len=*), intent(in) :: path !! a name
 
-        inquire (file=path // '/.', exist=is_folder)
+        is_folder = may(path // '/.', is_there)
     end function is_folder
+
+    ! May a file be what is asked? The C library says it: no unit of Fortran's is needed, which hosts
+    ! of other languages may not have.
+    logical function may(path, mode)
+        character(len=*), intent(in) :: path
+        integer(c_int), intent(in) :: mode
+
+        may = c_access(trim(path) // c_null_char, mode) == 0
+    end function may
 
     !> The next line of a file without its line end.
     subroutine read_line(file, line, found, status)

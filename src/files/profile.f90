@@ -101,6 +101,12 @@ contains
                             number_text(options%unit_mm))
         else if (all(options%kind /= [0, body_wheel, body_rail])) then
             call set_status(status, st_bad_argument, 'a profile must be of a wheel or of a rail')
+        else if (options%section < 0) then
+            call set_status(status, st_bad_argument, 'the section must be from 1 on, got ' // &
+                            integer_text(options%section))
+        else if (.not. abs(options%tape_circle) <= huge(1.0_wp)) then
+            call set_status(status, st_bad_argument, 'the tape circle must be a finite number, ' &
+                            // 'got ' // number_text(options%tape_circle))
         end if
     end subroutine check_options
 

@@ -1,6 +1,7 @@
 """The notebooks of example/notebooks run from top to bottom, and are kept without their outputs."""
 
 import os
+import shutil
 import unittest
 from unittest import mock
 
@@ -16,8 +17,12 @@ PATIENCE = 1200
 
 class Notebooks(HostTest):
     def test_each_runs(self):
+        """With the package and its library alone, as pip installs them: no program is there."""
         environment = self.installed.environment
-        environment["PATH"] = f"{self.installed.prefix / 'bin'}{os.pathsep}{environment['PATH']}"
+        del environment["FASTSTRIP_PREFIX"]
+        environment["FASTSTRIP_LIBRARY"] = str(self.installed.library)
+        self.assertIsNone(shutil.which("faststrip", path=environment["PATH"]))
+        shutil.copy(NOTEBOOKS[0].with_name("steel.fslt"), self.folder)
         environment["PYTHONPATH"] = str(ROOT / "python")
         environment["IPYTHONDIR"] = str(self.folder / "ipython")
         # Pictures in the notebook, whatever the tests draw with.

@@ -136,7 +136,7 @@ class Package(unittest.TestCase):
         folders = {name.split("/")[0] for name in names if "/" in name}
         self.assertEqual(folders, {"include", "python", "src", "tools"})
         self.assertEqual({name.split("/")[1] for name in names if name.startswith("src/")},
-                         {"faststrip"})
+                         {"faststrip", "files"})
 
     def test_only_what_is_needed_is_imported(self):
         modules = self.command(self.python, "-c", MODULES).split()

@@ -8,12 +8,10 @@ import tempfile
 from typing import NamedTuple, Optional, Tuple, Union
 
 from .._library import FaststripError
-from .._profile import Profile
+from .._profile import NAMES, Profile
 
 RADIUS = 460.0
 STANDARD_INCLINATION = 0.025
-WHEELS = "s1002", "cone20", "cone40"
-RAILS = "uic60", "60e1", "54e1"
 ENDINGS = ".prw .prr .whl .ban .mpt .whe .rai .wheel .csv .txt .dat"
 
 
@@ -34,8 +32,7 @@ class Shape:
         return isinstance(self.profile, Profile)
 
 
-STANDARD = {"wheel": {name: Shape(name, name) for name in WHEELS},
-            "rail": {name: Shape(name, name) for name in RAILS}}
+STANDARD = {kind: {name: Shape(name, name) for name in names} for kind, names in NAMES.items()}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -120,7 +117,7 @@ def checked(case: Case) -> Case:
 
 
 def read_shape(kind: str, name: str, content: bytes) -> Shape:
-    """A profile from the content of a file, through the program's readers."""
+    """A profile from the content of a file, through the library's readers."""
     label = pathlib.PurePath(name.replace("\\", "/")).name
     if not label or label in (".", ".."):
         raise CaseError(f"the file must have a name, got {name!r}")
@@ -134,15 +131,13 @@ def read_shape(kind: str, name: str, content: bytes) -> Shape:
             profile = Profile.read(path, kind=kind)
         except FaststripError as problem:
             raise CaseError(problem.message.replace(f"{folder}/", "")) from None
-        except ImportError as problem:
-            raise CaseError(str(problem)) from None
     return Shape(label, dataclasses.replace(profile, path=label), content)
 
 
 def find_shape(kind: str, name: str) -> Shape:
     """A profile by name, or from a file of this machine."""
-    if name in STANDARD[kind]:
-        return STANDARD[kind][name]
+    if name.lower() in STANDARD[kind]:
+        return STANDARD[kind][name.lower()]
     try:
         content = pathlib.Path(name).read_bytes()
     except OSError as problem:

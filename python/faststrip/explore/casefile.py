@@ -75,6 +75,6 @@ def take(found: Dict[str, Any], group: str, key: str, value: Any, name: str) -> 
 
 def beside(name: str, profile: str, kind: str) -> str:
     """A profile of a case file: a name, or a file relative to the case's folder."""
-    if profile in STANDARD[kind]:
+    if profile.lower() in STANDARD[kind]:
         return profile
     return str(pathlib.Path(name).parent / profile)

@@ -5,17 +5,19 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
+import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import zipfile
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from .._contact import library_version
-from .._profile import _data_lines, _program
+from .._library import ProgramNotFound, library
 from .._results import Result
 from .case import RADIUS, STANDARD, Shape
 from .solving import METHODS, Answer, Outcome
@@ -33,6 +35,31 @@ FIGURES = (("penetration_mm", "penetration"), ("area_mm2", "area"), ("pmax_MPa",
 CASE_COLUMNS = ("wheel", "rail", "yw_mm", "yaw_rad", "Q_N", "N_N", "gamma_rad", "cksi", "ceta",
                 "cphi_rad_per_mm", "mu")
 METHOD_NAMES = {**METHODS, "norm": ("norm", "tang")}
+
+
+def _candidates() -> Iterator[str]:
+    if "FASTSTRIP_PROGRAM" in os.environ:
+        yield os.environ["FASTSTRIP_PROGRAM"]
+        return
+    if "FASTSTRIP_PREFIX" in os.environ:
+        yield str(pathlib.Path(os.environ["FASTSTRIP_PREFIX"]) / "bin" / "faststrip")
+        return
+    yield str(pathlib.Path(library._name).parent.parent / "bin" / "faststrip")
+    yield shutil.which("faststrip") or ""
+
+
+def _program() -> str:
+    tried = [name for name in _candidates() if name]
+    for name in tried:
+        if os.access(name, os.X_OK) and os.path.isfile(name):
+            return name
+    raise ProgramNotFound("no program faststrip: install it with ./run install --prefix FOLDER and "
+                          "set FASTSTRIP_PREFIX to that folder, or FASTSTRIP_PROGRAM to the file; "
+                          "tried " + (", ".join(tried) or "PATH"))
+
+
+def _data_lines(lines: Sequence[str]) -> List[str]:
+    return [line for line in lines if not line.startswith("#")]
 
 
 def quoted(text: str) -> str:

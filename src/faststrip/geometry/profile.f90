@@ -23,6 +23,7 @@ module faststrip_geometry_profile
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range, &
                                      st_too_few_points
+    use faststrip_base_text, only: lower_case
     implicit none
     private
 
@@ -85,19 +86,20 @@ contains
 
     !> An analytic wheel profile by name.
     pure subroutine make_wheel_profile(name, profile, status)
-        character(len=*), intent(in) :: name      !! `s1002`; `cone20`, `cone40`: 1:20, 1:40
+        character(len=*), intent(in) :: name      !! `s1002`; `cone20`, `cone40`: 1:20, 1:40; in
+                                                  !! any case
         type(profile_t), intent(out) :: profile   !! the profile
         type(status_t), intent(out) :: status     !! `st_bad_argument`: no such name
 
         call clear_status(status)
-        select case (name)
+        select case (lower_case(name))
         case ('s1002')
             profile%kind = profile_s1002
             profile%y_first = s1002_first
             profile%y_last = s1002_last
         case ('cone20', 'cone40')
             profile%kind = profile_cone
-            profile%cone = merge(cone20, cone40, name == 'cone20')
+            profile%cone = merge(cone20, cone40, lower_case(name) == 'cone20')
             profile%y_first = cone_first
             profile%y_last = cone_last
         case default
@@ -109,7 +111,7 @@ contains
     !> An analytic rail profile by name.
     pure subroutine make_rail_profile(name, inclination, profile, status)
         character(len=*), intent(in) :: name      !! `uic60` (Manchester), `60e1`, `54e1` (EN
-                                                  !! 13674-1)
+                                                  !! 13674-1), in any case
         real(wp), intent(in) :: inclination       !! of the rail, its tangent, within +-0.1;
                                                   !! `unset_inclination`: 1:40
         type(profile_t), intent(out) :: profile   !! the inclined profile
@@ -119,7 +121,7 @@ contains
 
         turn = merge(inclination, standard_inclination, is_said(inclination))
         call clear_status(status)
-        select case (name)
+        select case (lower_case(name))
         case ('uic60')
             profile%kind = profile_uic60
             call make_rail_head(uic60_transition, turn, profile%head, status)

@@ -1,0 +1,72 @@
+!> A profile as users take it from a file: read, curated as they ask, and judged: what can be touched
+!> of it, the measures of its flange, and words for what was left out or done.
+module faststrip_files_profile_taken
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_geometry_flange, only: flange_t, measure_flange
+    use faststrip_geometry_profile, only: profile_t, make_curve_profile
+    use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
+    use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t
+    use faststrip_files_profile_curation, only: curation_t, check_curation, curate
+    implicit none
+    private
+
+    public :: taken_profile_t, take_profile
+
+    !> A profile, and what is known of it.
+    type :: taken_profile_t
+        type(profile_file_t) :: points         !! as read and curated
+        type(profile_t) :: profile             !! what can be touched, where the kind is known
+        type(touchable_t) :: part              !! the same
+        type(flange_t) :: flange               !! of a wheel
+        character(len=:), allocatable :: done  !! by curation; empty: nothing
+        character(len=:), allocatable :: words !! what was noticed or done; empty: nothing
+    end type taken_profile_t
+
+contains
+
+    !> Take a profile from a file.
+    subroutine take_profile(path, options, curation, taken, status)
+        character(len=*), intent(in) :: path           !! name of the file
+        type(profile_options_t), intent(in) :: options !! what the user says about it
+        type(curation_t), intent(in) :: curation       !! what is to be done
+        type(taken_profile_t), intent(out) :: taken    !! the profile
+        type(status_t), intent(out) :: status          !! those of `read_profile`, `curate`,
+                                                       !! `make_curve_profile`, with the file
+
+        taken%words = ''
+        taken%done = ''
+        allocate (taken%part%point(0))
+        call check_curation(curation, status)
+        if (is_error(status)) return
+        call read_profile(path, options, taken%points, status)
+        if (is_error(status)) return
+        call curate(curation, taken%points, taken%done, status)
+        if (.not. is_error(status)) call judge(curation, taken, status)
+        if (is_error(status)) status%message = trim(status%message) // ' (' // path // ')'
+        if (len(taken%done) == 0) return
+        if (len(taken%words) > 0) taken%words = '; ' // taken%words
+        taken%words = taken%done // taken%words
+    end subroutine take_profile
+
+    subroutine judge(curation, taken, status)
+        type(curation_t), intent(in) :: curation
+        type(taken_profile_t), intent(inout) :: taken
+        type(status_t), intent(inout) :: status
+
+        character(len=:), allocatable :: clipped
+
+        associate (y => taken%points%y, z => taken%points%z, kind => taken%points%kind)
+            if (kind == body_wheel) &
+                call measure_flange(y, z, taken%points%flange_back, taken%flange)
+            if (kind == body_wheel .or. kind == body_rail) &
+                call make_curve_profile(y, z, kind, 0.0_wp, curation%kink_angle, taken%profile, &
+                                        taken%part, status)
+        end associate
+        if (is_error(status)) return
+        clipped = trim(touchable_words(taken%part))
+        taken%words = trim(taken%points%notes)
+        if (len(taken%words) > 0 .and. len(clipped) > 0) taken%words = taken%words // '; '
+        taken%words = taken%words // clipped
+    end subroutine judge
+end module faststrip_files_profile_taken
