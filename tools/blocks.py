@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
 """Run what the pages show: commands, programs and case files, and compare their output.
 
-    blocks.py [--write] [--prefix FOLDER] [PAGE...]
+    blocks.py [--write] [PAGE...]
 
 PAGE is README.md, CONTRIBUTING.md or one of docs/ (default: all). With --write what a page shows
-as output is made anew where it differs. --prefix is where faststrip is installed, for pages that
-call the library.
+as output is made anew where it differs.
 
-The blocks of a page run in their order, in one shell and one folder, in which bin, example, plots
-and the like are those of the checkout and ./run knows `install` alone. What a block is says its
-fence, and a comment in front of it:
+The blocks of a page run in their order, in one shell, in a folder that has what a fresh clone has
+after `./run build`, and a shell that knows nothing of it: what a page needs besides it has to make
+or say itself. What a block is says its fence, and a comment in front of it:
 
     ```sh       commands, each of which must succeed
     ```python   a program, run by .venv/bin/python
     ```output   what the block before it prints, stdout and stderr together
 
-    <!-- file: NAME -->          the block is a file, which a later block has to name
+    <!-- file: NAME -->          the block is a file, which the words before it and a later block
+                                 have to name
     <!-- exit: CODE -->          its last command ends with this exit code
     <!-- output not shown: WHY -->
     <!-- not run: WHY -->        neither run nor looked at
@@ -43,8 +43,8 @@ import tempfile
 from pages import pictures
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-SHARED = (".venv", "app", "bin", "docs", "example", "include", "plots", "python", "reference",
-          "src", "tools")
+# What later runs leave in a checkout, and a fresh one does not have; `./run` makes its own build/.
+LEFT = ("out", "build")
 BLOCK = re.compile(r"(?P<notes>(?:^<!--(?:(?!-->).)*-->[ \t]*\n\n?)*)"
                    r"^(?P<mark>```+|~~~+)(?P<language>[^\n`]*)\n(?P<text>.*?)^(?P=mark)[ \t]*$",
                    re.MULTILINE | re.DOTALL)
@@ -55,13 +55,6 @@ MEASURED = ("s", "ms", "us", "µs", "MB", "s.", "us.")
 PROGRESS = re.compile(r"faststrip(?:-lab)?: .*, \d+ s")
 NEAR = decimal.Decimal("1e-6")
 PATIENCE = 1200  # s, for a page
-
-# What `./run install --prefix FOLDER` is in a page's folder.
-RUN = """\
-#!/bin/sh
-[ "$#" -eq 3 ] && [ "$1" = install ] && [ "$2" = --prefix ] || exit 2
-ln -s "$FASTSTRIP_INSTALLED" "$3"
-"""
 
 
 @dataclasses.dataclass
@@ -103,6 +96,8 @@ def problems(text):
     for k, block in enumerate(blocks):
         place = f"line {block.line}"
         if "file" in block.notes:
+            if block.notes["file"] not in words_before(text, block):
+                found.append(f"{place}: the words before it do not name {block.notes['file']}")
             if not any(block.notes["file"] in later.text for later in blocks[k + 1:]
                        if later.runs()):
                 found.append(f"{place}: no later block names {block.notes['file']}")
@@ -118,30 +113,32 @@ def problems(text):
     return found
 
 
-def needs_library(text):
-    """Do blocks of a page need an installed library?"""
-    return any(block.runs() and (block.language == "python" or "./run install" in block.text)
-               for block in blocks_of(text))
+def words_before(text, block):
+    """What readers see before a block, without other blocks."""
+    return re.sub(r"<!--.*?-->", "", BLOCK.sub("", text[:block.span[0]]), flags=re.DOTALL)
 
 
-def run(text, folder, prefix=None):
+def installs(text):
+    """Do blocks of a page install the library?"""
+    return any(block.runs() and "./run install" in block.text for block in blocks_of(text))
+
+
+def run(text, folder):
     """Run a page's blocks in a folder; what each printed, in the order of `outputs`.
 
     RuntimeError tells the first block that ends otherwise than it should.
     """
-    folder = pathlib.Path(folder)
-    kept = folder / ".blocks"
-    kept.mkdir()
-    for name in SHARED:
-        (folder / name).symlink_to(ROOT / name)
-    for name in ("out", "home"):
-        (folder / name).mkdir()
-    (folder / "run").write_text(RUN, encoding="utf-8")
-    (folder / "run").chmod(0o755)
+    checkout = pathlib.Path(folder, "checkout")
+    kept = pathlib.Path(folder, "kept")
+    for made in (checkout, kept, pathlib.Path(folder, "home")):
+        made.mkdir()
+    for path in ROOT.iterdir():
+        if path.name not in LEFT:
+            (checkout / path.name).symlink_to(path)
     blocks = blocks_of(text)
     (kept / "script").write_text(script(blocks, kept), encoding="utf-8")
     with open(kept / "said", "w", encoding="utf-8") as said:
-        code = subprocess.run(["sh", kept / "script"], cwd=folder, env=environment(folder, prefix),
+        code = subprocess.run(["sh", kept / "script"], cwd=checkout, env=environment(folder),
                               stdin=subprocess.DEVNULL, stdout=said, stderr=said, check=False,
                               timeout=PATIENCE).returncode
     printed = []
@@ -183,21 +180,16 @@ def script(blocks, kept):
     return "\n".join(lines) + "\n"
 
 
-def environment(folder, prefix):
-    """What commands of a page see of the machine."""
+def environment(folder):
+    """The shell of a page: where programs of the machine are, and a home. Only time and this
+    checkout have the rest: fonts are not looked for again, nothing is compiled beside sources."""
     home = os.environ.get("HOME", "/")
     return {
-        **{name: os.environ[name] for name in ("TMPDIR",) if name in os.environ},
-        "PATH": f"{ROOT / 'bin'}{os.pathsep}{os.environ['PATH']}",
-        "HOME": str(folder / "home"),
+        "PATH": os.pathsep.join(path for path in os.environ["PATH"].split(os.pathsep)
+                                if not pathlib.Path(path).resolve().is_relative_to(ROOT)),
+        "HOME": str(pathlib.Path(folder, "home")),
         "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", f"{home}/.cache"),
-        "XDG_CONFIG_HOME": os.environ.get("XDG_CONFIG_HOME", f"{home}/.config"),
-        "LC_ALL": "C.UTF-8",
-        "MPLBACKEND": "Agg",
-        "OPENBLAS_NUM_THREADS": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
-        **({"FASTSTRIP_INSTALLED": str(prefix), "FASTSTRIP_PREFIX": str(prefix),
-            "PYTHONPATH": str(ROOT / "python")} if prefix else {}),
     }
 
 
@@ -270,7 +262,7 @@ def rewritten(text, found):
     return text
 
 
-def check(path, prefix=None, write=False):
+def check(path, write=False):
     """What is wrong with a page, in words; with `write` its outputs are made anew instead."""
     text = path.read_text(encoding="utf-8")
     wrong = problems(text)
@@ -278,11 +270,11 @@ def check(path, prefix=None, write=False):
         return "\n".join(wrong)
     with tempfile.TemporaryDirectory() as folder:
         try:
-            found = differences(text, run(text, folder, prefix))
+            found = differences(text, run(text, folder))
         except RuntimeError as problem:
             return str(problem)
         missing = [file for file, _ in pictures(text)
-                   if not pathlib.Path(folder, file).is_file()]
+                   if not pathlib.Path(folder, "checkout", file).is_file()]
     if found and write:
         path.write_text(rewritten(text, found), encoding="utf-8")
         found = []
@@ -298,15 +290,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true")
-    parser.add_argument("--prefix", type=lambda text: pathlib.Path(text).resolve(),
-                        metavar="FOLDER")
     parser.add_argument("pages", nargs="*", type=pathlib.Path, metavar="PAGE")
     options = parser.parse_args()
     bad = False
     for path in options.pages or pages():
-        if needs_library(path.read_text(encoding="utf-8")) and not options.prefix:
-            sys.exit(f"blocks: {path} needs --prefix FOLDER, where faststrip is installed")
-        words = check(path, options.prefix, options.write)
+        words = check(path, options.write)
         if words:
             bad = True
             print(f"{path}: {words}", flush=True)

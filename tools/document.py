@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Build the site of faststrip into out/docs: the pages, and the Fortran interface by FORD in api/.
 
-    document.py [--prefix FOLDER]
+    document.py
 
-Pages with pictures are run, as tools/blocks.py does, with the faststrip that is installed in
-FOLDER. Nothing of the site is loaded from elsewhere: it reads, and is searched, without network. A
+Pages with pictures are run, as tools/blocks.py does. Nothing of the site is loaded from elsewhere: it reads, and is searched, without network. A
 warning is an error, and so is a link that leads nowhere.
 """
 
@@ -65,13 +64,11 @@ LOADED = re.compile(r'<link [^>]*href="https?://[^>]*>|<script[^>]*src="https?:/
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--prefix", type=lambda text: pathlib.Path(text).resolve(),
-                        metavar="FOLDER")
-    options = parser.parse_args()
+    parser.parse_args()
     shutil.rmtree(SITE, ignore_errors=True)
     SITE.mkdir(parents=True)
     build_api()
-    write_search([*build_pages(options.prefix), *entities()])
+    write_search([*build_pages(), *entities()])
     broken = sorted(broken_targets())
     if broken:
         sys.exit("\n".join(broken))
@@ -109,7 +106,7 @@ def build_api():
                                text), encoding="utf-8")
 
 
-def build_pages(prefix):
+def build_pages():
     """The Markdown files of PAGES; what else they point to is copied into files/. What the search
     finds in them: names, heading, target and words."""
     known = {(ROOT / source).resolve(): target for _, source, target in PAGES}
@@ -123,7 +120,7 @@ def build_pages(prefix):
     for words, source, target in PAGES:
         path = ROOT / source
         text = path.read_text(encoding="utf-8")
-        made = make_pictures(text, target.removesuffix(".html"), prefix)
+        made = make_pictures(text, target.removesuffix(".html"))
 
         def target_of(link, folder=path.parent, made=made):
             if link in made:
@@ -152,18 +149,18 @@ def build_pages(prefix):
     return found
 
 
-def make_pictures(text, name, prefix):
+def make_pictures(text, name):
     """Run a page that has pictures; where in the site each of them lies."""
     wanted = pictures(text)
     if not wanted:
         return {}
     made = {}
     with tempfile.TemporaryDirectory() as folder:
-        blocks.run(text, folder, prefix)
+        blocks.run(text, folder)
         for file, _ in wanted:
             copy = SITE / "files" / name / pathlib.Path(file).name
             copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(pathlib.Path(folder, file), copy)
+            shutil.copy(pathlib.Path(folder, "checkout", file), copy)
             made[file] = copy.relative_to(SITE).as_posix()
     return made
 

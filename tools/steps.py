@@ -763,8 +763,8 @@ def python_packages(name, what):
 
 def docs():
     python_packages("docs", "FORD")
-    install_below(ROOT / "build" / "docs")
-    do(sys.executable, "tools/document.py", "--prefix", "build/docs")
+    build()
+    do(sys.executable, "tools/document.py")
     heading("done: out/docs/index.html")
 
 

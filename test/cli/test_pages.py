@@ -1,4 +1,4 @@
-"""What the pages show is run and printed so: those that need the program alone."""
+"""What the pages show is run and printed so, as users run it: in order, with nothing prepared."""
 
 import sys
 import unittest
@@ -11,7 +11,7 @@ import blocks  # noqa: E402
 
 
 class Pages(unittest.TestCase):
-    """A test a page."""
+    """A test a page; those that install are in test/embed."""
 
 
 def test_of(path):
@@ -19,7 +19,7 @@ def test_of(path):
 
 
 for page in blocks.pages():
-    if not blocks.needs_library(page.read_text(encoding="utf-8")):
+    if not blocks.installs(page.read_text(encoding="utf-8")):
         setattr(Pages, f"test_{page.relative_to(ROOT).with_suffix('')}", test_of(page))
 
 

@@ -20,11 +20,12 @@ class Callers(HostTest):
         shown = re.findall(r"(?m)^0 .*E[+-]\d\d$", text)
         self.assertEqual((len(shown), len(set(shown))), (4, 1))
         found = {}
+        (self.folder / ".venv").symlink_to(ROOT / ".venv")
         for language, text in readme_blocks():
             if language in FILES:
                 self.write(FILES[language], text)
             else:
-                self.shell(text)
+                self.shell(text, PYTHONPATH=str(ROOT / "python"))
                 for program in re.findall(r"-o (\w+)", text):
                     found[program] = self.shell(f"./{program}")
         found["python"] = self.shell(f"'{ROOT}/.venv/bin/python' caller.py",

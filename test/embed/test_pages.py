@@ -1,4 +1,4 @@
-"""What the pages show is run and printed so: those that need the library; docstrings of Python."""
+"""What the pages show is run and printed so: those that install; docstrings of Python."""
 
 import sys
 import unittest
@@ -6,16 +6,16 @@ import unittest
 from installed import ROOT, HostTest, blocks
 
 
-class Pages(HostTest):
+class Pages(unittest.TestCase):
     """A test a page."""
 
 
 def test_of(path):
-    return lambda self: self.assertEqual(blocks.check(path, self.installed.prefix), "")
+    return lambda self: self.assertEqual(blocks.check(path), "")
 
 
 for page in blocks.pages():
-    if blocks.needs_library(page.read_text(encoding="utf-8")):
+    if blocks.installs(page.read_text(encoding="utf-8")):
         setattr(Pages, f"test_{page.relative_to(ROOT).with_suffix('')}", test_of(page))
 
 

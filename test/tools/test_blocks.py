@@ -1,10 +1,12 @@
 """The runner of what pages show: what it takes for the same, what it refuses, how it runs."""
 
+import os
 import pathlib
 import re
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -92,7 +94,10 @@ class Problems(unittest.TestCase):
             (fence("sh", "x\n", "<!-- not run: slow -->\n"), "no reason"),
             (fence("output", "x\n"), "output of nothing"),
             (fence("sh", "x\n") + fence("output", "") + fence("output", ""), "output of nothing"),
-            (fence("c", "x\n", "<!-- file: a.c -->\n"), "no later block names a.c"),
+            ("`a.c`:\n" + fence("c", "x\n", "<!-- file: a.c -->\n"), "no later block names a.c"),
+            (fence("sh", "b a.c\n", "<!-- file: b -->\n") + "<!-- a.c -->\n"
+             + fence("c", "x\n", "<!-- file: a.c -->\n") + fence("sh", "cat a.c\n"),
+             "the words before it do not name a.c"),
             ("- a\n\n  ```sh\n  x\n  ```\n", "indented"),
             ("```sh\nx\n", "not closed"),
         ):
@@ -100,12 +105,14 @@ class Problems(unittest.TestCase):
                 self.assertIn(words, "".join(blocks.problems(text)))
 
     def test_good_blocks_have_none(self):
-        text = (fence("c", "x\n", "<!-- file: a.c -->\n") + fence("sh", "cat a.c\n")
+        text = ("Of `a.c`:\n\n" + fence("c", "x\n", "<!-- file: a.c -->\n")
+                + fence("sh", "cat a.c\n")
                 + fence("output", "x\n") + fence("text", "y\n", "<!-- not run: a drawing -->\n")
                 + fence("python", "print(1)\n") + fence("output", "1\n"))
         self.assertEqual(blocks.problems(text), [])
-        self.assertTrue(blocks.needs_library(text))
-        self.assertFalse(blocks.needs_library(fence("sh", "x\n")))
+        self.assertFalse(blocks.installs(text))
+        self.assertFalse(blocks.installs(fence("sh", "./run install\n", "<!-- not run: a b -->\n")))
+        self.assertTrue(blocks.installs(fence("sh", "./run install --prefix a\n")))
 
 
 class Running(unittest.TestCase):
@@ -120,16 +127,32 @@ class Running(unittest.TestCase):
 
     def test_blocks_share_a_folder_and_a_shell(self):
         self.assertEqual(self.check(
-            fence("text", "one\n", "<!-- file: a.txt -->\n") + fence("sh", "x=$(cat a.txt)\n")
-            + "words\n\n" + fence("sh", "echo $x; echo two >&2; ls -d bin/faststrip out\n")
-            + fence("output", "one\ntwo\nbin/faststrip\nout\n")), "")
+            "a.txt:\n\n" + fence("text", "one\n", "<!-- file: a.txt -->\n")
+            + fence("sh", "x=$(cat a.txt)\n")
+            + "words\n\n" + fence("sh", "echo $x; echo two >&2; ls -d bin/faststrip run\n")
+            + fence("output", "one\ntwo\nbin/faststrip\nrun\n")), "")
+
+    def test_nothing_is_prepared(self):
+        """Not what a checkout has after later runs, nor what its users' shells know."""
+        shown = fence("output", "no out\nno build\nHOME\nPATH\n")
+        lines = ("for name in out build; do [ -e $name ] || echo no $name; done\n"
+                 "env | grep -v '^_=\\|^PWD=\\|CACHE\\|BYTECODE\\|^SHLVL\\|^OLDPWD' | sed 's/=.*//'"
+                 " | sort\n")
+        with mock.patch.dict(os.environ, {"PYTHONPATH": str(ROOT / "python"), "OTHER": "1",
+                                          "FASTSTRIP_PREFIX": "/", "LD_LIBRARY_PATH": "/",
+                                          "PATH": f"{ROOT}/bin:{os.environ['PATH']}"}):
+            self.assertEqual(self.check(fence("sh", lines) + shown), "")
+            for line in ("faststrip --version", "touch out/a", "cat my.nml"):
+                self.assertRegex(self.check(fence("sh", f"{line}\n")), "line 1: exit code [0-9]+, ")
+            self.assertIn("No module named 'faststrip'",
+                          self.check(fence("python", "import faststrip\n")))
 
     def test_python_runs(self):
         self.assertEqual(self.check(fence("python", "import sys\nprint(1 + 1)\n")
                                     + fence("output", "2\n")), "")
 
     def test_a_command_that_fails_is_told(self):
-        found = self.check(fence("sh", "echo 1 >out/a\nfalse\necho 2\n"))
+        found = self.check(fence("sh", "echo 1 >a\nfalse\necho 2\n"))
         self.assertIn("line 1: exit code 1, not 0", found)
         self.assertIn("line 5: exit code 3, not 0",
                       self.check(fence("sh", "x=1\n") + fence("sh", "sh -c 'exit 3'\n")))
@@ -149,9 +172,9 @@ class Running(unittest.TestCase):
                          "")
 
     def test_pictures_have_to_be_made(self):
-        text = "<!-- picture: out/a.png A. -->\n"
-        self.assertEqual(self.check(fence("sh", "touch out/a.png\n") + text), "")
-        self.assertEqual(self.check(fence("sh", "true\n") + text), "no such picture: out/a.png")
+        text = "<!-- picture: a.png A. -->\n"
+        self.assertEqual(self.check(fence("sh", "touch a.png\n") + text), "")
+        self.assertEqual(self.check(fence("sh", "true\n") + text), "no such picture: a.png")
 
     def test_outputs_are_written(self):
         text = (fence("sh", "echo a\n") + fence("output", "b\n") + fence("sh", "echo 2.001\n")

@@ -33,6 +33,14 @@ module faststrip_base_kinds
     integer, parameter :: wp = kind(1.0d0)
 end module faststrip_base_kinds
 """
+FILES = """\
+module faststrip_files_words
+    use faststrip_base_kinds, only: wp
+    implicit none
+    private
+    public :: wp
+end module faststrip_files_words
+"""
 PASSING = test("passes", "@assertTrue(.true.)")
 FAILING = test("fails", "@assertTrue(.false.)")
 STOPPING = test("stops", "error stop 'on purpose'")
@@ -57,7 +65,8 @@ import pathlib
 import sys
 
 print(*sys.argv[1:])
-print(pathlib.Path("build/stage/lib/libfaststrip.a").is_file())
+print(all(pathlib.Path(f"build/stage/lib/libfaststrip{name}.a").is_file()
+          for name in ("", "-files")))
 """
 # What ./run needs of a machine before it can install anything.
 BASIC_TOOLS = "sh dirname cat cmp printf mkdir rm cp sed tr tail tee env".split()
@@ -70,7 +79,7 @@ class Project(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
-        for name in ("run", "fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
+        for name in ("run", "fpm.toml", "src/files/fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
             self.copy(name)
         for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py",
                      "netcdf_plugin.py"):
@@ -83,6 +92,7 @@ class Project(unittest.TestCase):
         self.write("app/programs/faststrip.f90", MAIN)
         self.write("app/programs/faststrip_lab.f90", LAB)
         self.write("src/faststrip/base/kinds.f90", LIBRARY)
+        self.write("src/files/words.f90", FILES)
         self.write("src/netcdf/plugin.f90", "module faststrip_netcdf_plugin\nend module\n")
 
     def copy(self, name):
@@ -289,7 +299,7 @@ class FromNothing(Building):
             result = self.run_it(*words)
             self.assertEqual((result.returncode, result.stderr), (1, f"run: {says}\n"))
 
-    def test_the_core_is_staged_and_the_prefix_seen_from_the_caller(self):
+    def test_the_library_is_staged_and_the_prefix_seen_from_the_caller(self):
         place = self.folder / "else where"
         place.mkdir()
         self.write("app/programs/faststrip.f90", MAIN.replace(
@@ -307,7 +317,7 @@ class FromNothing(Building):
             self.assertIn(f"--stage build/stage --program bin/faststrip --prefix {seen}\nTrue\n",
                           result.stdout)
             self.assertIn(f"== installed below {seen}\n", result.stdout)
-            copied, = (self.folder / "build").rglob("*_kinds.f90.o")
+            copied, = (self.folder / "src" / "files" / "build").rglob("*_kinds.f90.o")
             self.assertEqual(copied.read_bytes(), made.read_bytes())
 
     def test_quick_compiles_nothing_twice_and_leaves_out_what_takes_long(self):
