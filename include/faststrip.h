@@ -407,10 +407,10 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
  * members; nothing is repaired unasked. Fill it in with faststrip_default_reading first. */
 typedef struct faststrip_reading {
     size_t size;          /* of this struct as the caller knows it */
-    int kind;             /* 1: of a wheel, 2: of a rail, 0: the file or the end of its name says it */
+    int kind;             /* 1: of a wheel, 2: of a rail, 0: the file or its name says it */
     int section;          /* which one of a file with several, from 1 on; 0: the only one */
     int side;             /* of a file with both sides 1: right, -1: left */
-    int y_sense;          /* of y in the file, 1: to the field side, -1: to the gauge side, 0: as its
+    int y_sense;          /* of y in the file, 1: to the field side, -1: to the gauge, 0: as its
                            * format has it */
     int z_sense;          /* of z in the file, 1: down, -1: up, 0: as its format has it */
     int any_count;        /* take a number of points that the header denies? */
@@ -425,7 +425,7 @@ typedef struct faststrip_reading {
     double keep[2];       /* range of y of the points that are kept, mm */
     double drop_double;   /* drop points no farther from the one before, mm; below 0: none */
     double shift[2];      /* along y and z, mm */
-    double turn;          /* about the origin, from y to z, rad; -atan(cant) turns a rail as a cant */
+    double turn;          /* about the origin, from y to z, rad; of a cant: -atan(cant) */
     double smooth_wavelength; /* halve waves of this length, remove shorter ones, mm; 0: none */
     double smooth_noise;  /* smooth for this standard deviation of the points, mm; 0: none */
     double resample;      /* points at this distance along the profile, mm; 0: those there are */
@@ -445,11 +445,11 @@ typedef struct faststrip_profile_about {
 /* Nothing is said about the file, nothing is done. length is sizeof reading. */
 int faststrip_default_reading(faststrip_reading *reading, size_t length);
 
-/* Read a profile of any format that `faststrip profile` knows: y to the field side, z down, mm, of a
- * wheel from the tape circle, in the order of a faststrip_profile. path is the file's name, reading
- * and about may be null, capacity is the length of y and z; *n becomes the points of the profile,
- * even if these are more (110). text, if not null, says what is wrong, with file, line and value, or
- * what was left out or done. This function reads a file, and allocates. */
+/* Read a profile of any format that `faststrip profile` knows: y to the field side, z down, mm, of
+ * a wheel from the tape circle, in the order of a faststrip_profile. path is the file's name,
+ * reading and about may be null, capacity is the length of y and z; *n becomes the points of the
+ * profile, even if these are more (110). text, if not null, says what is wrong, with file, line and
+ * value, or what was left out or done. This function reads a file, and allocates. */
 int faststrip_read_profile(const char *path, const faststrip_reading *reading, int capacity, int *n,
                            double *y, double *z, faststrip_profile_about *about, char *text,
                            size_t length);

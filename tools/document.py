@@ -3,8 +3,9 @@
 
     document.py
 
-Pages with pictures are run, as tools/blocks.py does. Nothing of the site is loaded from elsewhere: it reads, and is searched, without network. A
-warning is an error, and so is a link that leads nowhere.
+Pages with pictures are run, as tools/blocks.py does. Nothing of the site is loaded from elsewhere:
+it reads, and is searched, without network. A warning is an error, and so is a link that leads
+nowhere.
 """
 
 import argparse

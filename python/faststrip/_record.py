@@ -22,7 +22,7 @@ class Shown:
     def __init_subclass__(cls, **words: Any) -> None:
         super().__init_subclass__(**words)
         # Where there is one already, a dataclass makes none.
-        setattr(cls, "__repr__", Shown.__repr__)
+        cls.__repr__ = Shown.__repr__  # type: ignore[method-assign]
 
     def __repr__(self) -> str:
         found = [f"{one.name}={_shown(getattr(self, one.name))}"

@@ -149,8 +149,7 @@ contains
         is_folder = may(path // '/.', is_there)
     end function is_folder
 
-    ! May a file be what is asked? The C library says it: no unit of Fortran's is needed, which hosts
-    ! of other languages may not have.
+    ! May a file be what is asked? The C library says it: a host has no unit of Fortran's to spare.
     logical function may(path, mode)
         character(len=*), intent(in) :: path
         integer(c_int), intent(in) :: mode

@@ -1,5 +1,5 @@
-!> A profile as users take it from a file: read, curated as they ask, and judged: what can be touched
-!> of it, the measures of its flange, and words for what was left out or done.
+!> A profile as users take it from a file: read, curated as they ask, and judged: what can be
+!> touched of it, the measures of its flange, and words for what was left out or done.
 module faststrip_files_profile_taken
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error

@@ -115,7 +115,8 @@ class Points(HostTest):
         self.assertEqual([float(word) for word in rows[0][2].split()], [-40.0, -0.8])
         self.assertEqual(rows[1], ["121", "0", "the profile must be that of a rail, the file is "
                                    "that of a wheel (w.prw)"])
-        self.assertEqual(rows[2], ["110", "321", "the profile has more points than the arrays: 321"])
+        self.assertEqual(rows[2], ["110", "321",
+                                   "the profile has more points than the arrays: 321"])
 
     def compiled_f77(self, text):
         self.write("try.f", text)

@@ -79,7 +79,8 @@ class Project(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
-        for name in ("run", "fpm.toml", "src/files/fpm.toml", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
+        for name in ("run", "fpm.toml", "src/files/fpm.toml", "test/funit/funit.f90",
+                     "test/funit/funit_runner.f90"):
             self.copy(name)
         for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py",
                      "netcdf_plugin.py"):
