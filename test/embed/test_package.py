@@ -97,6 +97,20 @@ class Package(unittest.TestCase):
         self.assertTrue(any(path.endswith("faststrip/libfaststrip.so.0") for path in mine), mine)
         self.assertTrue(any("faststrip.libs/libgfortran" in path for path in mine), mine)
 
+    def test_profiles_are_read_where_there_is_no_program(self):
+        name = ROOT / "example" / "cases" / "worn_wheel.whl"
+        done = self.without_compiler(
+            "import faststrip\n"
+            f"wheel = faststrip.Profile.read({str(name)!r}, smooth_wavelength=5)\n"
+            "print(wheel.kind, wheel.format, len(wheel.y))\n"
+            "contact = faststrip.Contact()\n"
+            "contact.set_gap(faststrip.profile_gap(wheel, '60e1', shift=1.0))\n"
+            "print(contact.solve(load=8e4).status)\n"
+            "faststrip.Profile.read('none.whl')\n")
+        self.assertEqual(done.stdout, "wheel miniprof 258\n0\n")
+        self.assertEqual(done.stderr.splitlines()[-1], "faststrip._library.FaststripError: "
+                         "file_missing: no such file: none.whl")
+
     def test_the_library_needs_no_lapack(self):
         text = self.command("readelf", "-dW", self.site / "faststrip" / "libfaststrip.so.0")
         needed = re.findall(r"NEEDED.*\[([^]]+)\]", text)
