@@ -205,6 +205,12 @@ int faststrip_message(int status, char *text, size_t length);
 /* What the workspace's last call had to say; empty when all was well. */
 int faststrip_last_message(const faststrip_workspace *workspace, char *text, size_t length);
 
+/* What is outside of practice in the last contact of a workspace, or in the last state of a
+ * wheelset, which is handed over as a workspace: mostly a unit. The line number i, from 0 on, says
+ * what should be, what was got, and the likely mistake; it is empty behind the last one. No status
+ * and no figure depends on it. */
+int faststrip_doubt(const faststrip_workspace *workspace, int i, char *text, size_t length);
+
 /* Steel on steel, mu = 0.3, strips and FASTSTRIP, no load: to be filled in further.
  * length is sizeof(faststrip_case): how much of it the caller knows. */
 int faststrip_default_case(faststrip_case *contact, size_t length);

@@ -31,9 +31,33 @@ def main(arguments=None):
 
 
 def draw(path, functions, conicity):
-    """Three panels, one above the other."""
-    figure = style.new_figure(6.4, 9.0)
-    radii, angles, values = figure.subplots(3, 1)
+    """Three panels, one above the other; without functions the last one alone."""
+    if functions is None:
+        figure = style.new_figure(6.4, 3.4)
+        values = figure.subplots()
+        legends = (values,)
+    else:
+        figure = style.new_figure(6.4, 9.0)
+        radii, angles, values = figure.subplots(3, 1)
+        draw_functions(radii, angles, functions)
+        legends = (angles, values)
+    amplitude = conicity.numbers("amplitude_mm")
+    values.plot(amplitude, conicity.numbers("tan_gamma_e", missing=True), color=RIGHT.colour,
+                linewidth=RIGHT.width, label=method_name(conicity.words("method")[:1]))
+    if "regression" not in conicity.words("method")[:1]:
+        values.plot(amplitude, conicity.numbers("regression", missing=True), color=LEFT.colour,
+                    linestyle=LEFT.line, linewidth=LEFT.width, label="linear regression")
+    values.set_xlabel("amplitude in mm")
+    values.set_ylabel("$\\tan \\gamma_e$")
+    values.set_ylim(bottom=0.0)
+    style.title(values, f"equivalent conicity, {EDITION}")
+    for axes in legends:
+        axes.legend()
+    style.save(figure, path, [functions and revision(functions), revision(conicity)])
+
+
+def draw_functions(radii, angles, functions):
+    """Rolling radius difference and contact angles over the shift."""
     shift = functions.numbers("y_mm")
     radii.plot(shift, functions.numbers("delta_r_mm"), color=RIGHT.colour, linewidth=RIGHT.width)
     radii.set_ylabel("$\\Delta r$ in mm")
@@ -48,19 +72,6 @@ def draw(path, functions, conicity):
     style.title(angles, "contact angles, each in the frame of its side")
     for axes in (radii, angles):
         axes.set_xlabel("lateral shift $y$ in mm, to the right")
-    amplitude = conicity.numbers("amplitude_mm")
-    values.plot(amplitude, conicity.numbers("tan_gamma_e", missing=True), color=RIGHT.colour,
-                linewidth=RIGHT.width, label=method_name(conicity.words("method")[:1]))
-    if "regression" not in conicity.words("method")[:1]:
-        values.plot(amplitude, conicity.numbers("regression", missing=True), color=LEFT.colour,
-                    linestyle=LEFT.line, linewidth=LEFT.width, label="linear regression")
-    values.set_xlabel("amplitude in mm")
-    values.set_ylabel("$\\tan \\gamma_e$")
-    values.set_ylim(bottom=0.0)
-    style.title(values, f"equivalent conicity, {EDITION}")
-    for axes in (angles, values):
-        axes.legend()
-    style.save(figure, path, [revision(functions), revision(conicity)])
 
 
 def method_name(first):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Install faststrip below a prefix: program, library, modules, header, man page, and what tells
-pkg-config and CMake about them.
+"""Install faststrip below a prefix: program, library, modules, header, man page, what tells
+pkg-config and CMake about them, and the scripts that draw for --plot.
 
     install.py --stage FOLDER --program FILE --prefix FOLDER
 
@@ -35,6 +35,8 @@ from man_page import man_page
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 # What the program loads to write NetCDF.
 NETCDF = "faststrip_netcdf.so"
+# What plots/plot.py, which draws for --plot, needs of its package.
+DRAWS = ("__init__", "command", "panels", "results", "style", "tables")
 PKG_CONFIG = """\
 prefix={prefix}
 libdir=${{prefix}}/lib
@@ -201,7 +203,13 @@ def main():
         (ROOT / "include" / "faststrip.h", "include/faststrip.h"),
         (ROOT / "LICENSE", "share/doc/faststrip/LICENSE"),
     )
-    for source, target in copies:
+    plots = [(ROOT / "plots" / name, f"share/faststrip/plots/{name}")
+             for name in ("plot.py", "conicity.py", "wheelset.py")]
+    plots += [(source, f"share/faststrip/plots/faststrip_plots/{source.name}")
+              for source in (ROOT / "plots" / "faststrip_plots" / f"{name}.py" for name in DRAWS)]
+    plots.append((ROOT / "python" / "faststrip" / "_style.py",
+                  "share/faststrip/python/faststrip/_style.py"))
+    for source, target in copies + tuple(plots):
         (prefix / target).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source, prefix / target)
     page = prefix / "share" / "man" / "man1" / "faststrip.1"

@@ -21,7 +21,8 @@ module faststrip_command_batch
     use faststrip_command_worker, only: worker_t, make_workers, release_workers
     use faststrip_command_clock, only: microseconds
     use faststrip_command_console, only: fail, fail_on_error, note, put_origin, version_text, &
-                                         usage_error, exit_bad_input, exit_usage
+                                         tell_held, usage_error, exit_bad_input, exit_usage
+    use faststrip_command_doubts, only: tally_t, add_tally, hold_tally
     use faststrip_command_files, only: trouble_t, take_beside, clear_leftovers
     use faststrip_command_gap_cache, only: gap_cache_t, start_cache, tidy_cache
     use faststrip_command_gap_digests, only: take_digests, put_digests, changed_file
@@ -106,6 +107,8 @@ contains
     subroutine run_batch()
         type(job_t), allocatable :: job
         type(status_counts_t) :: counts
+        type(tally_t) :: tally
+        integer :: i
 
         allocate (job)
         call read_command(job)
@@ -118,6 +121,11 @@ contains
                            job%choice%parts, job%choice%is_part, counts)
         end if
         call close_stream(job%stream)
+        do i = 1, size(job%workers)
+            call add_tally(tally, job%workers(i)%tally)
+        end do
+        call hold_tally(tally, job%input)
+        call tell_held()
         call release_workers(job%workers)
         call clear_leftovers()
         if (counted(counts, first_error) > 0) &

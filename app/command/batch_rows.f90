@@ -1,16 +1,20 @@
 !> The rows of a batch: what a table of contacts has, and from one of its rows to a row of results.
 module faststrip_command_batch_rows
+    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_plausible, only: doubts_t, case_names_t, gap_size, find_doubts, &
+                                           doubt_pressure
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, &
                                    cell_text, cell_number, put_cell, end_row, take_only_row, &
                                    refuse_misspelt
     use faststrip_command_batch_friction, only: read_row_friction, friction_columns
     use faststrip_command_case_file, only: beside
     use faststrip_command_console, only: concerns_gap
+    use faststrip_command_doubts, only: count_doubts
     use faststrip_command_files, only: trouble_t
     use faststrip_command_gap_cache, only: gap_cache_t, find_gap
     use faststrip_command_result_csv, only: result_columns, put_result
@@ -79,6 +83,7 @@ contains
 
         type(contact_case_t) :: case
         type(ready_gap_t), pointer :: ready
+        type(doubts_t) :: doubts
         integer :: i
 
         call take_only_row(worker%table, line, number, status)
@@ -98,10 +103,14 @@ contains
                 if (trouble%code /= 0) return
             end if
             if (.not. is_error(status)) then
+                call find_row_doubts(worker, case, ready, doubts)
                 case%warm_start = worker%can_go_on
                 call solve(worker%own%solver, case, outcome, status, ready)
                 worker%can_go_on = .not. is_error(status)
+                if (.not. is_error(status)) &
+                    call doubt_pressure('pmax_MPa', outcome%normal%pmax, doubts)
             end if
+            call count_doubts(worker%tally, doubts, int(number, int64), number)
             do i = 1, table%n_columns
                 if (i == columns%of(load_column) .and. .not. (case%by_load .or. is_error(status))) &
                     then
@@ -121,6 +130,31 @@ contains
             end if
         end associate
     end subroutine solve_row
+
+    !> What is outside of practice in a row; a gap is looked at when it changes.
+    subroutine find_row_doubts(worker, case, ready, doubts)
+        type(worker_t), intent(inout) :: worker
+        type(contact_case_t), intent(in) :: case
+        type(ready_gap_t), intent(in) :: ready
+        type(doubts_t), intent(inout) :: doubts
+
+        type(case_names_t) :: names
+
+        if (worker%size_of_gap /= ready%id) then
+            associate (curve => ready%curve, n => ready%curve%n)
+                worker%gap_size = gap_size(curve%y(:n), curve%h(:n), curve%inv2r(:n))
+            end associate
+            worker%size_of_gap = ready%id
+        end if
+        names%e = [character(len=24) :: 'E_MPa', '']
+        names%load = 'N_N'
+        names%penetration = penetration_column
+        names%creepage(3) = case_columns(9)
+        names%speed = 'speed_mm_s'
+        names%half_slip_speed = 'half_slip_speed_mm_s'
+        names%gap = [character(len=24) :: 'y_mm', 'h_mm', 'inv2R_per_mm']
+        call find_doubts(case, worker%gap_size, names, doubts)
+    end subroutine find_row_doubts
 
     !> The contact of a row without its gap.
     subroutine read_row(table, columns, case, status)

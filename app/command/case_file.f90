@@ -4,15 +4,17 @@ module faststrip_command_case_file
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: lower_case
     use faststrip_base_material, only: material_t
+    use faststrip_base_plausible, only: of_shift, of_speed, of_yield, of_noise
     use faststrip_base_creepage, only: creepage_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, creepage_set_a, creepage_set_b
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
     use faststrip_command_case_friction, only: read_friction_group
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, &
                                                complete_wheelset, shape_t, &
-                                               beside, path_length
+                                               beside, path_length, hold_width
     use faststrip_command_case_values, only: unset, need_finite, need_positive, need_poisson, &
                                              not_given, take_list, need_as_many, case_groups
+    use faststrip_command_doubts, only: hold_value
     use faststrip_command_files, only: take_input
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
@@ -86,7 +88,11 @@ contains
         call read_material_group(content, case)
         call read_wheel_group(content, from_profiles, case%wheelset, case%wheel)
         call read_rail_group(content, from_profiles, case%track, case%rail)
-        if (from_profiles) call complete_wheelset(content, case%track, case%wheelset)
+        if (from_profiles) then
+            call complete_wheelset(content, case%track, case%wheelset)
+            call hold_width(content, case%wheel, case%wheelset%radius)
+            call hold_width(content, case%rail, case%wheelset%radius)
+        end if
         call read_motion_group(content, from_profiles, case)
         call read_friction_group(content, case%mu, from_profiles, case%friction)
         call read_numerics_group(content, case)
@@ -135,6 +141,7 @@ contains
         end if
         case%penetration = penetration_mm
         call need_finite(content, group, 'shift_mm', shift_mm)
+        call hold_value(content, group, 'shift_mm', of_shift, shift_mm)
         case%load = load_n
         case%shift = shift_mm
         case%load_is_vertical = load_direction == 'vertical'
@@ -213,6 +220,7 @@ contains
         case%creepage = creepage_t(cksi, ceta, cphi_rad_per_mm)
         if (sets(content, group, 'speed_mm_s')) then
             call need_positive(content, group, 'speed_mm_s', speed_mm_s)
+            call hold_value(content, group, 'speed_mm_s', of_speed, speed_mm_s)
             case%friction%speed = speed_mm_s
         end if
         case%creepage_by_formula = creepage == 'formula'
@@ -305,6 +313,9 @@ contains
         if (numbers%wanted%target == 0) call refuse(content, group, 'target', 'must be ' &
                                                     // one_of(target_names), trim(target))
         call check_numerics(numbers, what, range, value)
+        call hold_value(content, group, 'smoothing_um', of_noise, smoothing_um)
+        call hold_value(content, group, 'yield_MPa', of_yield, yield_mpa)
+        call hold_value(content, group, 'yield_shear_MPa', of_yield, yield_shear_mpa)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
         if (len_trim(wear_file) > 0) then
             call take_input(beside(content%file, trim(wear_file)))
@@ -351,6 +362,7 @@ contains
         call take_list(content, group, 'cphi_rad_per_mm', cphi_rad_per_mm, case%shift_cphi)
         n = size(case%shifts)
         if (n == 0) return
+        call hold_value(content, group, 'shifts_mm', of_shift, maxval(abs(case%shifts)))
         if (size(case%shift_loads) > 0) then
             call need_as_many(content, group, 'load_N', size(case%shift_loads), n)
             if (case%load_is_vertical) call refuse(content, group, 'load_N', &

@@ -3,9 +3,12 @@ module faststrip_command_case_friction
     use faststrip_base_friction, only: friction_t, friction_constant, friction_kind, &
                                        friction_kind_names
     use faststrip_base_kinds, only: wp
+    use faststrip_base_plausible, only: quantities, likely_mistake, of_friction, &
+                                        of_contact_angle, of_slip_speed
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: lower_case
     use faststrip_command_case_values, only: unset, need_finite, need_positive
+    use faststrip_command_doubts, only: hold_value
     use faststrip_command_methods, only: one_of, word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, find_group, sets, refuse
     use faststrip_command_namelist_values, only: reading_t, next_lines, refuse_values, name_length
@@ -81,16 +84,32 @@ contains
         if (mu <= 0.0_wp) call refuse(content, group, 'mu_flange', &
                                       'must not be given with &material mu 0', &
                                       number_text(mu_flange))
+        call hold_value(content, group, 'mu_flange', of_friction, mu_flange)
         if (tread_angle_rad < 0.0_wp) call refuse(content, group, 'tread_angle_rad', &
                                                   'must not be negative', &
                                                   number_text(tread_angle_rad))
         if (flange_angle_rad <= tread_angle_rad) &
             call refuse(content, group, 'flange_angle_rad', 'must be above tread_angle_rad', &
                         number_text(flange_angle_rad))
+        call need_angle(content, group, 'tread_angle_rad', tread_angle_rad)
+        call need_angle(content, group, 'flange_angle_rad', flange_angle_rad)
         law%flange_share = mu_flange/mu
         law%tread_angle = tread_angle_rad
         law%flange_angle = flange_angle_rad
     end subroutine read_friction_group
+
+    !> A contact angle lies within a right one.
+    subroutine need_angle(content, group, name, angle)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: angle ! rad
+
+        if (angle > quantities(of_contact_angle)%possible) &
+            call refuse(content, group, name, 'must be at most ' &
+                        // trim(number_text(quantities(of_contact_angle)%possible)), &
+                        trim(number_text(angle)) // likely_mistake(of_contact_angle, angle))
+    end subroutine need_angle
 
     !> What falling friction needs.
     subroutine take_falling(content, group, mu, mu_kinetic, half_slip_speed, kind, law)
@@ -105,6 +124,7 @@ contains
                                          'must be at most &material mu, the static value', &
                                          number_text(mu_kinetic))
         call need_positive(content, group, 'half_slip_speed_mm_s', half_slip_speed)
+        call hold_value(content, group, 'half_slip_speed_mm_s', of_slip_speed, half_slip_speed)
         if (law%speed <= 0.0_wp) &
             call refuse(content, group, 'kind', 'must be constant without &motion speed_mm_s', &
                         kind)

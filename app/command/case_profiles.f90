@@ -1,7 +1,9 @@
 !> The profiles of a case file: the standard ones by name, others from files.
 module faststrip_command_case_profiles
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text
+    use faststrip_base_plausible, only: doubt_about, of_radius, of_gauge, of_tread_line, &
+                                        of_gauge_depth, of_inclination, of_profile_width
+    use faststrip_base_status, only: status_t, is_error, message_length, number_text
     use faststrip_base_text, only: integer_text, lower_case
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           make_curve_profile, unset_inclination
@@ -11,7 +13,8 @@ module faststrip_command_case_profiles
     use faststrip_geometry_touchable, only: touchable_t, touchable_words
     use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t, &
                                        length_unit, body_wheel, body_rail
-    use faststrip_command_console, only: fail_on_error, printable
+    use faststrip_command_console, only: fail_on_error, printable, hold
+    use faststrip_command_doubts, only: hold_value
     use faststrip_command_files, only: take_input
     use faststrip_command_methods, only: word_length
     use faststrip_command_namelist, only: namelist_file_t, group_t, find_group, sets, refuse
@@ -21,7 +24,7 @@ module faststrip_command_case_profiles
     private
 
     public :: read_wheel_group, read_rail_group, complete_wheelset, shape_t, left_wheel_t, beside
-    public :: path_length
+    public :: path_length, hold_width
 
     integer, parameter :: path_length = 512
     ! Of a file with both sides.
@@ -114,6 +117,10 @@ contains
         call need_positive(content, group, 'radius_left_mm', radius_left_mm)
         call need_positive(content, group, 'back_spacing_mm', back_spacing_mm)
         call need_positive(content, group, 'tread_line_mm', tread_line_mm)
+        call hold_value(content, group, 'radius_mm', of_radius, radius_mm)
+        call hold_value(content, group, 'radius_left_mm', of_radius, radius_left_mm)
+        call hold_value(content, group, 'back_spacing_mm', of_gauge, back_spacing_mm)
+        call hold_value(content, group, 'tread_line_mm', of_tread_line, tread_line_mm)
         ! Where it is not said it follows from the track.
         if (.not. sets(content, group, 'back_spacing_mm')) back_spacing_mm = 0.0_wp
         wheelset = wheelset_t(back_spacing_mm, tread_line_mm, radius_mm)
@@ -204,6 +211,10 @@ contains
         if (.not. required) return
         call need_positive(content, group, 'gauge_mm', gauge_mm)
         call need_positive(content, group, 'gauge_depth_mm', gauge_depth_mm)
+        call hold_value(content, group, 'gauge_mm', of_gauge, gauge_mm)
+        call hold_value(content, group, 'gauge_depth_mm', of_gauge_depth, gauge_depth_mm)
+        call hold_value(content, group, 'rail_distance_mm', of_gauge, rail_distance_mm)
+        call hold_value(content, group, 'cant', of_inclination, cant)
         track = track_t(gauge_mm, gauge_depth_mm)
         if (sets(content, group, 'rail_distance_mm')) then
             call need_positive(content, group, 'rail_distance_mm', rail_distance_mm)
@@ -281,6 +292,19 @@ contains
         call refuse(content, group, 'back_spacing_mm', &
                     trim(status%message(index(status%message, 'must'):)), '')
     end subroutine complete_wheelset
+
+    !> Keep words about a profile that is too wide or too narrow for the wheel.
+    subroutine hold_width(content, shape, radius)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(shape_t), intent(in) :: shape           !! a wheel or a rail
+        real(wp), intent(in) :: radius               !! rolling radius, mm
+
+        character(len=message_length) :: words
+
+        words = doubt_about(of_profile_width, 'the width of ' // printable(shape%name), &
+                            shape%profile%y_last - shape%profile%y_first, radius)
+        if (words /= '') call hold(trim(words) // ' (' // content%file // ')')
+    end subroutine hold_width
 
     !> What knows one wheel takes no name of the other side.
     subroutine refuse_left(content, group, names)

@@ -2,7 +2,7 @@
 module faststrip_command_case_wheelset
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, &
-                                               complete_wheelset, shape_t, left_wheel_t
+                                               complete_wheelset, shape_t, left_wheel_t, hold_width
     use faststrip_command_case_values, only: case_groups
     use faststrip_command_files, only: take_input
     use faststrip_command_namelist, only: namelist_file_t, read_namelist_file
@@ -36,5 +36,9 @@ contains
         call read_wheel_group(content, .true., case%wheelset, case%right_wheel, case%left_wheel)
         call read_rail_group(content, .true., case%track, case%right_rail, case%left_rail)
         call complete_wheelset(content, case%track, case%wheelset)
+        call hold_width(content, case%right_wheel, case%wheelset%radius)
+        call hold_width(content, case%left_wheel%shape_t, case%wheelset%radius)
+        call hold_width(content, case%right_rail, case%wheelset%radius)
+        call hold_width(content, case%left_rail, case%wheelset%radius)
     end subroutine read_case_wheelset
 end module faststrip_command_case_wheelset

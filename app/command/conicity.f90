@@ -5,15 +5,17 @@ module faststrip_command_conicity
                                      st_out_of_range, st_not_increasing, st_no_wave
     use faststrip_base_text, only: integer_text, parse_real, trim_blanks, set_place_status
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
-                                   cell_text, column_index, open_csv, put_comment, put_header, &
-                                   put_cell, end_row, close_csv
+                                   cell_text, column_index, put_comment, put_header, put_cell, &
+                                   end_row
     use faststrip_geometry_conicity, only: conicity_t, find_conicity, find_equilibrium, &
                                            largest_amplitude
-    use faststrip_command_console, only: fail, fail_on_error, usage_error, put_origin, &
+    use faststrip_command_console, only: fail, fail_on_error, usage_error, put_origin, tell_held, &
                                          exit_bad_input
     use faststrip_command_case_wheelset, only: case_wheelset_t, read_case_wheelset
     use faststrip_command_contact_functions, only: tabulate_functions, write_functions, put_wheelset
     use faststrip_geometry_contact_functions, only: contact_functions_t
+    use faststrip_command_people, only: open_result, close_result
+    use faststrip_command_plot, only: plot_option, prepare_plot, plot_file, draw_plot
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_word
     implicit none
@@ -33,6 +35,10 @@ module faststrip_command_conicity
     ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
     ! Tuned [mm]. Origin: chosen.
     real(wp), parameter :: standard_y_max = 10.0_wp
+
+    !> What people are shown.
+    character(len=*), parameter :: shown(*) = [character(len=19) :: &
+        'amplitude_mm', 'tan_gamma_e', 'nonlinearity_per_mm', 'status']
 
     !> What was found of the amplitudes.
     type :: values_t
@@ -80,9 +86,11 @@ contains
             option_t('--functions', 'FILE', 'of a case: write delta r, radii, contact angles,' &
                      // new_line('a') // 'roll and contact places over the shift there', &
                      writes=.true.), &
+            plot_option, &
             option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
                      // new_line('a') // 'FILE.nc', writes=.true.)]
         call parse_command(command, 0, 1)
+        call prepare_plot(command)
         method = option_word(command, '--method', 'klingel', &
                              [character(len=10) :: 'klingel', 'regression'])
         call check_sources(command)
@@ -120,8 +128,11 @@ contains
         call find_values(path, y, delta_r, amplitudes, values)
         if (given(command, '--functions')) &
             call write_functions(option_text(command, '--functions', '-'), case, functions)
-        call write_values(option_text(command, '-o', '-'), method, amplitudes, values, from_table, &
+        if (given(command, '--plot') .and. .not. from_table) &
+            call write_functions(plot_file('functions.csv'), case, functions)
+        call write_values(command, method, amplitudes, values, from_table, &
                           case)
+        call draw_plot(command)
     end subroutine run_conicity
 
     !> Either a case or a table, and with a table nothing that a case is asked for.
@@ -263,8 +274,9 @@ contains
         end do
     end subroutine find_values
 
-    subroutine write_values(output, method, amplitudes, values, from_table, case)
-        character(len=*), intent(in) :: output, method
+    subroutine write_values(command, method, amplitudes, values, from_table, case)
+        type(command_t), intent(in) :: command
+        character(len=*), intent(in) :: method
         real(wp), intent(in) :: amplitudes(:)
         type(values_t), intent(in) :: values
         logical, intent(in) :: from_table
@@ -274,7 +286,7 @@ contains
         type(status_t) :: status
         integer :: i, taken
 
-        call open_csv(writer, output, status)
+        call open_result(command, writer, status)
         call fail_on_error(status)
         call put_origin(writer)
         call put_comment(writer, 'equivalent conicity, EN 15302:2008+A1:2010')
@@ -282,6 +294,7 @@ contains
                          trim(number_text(values%y_equilibrium)) // ' mm, where delta r ' // &
                          trim(merge('falls', 'rises', values%falls)))
         if (.not. from_table) call put_wheelset(writer, case)
+        call tell_held(writer)
         call put_header(writer, [character(len=19) :: 'amplitude_mm', 'tan_gamma_e', 'y_min_mm', &
                                  'y_max_mm', 'regression', 'nonlinearity_per_mm', 'method', &
                                  'status'])
@@ -300,7 +313,7 @@ contains
                 call end_row(writer)
             end associate
         end do
-        call close_csv(writer, status)
+        call close_result(command, writer, shown, status)
         call fail_on_error(status)
 
     contains

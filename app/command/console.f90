@@ -15,6 +15,7 @@ module faststrip_command_console
     private
 
     public :: fail, fail_on_error, concerns_gap, usage_error, note, say, progress
+    public :: hold, tell_held
     public :: name_program, program_name, version_text, put_origin, printable
     public :: exit_bad_input, exit_usage, exit_no_convergence
 
@@ -24,6 +25,14 @@ module faststrip_command_console
 
     ! Which of the two programs speaks.
     character(len=16) :: speaker = 'faststrip'
+
+    !> What seems wrong in the input, though it can be solved: told with the result, in its comments
+    !> too, or with the error that it may be the cause of.
+    type :: held_t
+        character(len=:), allocatable :: text
+    end type held_t
+
+    type(held_t), allocatable :: held(:)
 
 contains
 
@@ -47,9 +56,50 @@ contains
         integer, intent(in) :: code          !! exit code
         character(len=*), intent(in) :: text !! one line
 
-        call note(text)
+        character(len=:), allocatable :: line
+        integer :: i
+
+        line = text
+        if (allocated(held)) then
+            do i = 1, size(held)
+                line = line // '; ' // held(i)%text
+            end do
+        end if
+        call note(line)
         stop code, quiet=.true.
     end subroutine fail
+
+    !> Keep a line for `tell_held`; one that is kept already is not kept twice.
+    subroutine hold(text)
+        character(len=*), intent(in) :: text !! one line
+
+        type(held_t), allocatable :: longer(:)
+        integer :: i, n
+
+        n = 0
+        if (allocated(held)) n = size(held)
+        do i = 1, n
+            if (held(i)%text == text) return
+        end do
+        allocate (longer(n + 1))
+        if (n > 0) longer(:n) = held
+        longer(n + 1)%text = text
+        call move_alloc(longer, held)
+    end subroutine hold
+
+    !> Say what was kept: a line each on stderr, and in the comments of a file.
+    subroutine tell_held(writer)
+        type(csv_writer_t), intent(inout), optional :: writer !! an open file, before its header
+
+        integer :: i
+
+        if (.not. allocated(held)) return
+        do i = 1, size(held)
+            call note(held(i)%text)
+            if (present(writer)) call put_comment(writer, printable(held(i)%text))
+        end do
+        deallocate (held)
+    end subroutine tell_held
 
     !> End the program if a status is an error: exit code 3 for no convergence, else 1.
     subroutine fail_on_error(status, context)

@@ -1,12 +1,14 @@
 !> `faststrip contact`: one contact of a case file.
 module faststrip_command_contact
     use faststrip_base_status, only: status_t, st_ok
-    use faststrip_files_csv, only: csv_writer_t
+    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv
     use faststrip_command_console, only: fail_on_error, concerns_gap, note, usage_error
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_number
     use faststrip_command_outputs, only: open_outputs, close_outputs
+    use faststrip_command_plot, only: plot_option, prepare_plot, plot_file
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_file, only: case_t, read_case
+    use faststrip_command_case_doubts, only: hold_case_doubts, hold_pressure
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
     use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
@@ -20,6 +22,12 @@ module faststrip_command_contact
     !> The options that name files to write.
     character(len=*), parameter :: outputs(5) = [character(len=10) :: &
         '-o', '--strips', '--fields', '--gap', '--profiles']
+
+    !> What people are shown.
+    character(len=*), parameter :: shown(*) = [character(len=15) :: &
+        'case', 'yw_mm', 'normal', 'tangential', 'status', 'N_N', 'gamma_rad', 'cksi', 'ceta', &
+        'cphi_rad_per_mm', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'Fx_N', 'Fy_N', 'Mz_Nmm', &
+        'stick_fraction', 'est_err_pmax', 'est_err_Fx', 'est_err_Fy']
 
 contains
 
@@ -52,10 +60,12 @@ contains
                      writes=.true.), &
             option_t('--profiles', 'FILE', 'write wheel and rail in contact there', &
                      writes=.true.), &
+            plot_option, &
             option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
             method_options]
         command%about = command%about // method_notes()
         call parse_command(command, 1)
+        call prepare_plot(command)
         call read_case(command%arguments(1)%text, case)
         call take_method_options(command, case%numerics, case)
         if (len(case%gap_file) > 0) then
@@ -67,6 +77,7 @@ contains
         call prepare_case(case, option_number(command, '--shift', case%shift), prepared, status)
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
+        call hold_case_doubts(case, prepared, command%arguments(1)%text)
         call make_solver(case%numerics, given(command, '--fields'), solver, status, &
                          with_strip_forces=given(command, '--strips'))
         call fail_on_error(status)
@@ -74,6 +85,7 @@ contains
         if (concerns_gap(status) .and. len(case%gap_file) > 0) &
             call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
+        call hold_pressure(outcome%normal%pmax, command%arguments(1)%text)
         call judge_spacing(case, prepared, spacing)
         call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
@@ -89,7 +101,31 @@ contains
         if (given(command, '--gap')) call put_gap(writer(4), solver%case%gap, &
                                                   case%numerics%smoothing_um)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
-        call close_outputs(command, outputs, writer)
+        if (given(command, '--plot')) &
+            call keep_files(case, prepared, solver)
+        call close_outputs(command, outputs, writer, shown)
         call release_solver(solver)
     end subroutine run_contact
+
+    !> What a picture is drawn from, beside the result.
+    subroutine keep_files(case, prepared, solver)
+        type(case_t), intent(in) :: case
+        type(prepared_case_t), intent(in) :: prepared
+        type(solver_t), intent(in) :: solver
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+
+        call open_csv(writer, plot_file('strips.csv'), status)
+        call fail_on_error(status)
+        call put_strips(writer, case%name, solver%workspace%strips, solver%strip_forces, &
+                        case%numerics%wear, prepared%rigid_contact%radius)
+        call close_csv(writer, status)
+        call fail_on_error(status)
+        call open_csv(writer, plot_file('gap.csv'), status)
+        call fail_on_error(status)
+        call put_gap(writer, solver%case%gap, case%numerics%smoothing_um)
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine keep_files
 end module faststrip_command_contact

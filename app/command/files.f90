@@ -10,8 +10,8 @@ module faststrip_command_files
                                    most_temporaries
     use faststrip_command_console, only: fail, usage_error, exit_bad_input, exit_usage
     use faststrip_command_system, only: identity_t, identify, is_fed, keep_in_mind, name_kind, &
-                                        remove_leftovers, kind_none, kind_file, kind_folder, &
-                                        kind_pipe
+                                        remove_leftovers, make_folders, kind_none, kind_file, &
+                                        kind_folder, kind_pipe
     implicit none
     private
 
@@ -138,6 +138,8 @@ contains
         type(trouble_t) :: trouble
         integer :: i
 
+        ! Before the name is looked up, so that two outputs in a new folder are told apart.
+        if (index(path, '/dev/') /= 1) call make_folders(path)
         output = used_of(path, option)
         if (path == '-') output = used_of('/dev/stdout', option)
         select case (output%identity%kind)

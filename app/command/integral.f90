@@ -6,13 +6,14 @@ module faststrip_command_integral
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
                                    column_index, cell_number, cell_integer, refuse_misspelt, &
-                                   open_csv, put_header, put_cell, end_row, close_csv, abort_csv
+                                   put_header, put_cell, end_row
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_tables_quadrature, only: quadrature_influence
     use faststrip_command_console, only: fail, fail_on_error, usage_error, put_origin, &
                                          exit_bad_input
+    use faststrip_command_people, only: open_result, close_result
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number, option_integer, option_word
     implicit none
@@ -76,7 +77,7 @@ contains
             end if
             call fail_on_error(status)
         end do
-        call write_values(option_text(command, '-o', '-'), n, b, x, method, value)
+        call write_values(command, n, b, x, method, value)
     end subroutine run_integral
 
     subroutine take_table(table, n, b, x)
@@ -146,19 +147,22 @@ contains
         end if
     end subroutine evaluate
 
-    subroutine write_values(path, n, b, x, method, value)
-        character(len=*), intent(in) :: path, method
+    subroutine write_values(command, n, b, x, method, value)
+        type(command_t), intent(in) :: command
+        character(len=*), intent(in) :: method
         integer, intent(in) :: n(:)
         real(wp), intent(in) :: b(:), x(:), value(:)
 
+        character(len=*), parameter :: columns(*) = &
+            [character(len=6) :: 'n', 'b', 'X', 'method', 'value']
         type(csv_writer_t) :: writer
         type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, path, status)
+        call open_result(command, writer, status)
         call fail_on_error(status)
         call put_origin(writer)
-        call put_header(writer, [character(len=6) :: 'n', 'b', 'X', 'method', 'value'])
+        call put_header(writer, columns)
         do i = 1, size(n)
             call put_cell(writer, n(i))
             call put_cell(writer, b(i))
@@ -167,7 +171,7 @@ contains
             call put_cell(writer, value(i))
             call end_row(writer)
         end do
-        call close_csv(writer, status)
+        call close_result(command, writer, columns, status)
         call fail_on_error(status)
     end subroutine write_values
 end module faststrip_command_integral

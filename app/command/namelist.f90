@@ -11,7 +11,7 @@ module faststrip_command_namelist
     private
 
     public :: namelist_file_t, group_t, read_namelist_file, find_group, group_text, line_length
-    public :: sets, refuse, refuse_line, word_letters
+    public :: sets, place_setting, refuse, refuse_line, word_letters
 
     !> Longest line of a case file, characters.
     integer, parameter :: line_length = 1024
@@ -178,6 +178,20 @@ contains
             if (sets_name(line, lower_case(name))) at = i
         end do
     end function line_setting
+
+    !> Where a group sets a name, as `FILE:LINE`; empty if it does not.
+    function place_setting(content, group, name) result(place)
+        type(namelist_file_t), intent(in) :: content !! a case file
+        type(group_t), intent(in) :: group           !! a group of it
+        character(len=*), intent(in) :: name         !! name in the group
+        character(len=:), allocatable :: place
+
+        integer :: line
+
+        line = line_setting(content, group, name)
+        place = ''
+        if (line > 0) place = content%file // ':' // integer_text(line)
+    end function place_setting
 
     !> End the program with an error about a name of a group; the line is the one that sets it.
     subroutine refuse(content, group, name, what, value)

@@ -11,7 +11,8 @@ module faststrip_command_options
 
     public :: command_t, option_t, argument_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
-        option_text, option_number, option_integer, option_word, refuse_value, given_options
+        option_text, option_number, option_integer, option_word, refuse_value, given_options, &
+        has_option
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
@@ -209,6 +210,14 @@ contains
         left = '--help'
         call say('  ' // left(:34) // 'this text')
     end subroutine print_help
+
+    !> Does the subcommand know an option?
+    pure logical function has_option(command, name)
+        type(command_t), intent(in) :: command !! a parsed command
+        character(len=*), intent(in) :: name   !! with its dashes
+
+        has_option = any(command%options%name == name)
+    end function has_option
 
     !> Was the option on the command line?
     logical function given(command, name)

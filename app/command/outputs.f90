@@ -3,7 +3,9 @@ module faststrip_command_outputs
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv, abort_csv
     use faststrip_command_console, only: fail_on_error
-    use faststrip_command_options, only: command_t, given, option_text
+    use faststrip_command_options, only: command_t, given, option_text, has_option
+    use faststrip_command_people, only: open_result, close_result
+    use faststrip_command_plot, only: draw_plot
     implicit none
     private
 
@@ -12,7 +14,8 @@ module faststrip_command_outputs
 contains
 
     !> Open all files before anything is written: if one cannot be, the others stay as they were.
-    !> The first option's file is always written, to stdout if nothing else is said.
+    !> The first option's file is always written: to stdout, for people or as CSV, if nothing else is
+    !> said.
     subroutine open_outputs(command, names, writer)
         type(command_t), intent(in) :: command         !! parsed
         character(len=*), intent(in) :: names(:)       !! options that name files to write
@@ -23,25 +26,35 @@ contains
 
         do i = 1, size(names)
             if (.not. is_wanted(command, names, i)) cycle
-            call open_csv(writer(i), option_text(command, trim(names(i)), '-'), status)
+            if (i == 1) then
+                call open_result(command, writer(i), status)
+            else
+                call open_csv(writer(i), option_text(command, trim(names(i)), '-'), status)
+            end if
             call drop_on_error(writer, status)
         end do
     end subroutine open_outputs
 
-    !> Finish all files.
-    subroutine close_outputs(command, names, writer)
+    !> Finish all files, and draw what was asked for.
+    subroutine close_outputs(command, names, writer, columns)
         type(command_t), intent(in) :: command          !! parsed
         character(len=*), intent(in) :: names(:)        !! as they were opened
         type(csv_writer_t), intent(inout) :: writer(:)  !! opened
+        character(len=*), intent(in) :: columns(:)      !! of the first that people are shown
 
         type(status_t) :: status
         integer :: i
 
         do i = size(names), 1, -1
             if (.not. is_wanted(command, names, i)) cycle
-            call close_csv(writer(i), status)
+            if (i == 1) then
+                call close_result(command, writer(i), columns, status)
+            else
+                call close_csv(writer(i), status)
+            end if
             call drop_on_error(writer, status)
         end do
+        if (has_option(command, '--plot')) call draw_plot(command)
     end subroutine close_outputs
 
     logical function is_wanted(command, names, i)

@@ -18,7 +18,7 @@ module faststrip_command_prepared_case
     implicit none
     private
 
-    public :: prepared_case_t, prepare_case, put_gap, put_profiles
+    public :: prepared_case_t, prepare_case, take_lists, put_gap, put_profiles
 
     !> Shifts nearer to each other than this are the same, mm.
     real(wp), parameter :: same_shift = 1.0e-9_wp
@@ -66,8 +66,8 @@ contains
 
     !> Load and creepages that the sweep of the case lists for this shift.
     subroutine take_lists(case, prepared)
-        type(case_t), intent(in) :: case
-        type(prepared_case_t), intent(inout) :: prepared
+        type(case_t), intent(in) :: case                 !! that was read
+        type(prepared_case_t), intent(inout) :: prepared !! with its shift
 
         integer :: i
 

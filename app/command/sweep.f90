@@ -2,14 +2,19 @@
 module faststrip_command_sweep
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv
-    use faststrip_command_console, only: fail, fail_on_error, note, progress, exit_bad_input
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text
+    use faststrip_files_csv, only: csv_writer_t
+    use faststrip_command_console, only: fail, fail_on_error, note, progress, tell_held, &
+                                         exit_bad_input
+    use faststrip_command_options, only: command_t, option_t, parse_command, given
+    use faststrip_command_people, only: open_result, close_result
+    use faststrip_command_plot, only: plot_option, prepare_plot, draw_plot
     use faststrip_contact_methods, only: normal_strip, normal_hertz, tangential_faststrip, &
                                          tangential_fastsim, normal_method_name, &
                                          tangential_method_name
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
+    use faststrip_command_case_doubts, only: hold_sweep_doubts, count_pressure
+    use faststrip_command_doubts, only: tally_t, hold_tally
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
@@ -26,6 +31,11 @@ module faststrip_command_sweep
         [normal_strip, tangential_faststrip, normal_strip, tangential_fastsim, &
          normal_hertz, tangential_fastsim], [2, 3])
 
+    !> What people are shown.
+    character(len=*), parameter :: shown(*) = [character(len=15) :: &
+        'yw_mm', 'normal', 'tangential', 'status', 'N_N', 'gamma_rad', 'pmax_MPa', 'area_mm2', &
+        'Fx_N', 'Fy_N', 'Mz_Nmm']
+
 contains
 
     !> Run the subcommand from the command line.
@@ -39,6 +49,7 @@ contains
         type(point_spacing_t) :: spacing
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
+        type(tally_t) :: pressures
         integer :: i, m, n_failed, n_solvers
 
         command%name = 'sweep'
@@ -52,9 +63,10 @@ contains
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
                      // new_line('a') // 'FILE.nc', writes=.true.), &
-            method_options]
+            plot_option, method_options]
         command%about = command%about // method_notes()
         call parse_command(command, 1)
+        call prepare_plot(command)
         call read_case(command%arguments(1)%text, case)
         call take_method_options(command, case%numerics, case)
         if (size(case%shifts) == 0) &
@@ -78,7 +90,8 @@ contains
             call new_solver(numerics, own(m), status)
             call fail_on_error(status)
         end do
-        call open_csv(writer, option_text(command, '-o', '-'), written)
+        call hold_sweep_doubts(case, command%arguments(1)%text)
+        call open_result(command, writer, written)
         call fail_on_error(written)
         call put_sweep_header(writer, case)
         n_failed = 0
@@ -93,6 +106,8 @@ contains
                     call solve(own(m)%solver, prepared, outcome, status)
                 if (.not. is_error(status)) call name_spacing(spacing, status)
                 call put_sweep_row(writer, case, own(m)%solver%numerics, prepared, outcome, status)
+                if (.not. is_error(status)) &
+                    call count_pressure(pressures, outcome%normal%pmax, 0)
                 if (.not. is_error(status)) &
                     call note_wear(outcome, 'shift ' // trim(number_text(case%shifts(i))) &
                                    // ' mm: ')
@@ -109,8 +124,11 @@ contains
         do m = 1, n_solvers
             call free_solver(own(m))
         end do
-        call close_csv(writer, written)
+        call close_result(command, writer, shown, written)
         call fail_on_error(written)
+        call draw_plot(command)
+        call hold_tally(pressures, command%arguments(1)%text)
+        call tell_held()
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(size(case%shifts)*n_solvers) &
                                     // ' contacts failed')

@@ -2,7 +2,7 @@
 module faststrip_command_sweep_csv
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
-    use faststrip_command_console, only: put_origin, note
+    use faststrip_command_console, only: put_origin, note, tell_held
     use faststrip_command_case_file, only: case_t
     use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
                                          tangential_method_name
@@ -35,6 +35,7 @@ contains
             call tell(case%rail%words)
         end if
         call put_notes(writer, case%numerics)
+        call tell_held(writer)
         call put_header(writer, [case_columns, result_columns])
 
     contains

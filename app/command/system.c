@@ -8,11 +8,13 @@
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -398,4 +400,83 @@ void faststrip_become(const char *words, int n)
     }
     execvp(list[0], list);
     free(list);
+}
+
+/* Run another program to its end: n words, each with its closing zero, the program first. Its exit
+ * code; -1 if there is no such program or it was killed. */
+int faststrip_run(const char *words, int n, int is_silent)
+{
+    extern char **environ;
+    char **list = calloc((size_t)n + 1, sizeof *list);
+    posix_spawn_file_actions_t actions;
+    pid_t process;
+    int i, status = 0, code = -1;
+
+    if (!list || posix_spawn_file_actions_init(&actions) != 0) {
+        free(list);
+        return -1;
+    }
+    for (i = 0; i < n; i++) {
+        list[i] = (char *)words;
+        words += strlen(words) + 1;
+    }
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (is_silent)
+        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    if (posix_spawnp(&process, list[0], &actions, NULL, list, environ) == 0) {
+        while ((i = waitpid(process, &status, 0)) < 0 && errno == EINTR)
+            ;
+        if (i == process && WIFEXITED(status))
+            code = WEXITSTATUS(status);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    free(list);
+    return code;
+}
+
+/* Do people look at the standard output? */
+int faststrip_is_terminal(void)
+{
+    return isatty(STDOUT_FILENO);
+}
+
+/* Make the folders of a file that are not there, from the top down. */
+void faststrip_make_folders(const char *path)
+{
+    char folder[PATH_MAX];
+    size_t i;
+
+    for (i = 0; path[i] && i < sizeof folder - 1; i++) {
+        folder[i] = path[i];
+        folder[i + 1] = '\0';
+        if (path[i] == '/' && i > 0 && path[i - 1] != '/' && mkdir(folder, 0777) != 0
+            && errno != EEXIST)
+            return;
+    }
+}
+
+/* A new folder that nobody else can enter; the length of its name, 0 if there is none. */
+int faststrip_new_folder(char *out, int capacity)
+{
+    const char *where = getenv("TMPDIR");
+    int n = snprintf(out, (size_t)capacity, "%s/faststrip_XXXXXX", where && *where ? where : "/tmp");
+
+    return n > 0 && n < capacity && mkdtemp(out) ? n : 0;
+}
+
+/* Remove a folder and the files in it. */
+void faststrip_remove_folder(const char *folder)
+{
+    DIR *stream = opendir(folder);
+    struct dirent *entry;
+    char path[2 * PATH_MAX];
+
+    if (!stream)
+        return;
+    while ((entry = readdir(stream)))
+        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < (int)sizeof path)
+            unlink(path);
+    closedir(stream);
+    rmdir(folder);
 }

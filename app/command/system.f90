@@ -7,7 +7,8 @@ module faststrip_command_system
 
     public :: file_kind, name_kind, identity_t, identify, resolved, is_fed, keep_in_mind, forget_file
     public :: remove_leftovers, start_signals, set_progress, set_detail, set_speaker, is_printed
-    public :: be_quiet, use_one_thread_each, become
+    public :: be_quiet, use_one_thread_each, become, run_program, program_folder
+    public :: is_terminal, make_folders, new_folder, remove_folder
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     ! Kinds of files, as `system.c` numbers them.
@@ -34,6 +35,35 @@ module faststrip_command_system
             character(kind=c_char), intent(in) :: words(*)
             integer(c_int), value :: n
         end subroutine c_become
+
+        function c_run(words, n, quiet) bind(c, name='faststrip_run') result(code)
+            import :: c_char, c_int
+            character(kind=c_char), intent(in) :: words(*)
+            integer(c_int), value :: n, quiet
+            integer(c_int) :: code
+        end function c_run
+
+        function c_is_terminal() bind(c, name='faststrip_is_terminal') result(answer)
+            import :: c_int
+            integer(c_int) :: answer
+        end function c_is_terminal
+
+        subroutine c_make_folders(path) bind(c, name='faststrip_make_folders')
+            import :: c_char
+            character(kind=c_char), intent(in) :: path(*)
+        end subroutine c_make_folders
+
+        function c_new_folder(out, capacity) bind(c, name='faststrip_new_folder') result(length)
+            import :: c_char, c_int
+            character(kind=c_char), intent(out) :: out(*)
+            integer(c_int), value :: capacity
+            integer(c_int) :: length
+        end function c_new_folder
+
+        subroutine c_remove_folder(path) bind(c, name='faststrip_remove_folder')
+            import :: c_char
+            character(kind=c_char), intent(in) :: path(*)
+        end subroutine c_remove_folder
 
         function c_identify(path, numbers) bind(c, name='faststrip_identify') result(kind)
             import :: c_char, c_int, c_long_long
@@ -129,6 +159,56 @@ contains
         end do
         call c_become(words, int(max(1, command_argument_count()), c_int))
     end subroutine become
+
+    !> Run another program to its end, and give its exit code; below 0 if there is none of the name.
+    integer function run_program(words, n, is_quiet) result(code)
+        character(len=*), intent(in) :: words !! each with its closing zero, the program first
+        integer, intent(in) :: n              !! how many
+        logical, intent(in) :: is_quiet       !! is what it says thrown away?
+
+        code = c_run(words, int(n, c_int), merge(1_c_int, 0_c_int, is_quiet))
+    end function run_program
+
+    !> The folder of this program, without links.
+    function program_folder() result(folder)
+        character(len=:), allocatable :: folder
+
+        call resolve('/proc/self/exe', folder)
+        folder = folder(:max(index(folder, '/', back=.true.) - 1, 0))
+    end function program_folder
+
+    !> Do people look at the standard output?
+    logical function is_terminal()
+        is_terminal = c_is_terminal() /= 0
+    end function is_terminal
+
+    !> Make the folders of a file that are not there. Whoever opens the file says if it failed.
+    subroutine make_folders(path)
+        character(len=*), intent(in) :: path !! of the file
+
+        call c_make_folders(path // c_null_char)
+    end subroutine make_folders
+
+    !> A new folder for files that are soon gone; empty if there is none to be had.
+    function new_folder() result(path)
+        character(len=:), allocatable :: path
+
+        character(kind=c_char) :: out(longest_path)
+        integer :: i, length
+
+        length = c_new_folder(out, int(size(out), c_int))
+        allocate (character(len=length) :: path)
+        do i = 1, length
+            path(i:i) = out(i)
+        end do
+    end function new_folder
+
+    !> Remove a folder and the files in it.
+    subroutine remove_folder(path)
+        character(len=*), intent(in) :: path !! of `new_folder`
+
+        call c_remove_folder(path // c_null_char)
+    end subroutine remove_folder
 
     !> What a path leads to.
     integer function file_kind(path)

@@ -4,22 +4,27 @@ module faststrip_command_wheelset
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text, open_csv, &
+                                   close_csv
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_result_t, &
                                         side_right, side_left
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
-    use faststrip_command_console, only: fail, fail_on_error, note, progress, usage_error, &
-                                         exit_bad_input
+    use faststrip_command_console, only: fail, fail_on_error, note, progress, tell_held, &
+                                         usage_error, exit_bad_input
     use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
                                          option_number
+    use faststrip_command_plot, only: plot_option, prepare_plot, plot_file
     use faststrip_command_outputs, only: open_outputs, close_outputs
     use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, take_wear_law, &
                                               find_wear_figures
     use faststrip_command_solver, only: name_yield
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
+    use faststrip_command_case_doubts, only: count_pressure
+    use faststrip_command_doubts, only: tally_t, hold_tally
+    use faststrip_command_wheelset_doubts, only: hold_wheelset_doubts
     use faststrip_command_wheelset_jump, only: is_jump
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
                                               put_strips_header, put_wheel_strips
@@ -36,6 +41,11 @@ module faststrip_command_wheelset
         '-o', '--strips', '--profiles']
     character(len=*), parameter :: side_names(2) = [character(len=5) :: 'right', 'left']
 
+    !> What people are shown.
+    character(len=*), parameter :: shown(*) = [character(len=17) :: &
+        'case', 'side', 'contact', 'status', 'contact_angle_rad', 'N_N', 'pmax_MPa', 'area_mm2', &
+        'Fx_N', 'Fs_N', 'Mz_Nmm']
+
     !> Name of the state of a case file.
     character(len=*), parameter :: name_of_case = 'case'
 
@@ -50,8 +60,11 @@ module faststrip_command_wheelset
         real(wp) :: yield_mpa = 0.0_wp                   !! pmax above is named, MPa; 0: no limit
         logical :: wants_strips = .false.
         logical :: wants_profiles = .false.
+        logical :: is_drawn = .false.                    !! is there to be a picture?
+        type(csv_writer_t) :: drawn                      !! profiles that it is drawn from
         logical :: has_profiles = .false.                !! are there any?
         character(len=:), allocatable :: profiles_of     !! state they are of; empty: not known yet
+        type(tally_t) :: pressures                       !! beyond all steel
         real(wp) :: beside = 0.0_wp                      !! how far away jumps count, mm; 0: not
         type(csv_writer_t) :: writer(size(outputs))
     end type run_t
@@ -94,6 +107,7 @@ contains
                      'places', writes=.true.), &
             option_t('--profiles', 'FILE', 'write wheels and rails in the track there, of one ' // &
                      'state', writes=.true.), &
+            plot_option, &
             option_t('--profiles-of', 'CASE', 'of the rows of this name (default: the first ' // &
                      'with a result)'), &
             option_t('--near-jumps', 'UM', 'list solutions UM to the left and right where ' // &
@@ -103,11 +117,13 @@ contains
             option_t('--wear', 'FILE.csv', 'wear law, for wear_ug_per_m; faststrip, ' // &
                      'faststrip-plain', reads=.true.)]
         call parse_command(command, 1)
+        call prepare_plot(command)
         call read_wheelset_case(command%arguments(1)%text, case, run%model)
         if (given(command, '--states') .eqv. case%has_state) &
             call usage_error('the states are needed, from --states or from the group &state of ' &
                              // 'the case, and not from both', command%name)
-        if (given(command, '--profiles-of') .and. .not. given(command, '--profiles')) &
+        if (given(command, '--profiles-of') .and. .not. (given(command, '--profiles') .or. &
+                                                         given(command, '--plot'))) &
             call usage_error('--profiles-of: it needs --profiles', command%name)
         run%wear = case%numerics%wear
         run%yield_mpa = case%numerics%yield_mpa
@@ -118,6 +134,7 @@ contains
         run%beside = um*option_number(command, '--near-jumps', 0.0_wp, least=0)
         run%wants_strips = given(command, '--strips')
         run%wants_profiles = given(command, '--profiles')
+        run%is_drawn = given(command, '--plot')
         run%profiles_of = option_text(command, '--profiles-of', '')
         do i = 1, merge(2, 1, run%beside > 0.0_wp)
             call reserve_wheelset(run%workspaces(i), run%model, status)
@@ -130,16 +147,25 @@ contains
             call fail_on_error(status)
         end if
         call refuse_unknown_state(run, case%has_state, table, columns)
+        call hold_wheelset_doubts(command%arguments(1)%text, run%model, case, table, columns)
         call open_outputs(command, outputs, run%writer)
         call put_wheelset_header(run%writer(1), run%wear)
         if (run%wants_strips) call put_strips_header(run%writer(2), run%wear)
         if (run%wants_profiles) call put_profiles_header(run%writer(3))
+        if (run%is_drawn) then
+            call open_csv(run%drawn, plot_file('profiles.csv'), status)
+            call fail_on_error(status)
+            call put_profiles_header(run%drawn)
+        end if
         if (case%has_state) then
-            call put_state(run, name_of_case, case%state, status)
+            call put_state(run, name_of_case, case%state, 0, status)
             call refuse_absent_profiles(run)
-            call close_outputs(command, outputs, run%writer)
+            call hold_tally(run%pressures, command%arguments(1)%text)
+            call close_drawn(run)
+            call close_outputs(command, outputs, run%writer, shown)
             ! The files are whole also where the one state failed.
             call fail_on_error(status)
+            call tell_held()
             return
         end if
         n_failed = 0
@@ -149,7 +175,8 @@ contains
                 call put_failed_state(run%writer(1), cell_text(table, row, columns%case), &
                                       cell_text(table, row, columns%side), status)
             else
-                call put_state(run, cell_text(table, row, columns%case), state, status)
+                call put_state(run, cell_text(table, row, columns%case), state, &
+                               table%line(row), status)
             end if
             if (is_error(status)) then
                 n_failed = n_failed + 1
@@ -159,10 +186,23 @@ contains
             call progress('states', row, table%n_rows)
         end do
         call refuse_absent_profiles(run)
-        call close_outputs(command, outputs, run%writer)
+        call close_drawn(run)
+        call close_outputs(command, outputs, run%writer, shown)
+        call hold_tally(run%pressures, table%file)
+        call tell_held()
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(table%n_rows) // ' states failed')
     end subroutine run_wheelset
+
+    subroutine close_drawn(run)
+        type(run_t), intent(inout) :: run
+
+        type(status_t) :: status
+
+        if (.not. run%is_drawn) return
+        call close_csv(run%drawn, status)
+        call fail_on_error(status)
+    end subroutine close_drawn
 
     ! A state that was named for its profiles has to be one of those to solve.
     subroutine refuse_unknown_state(run, is_of_case, table, columns)
@@ -189,17 +229,18 @@ contains
     subroutine refuse_absent_profiles(run)
         type(run_t), intent(in) :: run
 
-        if (run%wants_profiles .and. .not. run%has_profiles .and. len(run%profiles_of) > 0) &
+        if ((run%wants_profiles .or. run%is_drawn) .and. .not. run%has_profiles .and. len(run%profiles_of) > 0) &
             call fail(exit_bad_input, '--profiles-of: no state of that name has a result, got ' &
                       // run%profiles_of)
     end subroutine refuse_absent_profiles
 
     !> Solve a state and write its contacts. Each state starts afresh: it does not hang on the one
     !> before.
-    subroutine put_state(run, name, given, status)
+    subroutine put_state(run, name, given, line, status)
         type(run_t), intent(inout) :: run
         character(len=*), intent(in) :: name
         type(given_state_t), intent(in) :: given
+        integer, intent(in) :: line ! of the table, 0 of a case file
         type(status_t), intent(out) :: status
 
         type(wheelset_state_t) :: state
@@ -217,11 +258,16 @@ contains
         end if
         wants = given%side == 'both' .or. given%side == side_names
         call put_sides(run, name, wants, result, 1)
-        if (run%wants_profiles) then
+        call count_pressure(run%pressures, largest_pressure(result, wants), line)
+        if (run%wants_profiles .or. run%is_drawn) then
             if (len(run%profiles_of) == 0) run%profiles_of = name
             if (run%profiles_of == name) then
-                call put_wheelset_profiles(run%writer(3), name, run%model, &
-                                           run%workspaces(1)%last_state, result, wants)
+                if (run%wants_profiles) &
+                    call put_wheelset_profiles(run%writer(3), name, run%model, &
+                                               run%workspaces(1)%last_state, result, wants)
+                if (run%is_drawn) &
+                    call put_wheelset_profiles(run%drawn, name, run%model, &
+                                               run%workspaces(1)%last_state, result, wants)
                 run%has_profiles = .true.
             end if
         end if
@@ -229,6 +275,22 @@ contains
         if (is_at_rest(state)) call note(name // ': nothing moves: without slip there are no ' // &
                                          'friction forces')
     end subroutine put_state
+
+    ! MPa; 0 without contacts.
+    real(wp) function largest_pressure(result, wants) result(pmax)
+        type(wheelset_result_t), intent(in) :: result
+        logical, intent(in) :: wants(2)
+
+        integer :: side, i
+
+        pmax = 0.0_wp
+        do side = 1, size(wants)
+            if (.not. wants(side)) cycle
+            do i = 1, result%wheel(side)%n
+                pmax = max(pmax, result%wheel(side)%contact(i)%figures%normal%pmax)
+            end do
+        end do
+    end function largest_pressure
 
     ! The solutions beside a state, if contacts jump between them.
     subroutine put_beside(run, name, wants, state, demand)

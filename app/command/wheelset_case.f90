@@ -10,8 +10,8 @@ module faststrip_command_wheelset_case
     use faststrip_command_case_file, only: case_t, read_material_group, read_numerics_group
     use faststrip_command_case_friction, only: read_friction_group
     use faststrip_command_case_profiles, only: read_wheel_group, read_rail_group, &
-                                               complete_wheelset, shape_t, &
-                                               left_wheel_t
+                                               complete_wheelset, shape_t, left_wheel_t, &
+                                               hold_width
     use faststrip_command_case_values, only: unset, case_groups
     use faststrip_command_console, only: fail_on_error
     use faststrip_command_files, only: take_input
@@ -57,6 +57,10 @@ contains
         call read_wheel_group(content, .true., case%wheelset, case%wheel, case%left_wheel)
         call read_rail_group(content, .true., case%track, case%rail, case%left_rail)
         call complete_wheelset(content, case%track, case%wheelset)
+        call hold_width(content, case%wheel, case%wheelset%radius)
+        call hold_width(content, case%left_wheel%shape_t, case%wheelset%radius)
+        call hold_width(content, case%rail, case%wheelset%radius)
+        call hold_width(content, case%left_rail, case%wheelset%radius)
         call read_numerics_group(content, case%case_t)
         call find_group(content, 'numerics', .false., group)
         if (case%numerics%normal == normal_auto &

@@ -5,7 +5,7 @@ module faststrip_command_wheelset_csv
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
-    use faststrip_command_console, only: put_origin
+    use faststrip_command_console, only: put_origin, tell_held
     use faststrip_command_result_csv, only: put_wear, put_wear_source, wear_columns, &
                                             put_strip, strip_columns
     use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, strip_wear_t, &
@@ -40,6 +40,7 @@ contains
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fs ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
         call put_wear_source(writer, wear)
+        call tell_held(writer)
         call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
                                  wear_columns, solution_columns])
     end subroutine put_wheelset_header

@@ -1,7 +1,10 @@
 !> Who solves rows of a batch: one for each thread, with all that must not be shared.
 module faststrip_command_worker
+    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, collect_csv
+    use faststrip_contact_plausible, only: gap_size_t
+    use faststrip_command_doubts, only: tally_t
     use faststrip_command_gap_cache, only: own_gap_t
     use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: own_solver_t, outcome_t, new_solver, free_solver
@@ -19,6 +22,9 @@ module faststrip_command_worker
         type(outcome_t) :: outcome      !! of the last row
         logical :: can_go_on = .false.  !! is there a solution of this chain to start from?
         logical :: tells_times = .false. !! are times written?
+        type(tally_t) :: tally          !! what seems wrong in the rows so far
+        integer(int64) :: size_of_gap = 0 !! number of the gap last looked at
+        type(gap_size_t) :: gap_size    !! what it tells of its units
     end type worker_t
 
 contains

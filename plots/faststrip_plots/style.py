@@ -68,7 +68,8 @@ def legend_above(figure, *axes) -> None:
 
 
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
-    """Stamp the revisions the figure was made from into its corner and write it as PNG.
+    """Stamp the revisions the figure was made from into its corner and write it as PNG, or as the
+    path ends: .svg, .pdf.
 
     They also stand in the file's description. A `note` goes into the other corner. With
     `vector`, or FASTSTRIP_SVG in the environment, the
@@ -80,7 +81,13 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
     figure.text(0.01, 0.01, note, ha="left", va="bottom", fontsize=SMALL, color=GREY)
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-        figure.savefig(path, dpi=DPI, format="png", metadata={"Description": f"{text};"})
+        kind = os.path.splitext(path)[1].lower()
+        if kind in (".svg", ".pdf"):
+            with matplotlib.rc_context({"svg.hashsalt": "faststrip"}):
+                figure.savefig(path, format=kind[1:],
+                               metadata={"Date" if kind == ".svg" else "CreationDate": None})
+        else:
+            figure.savefig(path, dpi=DPI, format="png", metadata={"Description": f"{text};"})
         if vector or os.environ.get("FASTSTRIP_SVG"):
             figure.set_layout_engine("none")  # what was placed for the PNG stays where it is
             # neither date nor random names: the same data give the same file

@@ -15,7 +15,7 @@ forces act on the rail.
 
 from ._contact import Contact, Material, fastsim, hertz, kalker, library_version
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
-from ._library import FaststripError, LibraryNotFound, ProgramNotFound
+from ._library import FaststripError, ImplausibleWarning, LibraryNotFound, ProgramNotFound
 from ._lookup import LookedUp, Lookup
 from ._lookup_wheel import WheelContacts, WheelLookup
 from ._many import ManyResult, solve_many
@@ -33,6 +33,7 @@ __all__ = [
     "FaststripError",
     "Friction",
     "Gap",
+    "ImplausibleWarning",
     "LibraryNotFound",
     "LookedUp",
     "Lookup",

@@ -37,6 +37,7 @@ from ._library import (
     check_case,
     library,
     word_of,
+    warn_of_doubts,
 )
 from ._profile import Gap
 from ._results import Elements, Result, Step, Strips
@@ -447,6 +448,11 @@ class Contact:
         ------
         FaststripError
             Where there is no result.
+
+        Warns
+        -----
+        ImplausibleWarning
+            Of a number that no contact has in practice, mostly a unit; nothing changes by it.
         """
         if (load is None) == (penetration is None):
             raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
@@ -468,8 +474,12 @@ class Contact:
         case.warm_start = flag("warm_start", warm_start)
         want(case, target, tolerance, budget_us)
         figures = Figures()
-        status = self._call(library.faststrip_solve, ctypes.byref(case), ctypes.byref(figures),
-                            long=self._long)
+        try:
+            status = self._call(library.faststrip_solve, ctypes.byref(case),
+                                ctypes.byref(figures), long=self._long)
+        finally:
+            if self._workspace is not None:
+                warn_of_doubts(self._workspace.handle)
         return Result(status, word_of(status), *_figures_of(figures),
                       *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
                       *(_force_errors_of(figures) if figures.forces_are_estimated

@@ -9,6 +9,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import warnings
 from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
 from typing import Any, Iterator, Optional, Tuple
 
@@ -139,6 +140,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "version": [c_char_p, c_size_t],
         "message": [c_int, c_char_p, c_size_t],
         "last_message": [handle, c_char_p, c_size_t],
+        "doubt": [handle, c_int, c_char_p, c_size_t],
         "default_case": [POINTER(Case), c_size_t],
         "check_case": [POINTER(Case), c_int, c_char_p, c_size_t],
         "new": [POINTER(Case), c_int, POINTER(handle)],
@@ -212,6 +214,20 @@ def check(status: int, workspace: Optional[c_void_p] = None, **values: Any) -> i
         library.faststrip_last_message(workspace, text, TEXT)
         words = text.value.decode("ascii")
     raise FaststripError(status, word_of(status), words)
+
+
+class ImplausibleWarning(UserWarning):
+    """A number that no contact has in practice: mostly a unit. The result is what it says."""
+
+
+def warn_of_doubts(workspace: c_void_p, stacklevel: int = 3) -> None:
+    """Warn of what was outside of practice in the last call of a workspace or a wheelset."""
+    text = ctypes.create_string_buffer(TEXT)
+    for i in range(100):
+        library.faststrip_doubt(workspace, i, text, TEXT)
+        if not text.value:
+            return
+        warnings.warn(text.value.decode("ascii", "replace"), ImplausibleWarning, stacklevel)
 
 
 def check_case(case: Case, max_points: int) -> None:

@@ -22,6 +22,7 @@ from ._library import (
     FaststripError,
     library,
     word_of,
+    warn_of_doubts,
 )
 from ._profile import FIRST_CAPACITY, Points, Profile, inclination_of, points_of, spacing_of
 from ._record import Record, Table
@@ -473,9 +474,13 @@ estimate, resolution_limit, force_limit
                       rail_of("right_rail", right_rail), rail_of("left_rail", left_rail))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
         self._n_contacts = 0
-        status = self._call(library.faststrip_wheelset_solve, ctypes.byref(state),
-                            ctypes.byref(demand), MOST_CONTACTS, ctypes.byref(n), rows,
-                            ctypes.byref(totals))
+        try:
+            status = self._call(library.faststrip_wheelset_solve, ctypes.byref(state),
+                                ctypes.byref(demand), MOST_CONTACTS, ctypes.byref(n), rows,
+                                ctypes.byref(totals))
+        finally:
+            if self._handle is not None:
+                warn_of_doubts(self._handle.handle)
         self._n_contacts = n.value
         return WheelsetResult(
             status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),

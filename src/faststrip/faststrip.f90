@@ -94,6 +94,8 @@ module faststrip
                                        reserve_workspace, reserve_contact_field, &
                                        set_contact_gap, solve_contact, solve_contact_normal, &
                                        solve_contact_tangential, most_gap_points
+    use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
+                                           find_doubts, doubt_pressure
     use faststrip_contact_target, only: unknown_error
     use faststrip_contact_wanted, only: wanted_t, target_number, target_names, target_forces, &
                                         target_pmax, target_penetration, target_area, &
@@ -105,6 +107,7 @@ module faststrip
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel, &
                                       n_contact_numbers, most_slots

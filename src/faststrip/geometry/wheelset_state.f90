@@ -10,6 +10,7 @@ module faststrip_geometry_wheelset_state
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
+    use faststrip_base_plausible, only: quantities, likely_mistake, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument
     implicit none
@@ -21,7 +22,7 @@ module faststrip_geometry_wheelset_state
 
     ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
     ! wheel that is turned farther have no meaning.
-    real(wp), parameter :: largest_turn = 0.5_wp
+    real(wp), parameter :: largest_turn = quantities(of_turn)%possible
     ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_displacement = 1.0e4_wp
     !> Creepages are not larger than this.
@@ -152,16 +153,19 @@ contains
         real(wp), intent(in) :: value, largest
         type(status_t), intent(inout) :: status
 
+        character(len=48) :: mistake
         logical :: valid
 
         if (status%code /= 0) return
         valid = ieee_is_finite(value)
         if (valid) valid = abs(value) <= largest
         if (valid) return
+        mistake = ''
+        if (unit == 'rad') mistake = likely_mistake(of_turn, value)
         if (largest < huge(1.0_wp)) then
             call set_status(status, st_bad_argument, name // ' of the wheelset must be within ' // &
                             '+-' // trim(number_text(largest)) // ' ' // unit // ', got ' // &
-                            number_text(value))
+                            trim(number_text(value)) // mistake)
         else
             call set_status(status, st_bad_argument, name // ' of the wheelset must be a finite ' &
                             // 'number of ' // unit // ', got ' // number_text(value))

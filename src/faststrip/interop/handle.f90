@@ -10,6 +10,8 @@ module faststrip_interop_handle
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, reserve_strip_forces
     use faststrip_contact_auto, only: taken_t, solve_contact_auto
     use faststrip_contact_methods, only: contact_methods_t, normal_auto
+    use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
+                                           find_doubts, doubt_pressure
     use faststrip_contact_solve, only: workspace_t, contact_case_t, contact_result_t, &
                                        reserve_workspace, reserve_contact_field, solve_contact, &
                                        set_contact_gap
@@ -40,6 +42,8 @@ module faststrip_interop_handle
         type(strip_forces_t) :: strip_forces !! of the strips whose wear was asked for
         type(wear_room_t) :: wear         !! the same
         type(status_t) :: status          !! of the last call
+        type(gap_size_t) :: gap_size      !! of the gap
+        type(doubts_t) :: doubts          !! what was outside of practice in the last contact
     end type handle_t
 
 contains
@@ -125,9 +129,17 @@ contains
         real(wp), intent(in) :: y(:), h(:), inv2r(:)    !! mm, mm, 1/mm
         real(wp), intent(in), optional :: inclination(:)       !! rad
 
+        type(environment_t) :: environment
+
         handle%result = contact_result_t()
         handle%taken = taken_t()
+        handle%doubts%n = 0
+        handle%gap_size = gap_size_t()
         call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, inclination)
+        if (is_error(handle%status)) return
+        call hold_environment(environment)
+        handle%gap_size = gap_size(y, h, inv2r)
+        call restore_environment(environment)
     end subroutine handle_gap
 
     !> Solve the handle's case on the gap that was handed over; its result has the figures.
@@ -135,8 +147,14 @@ contains
         type(handle_t), intent(inout) :: handle !! its status tells how it ended
         logical, intent(in) :: with_field       !! are the elements wanted?
 
+        type(environment_t) :: environment
+
         handle%field%n = 0
         handle%taken = taken_t()
+        handle%doubts%n = 0
+        call hold_environment(environment)
+        call find_doubts(handle%case, handle%gap_size, case_names_t(), handle%doubts)
+        call restore_environment(environment)
         call take_angle(handle)
         if (is_error(handle%status)) return
         if (handle%case%methods%normal == normal_auto) then
@@ -147,6 +165,10 @@ contains
         else
             call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         end if
+        if (is_error(handle%status)) return
+        call hold_environment(environment)
+        call doubt_pressure('pmax', handle%result%normal%pmax, handle%doubts)
+        call restore_environment(environment)
     end subroutine handle_solve
 
     !> The coefficient of friction of the contact's angle.
@@ -203,6 +225,8 @@ contains
         to%wear = from%wear
         to%result = from%result
         to%taken = from%taken
+        to%gap_size = from%gap_size
+        to%doubts = from%doubts
         call clear_status(to%status)
     end subroutine copy_handle
 end module faststrip_interop_handle

@@ -42,6 +42,9 @@ module faststrip_interop_wheelset_handle
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_wear_room, only: wear_room_t
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_contact_plausible, only: doubts_t, case_names_t, doubt_material, doubt_pressure
+    use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
@@ -71,6 +74,7 @@ module faststrip_interop_wheelset_handle
         type(wheel_strips_t) :: strips !! of the contact whose wear was asked for
         type(wear_room_t) :: wear      !! the same
         type(status_t) :: status    !! of the last call
+        type(doubts_t) :: doubts    !! what was outside of practice in the last state
     end type wheelset_handle_t
 
 contains
@@ -125,8 +129,12 @@ contains
 
         type(wheelset_demand_t) :: demand
         type(rail_state_t) :: rail(2)
+        type(wheelset_state_t) :: place
+        type(environment_t) :: environment
+        integer :: side, i
 
         handle%has = .false.
+        handle%doubts%n = 0
         if (choices(2) < 0 .or. choices(2) > 2) then
             call set_status(handle%status, st_bad_argument, 'the wheels must be 0, both, 1, ' // &
                             'right, or 2, left, got ' // count_text(choices(2)))
@@ -140,12 +148,26 @@ contains
                                    choices(3) /= 0, loads(4))
         ! As if it had never been solved.
         if (choices(4) == 0) handle%workspace%has_last = .false.
-        call solve_wheelset(handle%model, handle%workspace, &
-                            wheelset_state_t(state(1), state(2), state(3), state(4), state(5), &
-                                             state(6), state(7), state(8), state(9), state(10), &
-                                             state(11), rail), demand, handle%result, &
+        place = wheelset_state_t(state(1), state(2), state(3), state(4), state(5), state(6), &
+                                 state(7), state(8), state(9), state(10), state(11), rail)
+        call hold_environment(environment)
+        call doubt_material(handle%model%case, case_names_t(), handle%doubts)
+        call find_state_doubts(handle%model, place, demand, state_names_t(), handle%doubts)
+        call restore_environment(environment)
+        call solve_wheelset(handle%model, handle%workspace, place, demand, handle%result, &
                             handle%status)
-        if (.not. is_error(handle%status)) handle%has = demand%wants
+        if (is_error(handle%status)) return
+        handle%has = demand%wants
+        call hold_environment(environment)
+        do side = side_right, side_left
+            if (.not. handle%has(side)) cycle
+            do i = 1, handle%result%wheel(side)%n
+                associate (normal => handle%result%wheel(side)%contact(i)%figures%normal)
+                    call doubt_pressure('pmax', normal%pmax, handle%doubts)
+                end associate
+            end do
+        end do
+        call restore_environment(environment)
     end subroutine wheelset_solve
 
     !> Contacts of the last solution.

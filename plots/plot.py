@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Draw one result of the program, for its option --plot.
+
+    plot.py COMMAND FOLDER FILE
+
+FOLDER holds what COMMAND wrote to be drawn from; FILE ends with .png, .svg or .pdf. It is either
+whole or as it was.
+"""
+
+import os
+import sys
+
+import conicity
+import wheelset
+from faststrip_plots import command, panels, style
+from faststrip_plots.results import NORMAL_QUANTITIES, TANGENTIAL_QUANTITIES, read_gap, \
+    read_strips, read_sweep
+from faststrip_plots.tables import InputError, read_table
+
+
+def main(arguments=None):
+    name, folder, path = sys.argv[1:] if arguments is None else arguments
+    ending = os.path.splitext(path)[1].lower()
+    unfinished = f"{os.path.splitext(path)[0]}.unfinished_{os.getpid()}{ending}"
+    try:
+        PICTURES[name](lambda file: os.path.join(folder, file), unfinished)
+        os.replace(unfinished, path)
+    except OSError as error:
+        raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+
+
+def draw_contact(file, path):
+    """The gap, the patch, and the pressure across it."""
+    table = read_table(file("result.csv"), ("status", "pmax_MPa", "penetration_mm"))
+    gap, strips = read_gap(file("gap.csv")), read_strips(file("strips.csv"))
+    figure = style.new_figure(7.4, 10.0)
+    space, patch, pressure = figure.subplots(3, 1)
+    penetration = table.numbers("penetration_mm")[0]
+    least = gap.h.min()
+    near = gap.y[gap.h <= least + 4.0 * max(penetration, 1e-3)]
+    space.plot(gap.y, gap.h, color="#0b3c78", linewidth=2.0, label="undeformed distance")
+    space.axhline(penetration, color=style.GREY, linewidth=1.2, label="penetration")
+    space.set_xlim(near.min(), near.max())
+    space.set_ylim(min(least, 0.0), least + 4.0 * max(penetration, 1e-3))
+    space.set_xlabel("lateral $y$, mm")
+    space.set_ylabel("distance, mm")
+    space.legend()
+    style.title(space, words_of(table))
+    if strips.patches:
+        panels.draw_outlines(patch, strips)
+        panels.draw_cut_along_y(pressure, strips)
+        for axes in (patch, pressure):
+            axes.set_xlim(space.get_xlim())
+    style.title(patch, "contact patch")
+    style.title(pressure, "pressure on its centre line")
+    style.save(figure, path, [strips.stamp])
+
+
+def words_of(table):
+    """What the result is, in one line."""
+    figures = []
+    for column, symbol, unit in (("N_N", "N", "N"), ("pmax_MPa", "p_\\mathrm{max}", "MPa"),
+                                 ("Fx_N", "F_x", "N"), ("Fy_N", "F_y", "N")):
+        value = table.numbers(column, missing=True)[0]
+        if value == value:
+            figures.append(f"${symbol}$ = {style.number(round(value))} {unit}")
+    return f"{table.words('status')[0]}: {', '.join(figures)}"
+
+
+def draw_sweep(file, path):
+    """All figures over the shift."""
+    quantities = NORMAL_QUANTITIES + TANGENTIAL_QUANTITIES
+    result = read_sweep(file("result.csv"))
+    figure = style.new_figure(9.2, 9.0)
+    grid = figure.subplots(3, 2, sharex=True)
+    for axes, name in zip(grid.T.flat, quantities):
+        panels.draw_value(axes, result, None, name)
+    for axes in grid[-1]:
+        axes.set_xlabel(panels.SHIFT_LABEL)
+    style.legend_above(figure, *grid.flat)
+    style.save(figure, path, [result.stamp])
+
+
+def draw_wheelset(file, path):
+    """Both wheels on the track in one state."""
+    result = read_table(file("result.csv"), wheelset.RESULT).where("solution", ("", "1"))
+    wheelset.draw_track(path, result, read_table(file("profiles.csv"), wheelset.PROFILES))
+
+
+def draw_conicity(file, path):
+    """Geometry over the shift, if there is any, and conicity over the amplitude."""
+    functions = None
+    if os.path.exists(file("functions.csv")):
+        functions = read_table(file("functions.csv"), conicity.FUNCTIONS)
+    conicity.draw(path, functions, read_table(file("result.csv"), conicity.CONICITY))
+
+
+PICTURES = {"contact": draw_contact, "sweep": draw_sweep, "wheelset": draw_wheelset,
+            "conicity": draw_conicity}
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main))

@@ -1,0 +1,99 @@
+!> What is outside of practice in the last call of a workspace or a wheelset, for hosts: the C and the
+!> F77 face of it.
+module faststrip_interop_doubts
+    use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_intptr_t, &
+                                           c_associated, c_f_pointer, c_null_char
+    use faststrip_base_status, only: status_t, is_error, message_length, st_ok, st_bad_argument, &
+                                     st_workspace_too_small
+    use faststrip_contact_plausible, only: doubts_t
+    use faststrip_interop_f77, only: n_iwork, number_of
+    use faststrip_interop_handle, only: handle_t, find_handle
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
+    implicit none
+    private
+
+    public :: faststrip_doubt, fsdoub
+
+contains
+
+    !> One of the lines about what is outside of practice, mostly a unit, in the last contact of a
+    !> workspace or the last state of a wheelset; empty behind the last one.
+    integer(c_int) function faststrip_doubt(workspace, i, text, length) bind(c) result(code)
+        integer(c_intptr_t), value :: workspace !! a handle of either kind
+        integer(c_int), value :: i              !! from 0 on
+        type(c_ptr), value :: text              !! `length` characters, written
+        integer(c_size_t), value :: length      !! with the closing zero
+
+        character(kind=c_char), pointer :: letters(:)
+        character(len=message_length) :: words
+        integer :: k, n
+        integer(c_int) :: count
+
+        code = st_bad_argument
+        if (.not. c_associated(text) .or. length < 1) return
+        call find_words(workspace, i + 1, words, count, code)
+        if (code /= st_ok) return
+        call c_f_pointer(text, letters, [length])
+        n = int(min(int(len_trim(words), c_size_t), length - 1))
+        do k = 1, n
+            letters(k) = words(k:k)
+        end do
+        letters(n + 1) = c_null_char
+        code = merge(st_ok, st_workspace_too_small, n == len_trim(words))
+    end function faststrip_doubt
+
+    !> CALL FSDOUB(IWORK, I, N, TEXT, INFO)
+    !>
+    !> How many lines there are about what is outside of practice, mostly a unit, in the last call
+    !> of FSSOLV or FSWSLV, and the I-th of them; blank beyond.
+    subroutine fsdoub(iwork, i, n, text, info, length) bind(c, name='fsdoub_')
+        integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSINIT or FSWNEW
+        integer(c_int), intent(in) :: i                !! from 1 on
+        integer(c_int), intent(out) :: n               !! number of lines
+        character(kind=c_char), intent(out) :: text(*) !! CHARACTER*(*), blank-padded
+        integer(c_int), intent(out) :: info            !! status
+        integer(c_size_t), value :: length             !! passed by the compiler
+
+        character(len=message_length) :: words
+        integer(c_size_t) :: k
+
+        call find_words(number_of(iwork), i, words, n, info)
+        do k = 1, length
+            text(k) = ' '
+            if (k <= message_length) text(k) = words(k:k)
+        end do
+    end subroutine fsdoub
+
+    subroutine find_words(number, i, words, n, code)
+        integer(c_intptr_t), intent(in) :: number
+        integer, intent(in) :: i
+        character(len=*), intent(out) :: words
+        integer(c_int), intent(out) :: n, code
+
+        type(handle_t), pointer :: contact
+        type(wheelset_handle_t), pointer :: wheelset
+        type(status_t) :: status
+
+        words = ''
+        n = 0
+        call find_handle(number, contact, status)
+        if (associated(contact)) then
+            call take_words(contact%doubts, i, words, n)
+        else
+            call find_wheelset(number, wheelset, status)
+            if (associated(wheelset)) call take_words(wheelset%doubts, i, words, n)
+        end if
+        code = merge(status%code, st_ok, is_error(status))
+    end subroutine find_words
+
+    pure subroutine take_words(doubts, i, words, n)
+        type(doubts_t), intent(in) :: doubts
+        integer, intent(in) :: i
+        character(len=*), intent(out) :: words
+        integer(c_int), intent(out) :: n
+
+        words = ''
+        n = doubts%n
+        if (i >= 1 .and. i <= doubts%n) words = doubts%words(i)
+    end subroutine take_words
+end module faststrip_interop_doubts
