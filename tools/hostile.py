@@ -85,6 +85,7 @@ class Try:
     during: object = None       # called with the process and the folder
     rows: bool = False          # a batch: its rows may fail each with a line of its own
     may_pass: bool = False      # changed by chance
+    says: str = ""              # what stderr must hold, with a result or without
     silent: bool = False        # nobody can read stderr
     makes: tuple = ()           # may be there afterwards, and what was there if all goes well
     rights: bool = True         # False: run as a user whom permissions bind
@@ -150,6 +151,32 @@ def case_values(rng, _):
         lines.insert(lines.index(f"&{group}") + 1, f"  {name} = {value}")
     return Try("case values", ["contact", "case.nml"], files={"case.nml": text_of(lines)},
                may_pass=may)
+
+
+# Group, name, right number, factor of the mistake, its name; in a case with profiles or a gap file.
+UNITS = [
+    ("material", "mu", 0.3, 100.0, "percent"), ("material", "E_wheel_MPa", 2.1e5, 1e-3, "GPa"),
+    ("material", "E_rail_MPa", 2.1e5, 1e6, "Pa"), ("material", "E_rail_MPa", 7e4, 1e-3, "GPa"),
+    ("contact", "load_N", 8e4, 1e-3, "kN"), ("contact", "load_N", 1e5, 1e-4, "tonnes"),
+    ("motion", "cksi", 5e-3, 100.0, "percent"), ("motion", "ceta", -8e-3, 100.0, "percent"),
+    ("motion", "cphi_rad_per_mm", 2e-4, 1e3, "1/m"),
+    ("wheel", "radius_mm", 460.0, 1e-3, "metres"), ("wheel", "radius_mm", 425.0, 2.0, "diameter"),
+    ("rail", "cant", 0.025, 57.3, "degrees"), ("rail", "gauge_mm", 1435.0, 1e-3, "metres"),
+    ("wheel", "back_spacing_mm", 1360.0, 1e-3, "metres"),
+    ("contact", "shift_mm", 2.0, 1e3, "micrometres"),
+]
+
+
+def units(rng, _):
+    """A number in another unit, somewhat larger or smaller: the likely mistake is named."""
+    group, name, right, factor, says = rng.choice(UNITS)
+    case = PROFILES if group in ("wheel", "rail") or name == "shift_mm" else rng.choice(
+        [CASE, PROFILES])
+    lines = [line for line in case if not line.strip().startswith(name + " ")]
+    at = next(i for i, line in enumerate(lines) if line.split()[0] == f"&{group}") + 1
+    lines.insert(at, f"  {name} = {right * factor * rng.uniform(0.85, 1.15):.6g}")
+    return Try("units", ["contact", "case.nml"], codes=(1, 3),
+               files={"case.nml": text_of(lines)}, may_pass=True, says=says)
 
 
 def mutated(rng, text):
@@ -493,7 +520,7 @@ def paths(rng, i):
         lambda: ["table", "--audit", "ok.csv", "-o", "ok.csv"],
         lambda: ["integral", "--input", "ok.csv", "-o", "./ok.csv"],
         lambda: ["fuzz", "--read", "ok.csv", "-o", "ok.csv"],
-        lambda: contact + ["-o", rng.choice(["dir", "dir/", "no/x.csv", "x" * 300, "", "loop.csv",
+        lambda: contact + ["-o", rng.choice(["dir", "dir/", "gap.csv/x.csv", "x" * 300, "", "loop.csv",
                                              "pipe", "case.nml/x.csv", "dirlink", "/", ".",
                                              "/proc/x.csv", "y" * 5000])],
         lambda: ["contact", rng.choice(["dir", ".", "none.nml", "loop.csv", "case.nml/x",
@@ -675,6 +702,9 @@ def sizes(rng, i):
 
 
 FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
+
+
+FAMILIES = {"case values": (case_values, 16), "units": (units, 8), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
             "conicities": (conicities, 8), "pairs": (pairs, 6), "batches": (batches, 12),
             "options": (options, 16), "paths": (paths, 10), "side files": (side_files, 10),
@@ -714,6 +744,8 @@ def judge(attempt, code, seconds, err, changes, limit):
         wrong.append(f"took {seconds:.1f} s")
     if attempt.family == "sizes" and any(word in err for word in ("NaN", "Infinity")):
         wrong.append("words of what is no number")
+    if attempt.says not in err:
+        wrong.append(f"does not say {attempt.says!r}")
     if any(word in err for word in NEVER):
         wrong.append("the runtime speaks")
     if changes and not (code == 0 and attempt.may_pass):

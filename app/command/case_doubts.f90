@@ -77,8 +77,9 @@ contains
         names%load = 'load_N'
         names%penetration = 'penetration_mm'
         names%creepage(3) = 'cphi_rad_per_mm'
-        names%speed = 'speed_mm_s'
-        names%half_slip_speed = 'half_slip_speed_mm_s'
+        ! The groups of motion and friction have told of these.
+        names%speed = ''
+        names%half_slip_speed = ''
         names%gap = [character(len=24) :: 'y_mm', 'h_mm', 'inv2R_per_mm']
     end function case_names
 

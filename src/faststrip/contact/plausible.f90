@@ -34,7 +34,7 @@ module faststrip_contact_plausible
         real(wp) :: steepness = 0.0_wp !! from the lowest to the highest point, over the width
     end type gap_size_t
 
-    !> What the caller calls the numbers of a contact.
+    !> What the caller calls the numbers of a contact; one without a name is not looked at.
     type :: case_names_t
         character(len=24) :: e(2) = [character(len=24) :: 'e_wheel', 'e_rail']
         character(len=24) :: mu = 'mu'
@@ -58,7 +58,7 @@ contains
 
         character(len=message_length) :: words
 
-        if (doubts%n == most_doubts) return
+        if (doubts%n == most_doubts .or. len(name) == 0) return
         words = doubt_about(quantity, name, value, radius)
         if (words == '') return
         doubts%n = doubts%n + 1
@@ -101,8 +101,7 @@ contains
 
         associate (material => case%material)
             call add_doubt(doubts, stiffness(material%nu_wheel), trim(names%e(1)), material%e_wheel)
-            if (names%e(2) /= '') call add_doubt(doubts, stiffness(material%nu_rail), &
-                                                 trim(names%e(2)), material%e_rail)
+            call add_doubt(doubts, stiffness(material%nu_rail), trim(names%e(2)), material%e_rail)
         end associate
         call add_doubt(doubts, of_friction, trim(names%mu), case%mu)
     end subroutine doubt_material

@@ -43,7 +43,9 @@ module faststrip_interop_wheelset_handle
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_wear_room, only: wear_room_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_contact_plausible, only: doubts_t, case_names_t, doubt_material, doubt_pressure
+    use faststrip_contact_plausible, only: doubts_t, case_names_t, add_doubt, doubt_material, &
+                                           doubt_pressure
+    use faststrip_base_plausible, only: of_radius
     use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t
@@ -152,6 +154,7 @@ contains
                                  state(7), state(8), state(9), state(10), state(11), rail)
         call hold_environment(environment)
         call doubt_material(handle%model%case, case_names_t(), handle%doubts)
+        call add_doubt(handle%doubts, of_radius, 'radius', handle%model%radius)
         call find_state_doubts(handle%model, place, demand, state_names_t(), handle%doubts)
         call restore_environment(environment)
         call solve_wheelset(handle%model, handle%workspace, place, demand, handle%result, &

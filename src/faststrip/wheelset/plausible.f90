@@ -2,8 +2,7 @@
 !> here, and no figure changes.
 module faststrip_wheelset_plausible
     use faststrip_base_kinds, only: wp
-    use faststrip_base_plausible, only: of_load, of_turn, of_speed, of_pitch, of_shift, of_curve, &
-                                        of_radius
+    use faststrip_base_plausible, only: of_load, of_turn, of_speed, of_pitch, of_shift, of_curve
     use faststrip_contact_plausible, only: doubts_t, add_doubt
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, demand_loads, &
@@ -36,7 +35,6 @@ contains
 
         integer :: i
 
-        call add_doubt(doubts, of_radius, 'the rolling radius', model%radius)
         call add_doubt(doubts, of_shift, trim(names%y), state%y)
         call add_doubt(doubts, of_turn, trim(names%roll), state%roll)
         call add_doubt(doubts, of_turn, trim(names%yaw), state%yaw)
