@@ -12,9 +12,15 @@ import sys
 
 import conicity
 import wheelset
+
 from faststrip_plots import command, panels, style
-from faststrip_plots.results import NORMAL_QUANTITIES, TANGENTIAL_QUANTITIES, read_gap, \
-    read_strips, read_sweep
+from faststrip_plots.results import (
+    NORMAL_QUANTITIES,
+    TANGENTIAL_QUANTITIES,
+    read_gap,
+    read_strips,
+    read_sweep,
+)
 from faststrip_plots.tables import InputError, read_table
 
 

@@ -520,9 +520,9 @@ def paths(rng, i):
         lambda: ["table", "--audit", "ok.csv", "-o", "ok.csv"],
         lambda: ["integral", "--input", "ok.csv", "-o", "./ok.csv"],
         lambda: ["fuzz", "--read", "ok.csv", "-o", "ok.csv"],
-        lambda: contact + ["-o", rng.choice(["dir", "dir/", "gap.csv/x.csv", "x" * 300, "", "loop.csv",
-                                             "pipe", "case.nml/x.csv", "dirlink", "/", ".",
-                                             "/proc/x.csv", "y" * 5000])],
+        lambda: contact + ["-o", rng.choice(["dir", "dir/", "gap.csv/x.csv", "x" * 300, "",
+                                             "loop.csv", "pipe", "case.nml/x.csv", "dirlink", "/",
+                                             ".", "/proc/x.csv", "y" * 5000])],
         lambda: ["contact", rng.choice(["dir", ".", "none.nml", "loop.csv", "case.nml/x",
                                         "\x1b[31m", "pipe/x", "x" * 300])],
     ][i % 15]

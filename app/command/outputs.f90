@@ -14,8 +14,8 @@ module faststrip_command_outputs
 contains
 
     !> Open all files before anything is written: if one cannot be, the others stay as they were.
-    !> The first option's file is always written: to stdout, for people or as CSV, if nothing else is
-    !> said.
+    !> The first option's file is always written: to stdout, for people or as CSV, if nothing else
+    !> is said.
     subroutine open_outputs(command, names, writer)
         type(command_t), intent(in) :: command         !! parsed
         character(len=*), intent(in) :: names(:)       !! options that name files to write

@@ -32,9 +32,9 @@ module faststrip_command_people
         label_t('contact_angle_rad', 'contact angle', ''), &
         label_t('cksi', 'longitudinal creepage', ''), &
         label_t('ceta', 'lateral creepage', ''), &
-        label_t('cphi_rad_per_mm', 'spin creepage', ''), &
+        label_t('cphi_rad_per_mm', 'spin creepage', 'rad/mm'), &
         label_t('penetration_mm', 'penetration', ''), &
-        label_t('area_mm2', 'contact area', ''), &
+        label_t('area_mm2', 'contact area', 'mm^2'), &
         label_t('pmax_MPa', 'largest pressure', ''), &
         label_t('Fx_N', 'longitudinal force on the rail', ''), &
         label_t('Fy_N', 'lateral force on the rail', ''), &

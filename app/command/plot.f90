@@ -22,8 +22,8 @@ module faststrip_command_plot
     character(len=*), parameter :: endings(3) = ['.png', '.svg', '.pdf']
     character(len=*), parameter :: script = 'plot.py'
 
-    ! Where scripts and files are; empty: nothing is drawn.
-    character(len=:), allocatable :: folder, script_path, python
+    ! Where scripts are, who runs them, and where the files are that they draw from, once there are.
+    character(len=:), allocatable :: script_path, python, folder
 
     !> A file that is drawn from.
     type :: kept_t
@@ -56,12 +56,10 @@ contains
         if (file_kind(script_path) /= kind_file) &
             call fail(exit_bad_input, '--plot needs the scripts installed with the program, got ' &
                       // 'none in ' // own // '/../share/faststrip/plots')
-        if (run_python('-c' // c_null_char // 'import matplotlib, numpy' // c_null_char, 2, .true.) /= 0) &
+        if (run_python('-c' // c_null_char // 'import matplotlib, numpy' // c_null_char, 2, &
+                       .true.) /= 0) &
             call fail(exit_bad_input, '--plot needs python3 with matplotlib and numpy: install ' &
-                      // 'them (Debian: apt install python3-matplotlib; or: pip install matplotlib)')
-        folder = new_folder()
-        if (len(folder) == 0) call fail(exit_bad_input, '--plot: no folder can be made in TMPDIR')
-        allocate (kept(0))
+                      // 'them, as by: apt install python3-matplotlib, or pip install matplotlib')
     end subroutine prepare_plot
 
     !> Name of a file that is drawn from.
@@ -71,6 +69,12 @@ contains
 
         type(kept_t), allocatable :: longer(:)
 
+        if (.not. allocated(folder)) then
+            folder = new_folder()
+            if (len(folder) == 0) call fail(exit_bad_input, '--plot needs a folder for its files ' &
+                                            // 'in TMPDIR or /tmp, and none can be made there')
+            allocate (kept(0))
+        end if
         path = folder // '/' // name
         call keep_in_mind(path)
         allocate (longer(size(kept) + 1))

@@ -460,7 +460,8 @@ void faststrip_make_folders(const char *path)
 int faststrip_new_folder(char *out, int capacity)
 {
     const char *where = getenv("TMPDIR");
-    int n = snprintf(out, (size_t)capacity, "%s/faststrip_XXXXXX", where && *where ? where : "/tmp");
+    int n = snprintf(out, (size_t)capacity, "%s/faststrip_XXXXXX",
+                     where && *where ? where : "/tmp");
 
     return n > 0 && n < capacity && mkdtemp(out) ? n : 0;
 }

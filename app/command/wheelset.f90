@@ -229,7 +229,8 @@ contains
     subroutine refuse_absent_profiles(run)
         type(run_t), intent(in) :: run
 
-        if ((run%wants_profiles .or. run%is_drawn) .and. .not. run%has_profiles .and. len(run%profiles_of) > 0) &
+        if ((run%wants_profiles .or. run%is_drawn) .and. .not. run%has_profiles &
+            .and. len(run%profiles_of) > 0) &
             call fail(exit_bad_input, '--profiles-of: no state of that name has a result, got ' &
                       // run%profiles_of)
     end subroutine refuse_absent_profiles

@@ -36,8 +36,8 @@ from ._library import (
     check,
     check_case,
     library,
-    word_of,
     warn_of_doubts,
+    word_of,
 )
 from ._profile import Gap
 from ._results import Elements, Result, Step, Strips

@@ -21,8 +21,8 @@ from ._library import (
     TOO_SMALL,
     FaststripError,
     library,
-    word_of,
     warn_of_doubts,
+    word_of,
 )
 from ._profile import FIRST_CAPACITY, Points, Profile, inclination_of, points_of, spacing_of
 from ._record import Record, Table

@@ -1,4 +1,5 @@
-"""On a terminal the program shows tables for people, elsewhere CSV; --plot draws; folders are made."""
+"""On a terminal the program shows tables for people, elsewhere CSV; --plot draws; folders are
+made."""
 
 import os
 import pathlib
@@ -8,8 +9,18 @@ import shutil
 import subprocess
 import unittest
 
-from cli_program import PATIENCE, PROGRAM, ROOT, ProgramTest, gap_case, gap_text, parabola, \
-    profile_case, rows_of, without_progress
+from cli_program import (
+    PATIENCE,
+    PROGRAM,
+    ROOT,
+    ProgramTest,
+    gap_case,
+    gap_text,
+    parabola,
+    profile_case,
+    rows_of,
+    without_progress,
+)
 
 CASE = profile_case(contact="name = 'mine', load_N = 80000.0, load_direction = 'vertical',"
                             " shift_mm = 2.0",
@@ -61,7 +72,7 @@ class TestTerminal(PeopleTest):
         for name, column, unit in (("normal force", "N_N", "N"),
                                    ("largest pressure", "pmax_MPa", "MPa"),
                                    ("contact angle", "gamma_rad", "rad"),
-                                   ("contact area", "area_mm2", "mm2"),
+                                   ("contact area", "area_mm2", "mm^2"),
                                    ("longitudinal force on the rail", "Fx_N", "N"),
                                    ("estimated error of Fx", "est_err_Fx", "of mu N")):
             self.assertEqual(lines[name][1:], [unit])

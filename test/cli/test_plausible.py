@@ -1,11 +1,10 @@
-"""What no contact can be: mistakes of units are named with their likely cause, by the program and by
-hosts; what is unusual, but done, is not mentioned. No figure depends on it."""
+"""What no contact can be: mistakes of units are named with their likely cause, by the program; what
+is unusual, but done, is not mentioned. No figure depends on it."""
 
 import re
 import unittest
 
-from cli_program import BATCH_COLUMNS, ROOT, ProgramTest, gap_case, gap_text, parabola, \
-    profile_case
+from cli_program import BATCH_COLUMNS, ROOT, ProgramTest, gap_case, gap_text, parabola, profile_case
 
 # Name, contact, wheel, rail, material, motion, rest of the case file; what the line must say.
 MISTAKES = (
@@ -76,7 +75,7 @@ STATES = (
     ({"y_mm": "2000"}, ("y_mm", "micrometres?")),
 )
 
-# Legitimate, and unusual: radius, load, E, nu, mu, creepages, lateral radius, half width of the gap.
+# Legitimate, and unusual: radius, load, E, nu, mu, creepages, lateral radius, half width.
 STEEL = (2.1e5, 0.28)
 UNUSUAL = (
     ("roller rig, 1:3", 150.0, 5.0e3, *STEEL, 0.3, (1e-3, 0, 1e-4), 100.0, 8.0),
@@ -216,7 +215,8 @@ class TestMistakes(ProgramTest):
         self.write("gap.csv", gap_of())
         self.write("case.nml", gap_case(motion="cksi = 1e-3"))
         usual = self.run_program("contact", "case.nml").stdout
-        self.write("case.nml", gap_case(motion="cksi = 1e-3", extra="&numerics yield_MPa = 1e5 /\n"))
+        self.write("case.nml", gap_case(motion="cksi = 1e-3",
+                                        extra="&numerics yield_MPa = 1e5 /\n"))
         doubtful = self.run_program("contact", "case.nml").stdout
 
         def cells(text):
@@ -237,8 +237,9 @@ class TestUnusual(ProgramTest):
 
     def test_unusual_contacts_are_not_mentioned(self):
         rows = [BATCH_COLUMNS]
-        for i, (_, radius, load, e, nu, mu, creepage, lateral, half_width) in enumerate(UNUSUAL):
-            self.write(f"gap{i}.csv", self.gap(UNUSUAL[i]))
+        for i, case in enumerate(UNUSUAL):
+            _, _, load, e, nu, mu, creepage, _, _ = case
+            self.write(f"gap{i}.csv", self.gap(case))
             rows.append(",".join(map(str, (i, f"gap{i}.csv", e, nu, mu, load, *creepage))))
         self.assertGreaterEqual(len(UNUSUAL), 30)
         self.write("cases.csv", "\n".join(rows) + "\n")

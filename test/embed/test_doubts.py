@@ -1,5 +1,5 @@
-"""What no contact can be is named by the library too, in every face; no status and no figure depends
-on it."""
+"""What no contact can be is named by the library too, in every face; no status and no figure
+depends on it."""
 
 import unittest
 import warnings

@@ -16,6 +16,7 @@ module faststrip_contact_plausible
     public :: gap_size_t, gap_size, case_names_t
 
     !> Most words about one contact or one state of a wheelset.
+    !> Tuned [lines]. Origin: capacity: more than there are numbers to speak of.
     integer, parameter :: most_doubts = 24
 
     !> What there is to say.

@@ -1,5 +1,5 @@
-!> What is outside of practice in the last call of a workspace or a wheelset, for hosts: the C and the
-!> F77 face of it.
+!> What is outside of practice in the last call of a workspace or a wheelset, for hosts: the C and
+!> the F77 face of it.
 module faststrip_interop_doubts
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_intptr_t, &
                                            c_associated, c_f_pointer, c_null_char
