@@ -38,6 +38,12 @@ def without_progress(said):
                    if not re.fullmatch(r"faststrip(-lab)?: .*, \d+ s\n", line))
 
 
+def without_doubts(said):
+    """What was said on stderr, but for the lines that name what no contact has in practice."""
+    return "".join(line for line in said.splitlines(keepends=True)
+                   if not re.search(r" should be at (least|most) \S+, got \S+: [^?]+\?", line))
+
+
 def rows_of(text):
     """The rows of a CSV text as dictionaries, comments left out."""
     lines = [line for line in text.splitlines() if not line.startswith("#")]
@@ -83,6 +89,8 @@ class ProgramTest(unittest.TestCase):
     """Tests that run the program in a folder that is gone afterwards."""
 
     program = PROGRAM
+    # Is it tried with numbers that no contact has in practice, which is said?
+    is_doubtful = False
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -127,7 +135,8 @@ class ProgramTest(unittest.TestCase):
     def good(self, *words, share=False):
         """Run what has to succeed without a word on stderr; the rows on stdout."""
         done = self.share_program(*words) if share else self.run_program(*words)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        said = without_doubts(done.stderr) if self.is_doubtful else done.stderr
+        self.assertEqual((done.returncode, said), (0, ""), words)
         return rows_of(done.stdout)
 
     def solved(self, *words):

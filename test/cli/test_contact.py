@@ -15,6 +15,7 @@ from cli_program import (
     parabola,
     profile_case,
     rows_of,
+    without_doubts,
 )
 
 
@@ -622,6 +623,7 @@ class GapFile(ProgramTest):
 
     def test_loads_over_many_decades(self):
         # Penetration grows with the load to 2/3, area too, pressure to 1/3.
+        self.is_doubtful = True
         one = self.contact(load="1")
         for load in ("1e-9", "1e-3", "1e3", "1e6"):
             row = self.contact(load=load)
@@ -646,7 +648,8 @@ class GapFile(ProgramTest):
         self.write("case.nml", gap_case(gap_file="short.csv"))
         done = self.run_program("contact", "case.nml")
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stderr, r"\Afaststrip: [^\n]*end of the gap data[^\n]*\n\Z")
+        self.assertRegex(without_doubts(done.stderr),
+                         r"\Afaststrip: [^\n]*end of the gap data[^\n]*\n\Z")
         row = rows_of(done.stdout)[0]
         self.assertEqual(row["status"], "edge_of_data")
         self.assertGreater(float(row["penetration_mm"]), 0.0)
@@ -735,7 +738,7 @@ class Outputs(ProgramTest):
         (self.folder / "dir").mkdir()
 
     def test_what_cannot_be_written(self):
-        for path in ("dir", "dir/", "none/out.csv", "", "gap.csv/out.csv", "/dev/full",
+        for path in ("dir", "dir/", "", "gap.csv/out.csv", "/dev/full",
                      "/proc/out.csv"):
             for words in (["contact", "case.nml"], ["integral", "--n", "1", "--b", "1"]):
                 with self.subTest(path=path, words=words):
