@@ -2,6 +2,7 @@
 module faststrip_command_case_values
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
+    use faststrip_base_plausible, only: likely_mistake, of_poisson_ratio
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: integer_text
     use faststrip_command_namelist, only: namelist_file_t, group_t, refuse
@@ -59,7 +60,7 @@ contains
         call need_finite(content, group, name, value)
         if (value < 0.0_wp .or. value >= 0.5_wp) &
             call refuse(content, group, name, 'must be at least 0 and below 0.5', &
-                        number_text(value))
+                        trim(number_text(value)) // likely_mistake(of_poisson_ratio, value))
     end subroutine need_poisson
 
     !> The numbers a list was given, which must be its first ones without a hole.

@@ -2,6 +2,7 @@
 module faststrip_base_material
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_plausible, only: likely_mistake, of_poisson_ratio
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_material, st_not_finite
     implicit none
@@ -49,7 +50,8 @@ contains
                             ' must be above 0, got ' // trim(number_text(e)) // ' MPa')
         else if (nu < 0.0_wp .or. nu >= 0.5_wp) then
             call set_status(status, st_bad_material, "Poisson's ratio of the " // name // &
-                            ' must be at least 0 and below 0.5, got ' // trim(number_text(nu)))
+                            ' must be at least 0 and below 0.5, got ' // &
+                            trim(number_text(nu)) // likely_mistake(of_poisson_ratio, nu))
         end if
     end subroutine check_body
 
