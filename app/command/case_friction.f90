@@ -3,8 +3,7 @@ module faststrip_command_case_friction
     use faststrip_base_friction, only: friction_t, friction_constant, friction_kind, &
                                        friction_kind_names
     use faststrip_base_kinds, only: wp
-    use faststrip_base_plausible, only: quantities, likely_mistake, of_friction, &
-                                        of_contact_angle, of_slip_speed
+    use faststrip_base_plausible, only: of_friction, of_contact_angle, of_slip_speed
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: lower_case
     use faststrip_command_case_values, only: unset, need_finite, need_positive
@@ -91,25 +90,12 @@ contains
         if (flange_angle_rad <= tread_angle_rad) &
             call refuse(content, group, 'flange_angle_rad', 'must be above tread_angle_rad', &
                         number_text(flange_angle_rad))
-        call need_angle(content, group, 'tread_angle_rad', tread_angle_rad)
-        call need_angle(content, group, 'flange_angle_rad', flange_angle_rad)
+        call hold_value(content, group, 'tread_angle_rad', of_contact_angle, tread_angle_rad)
+        call hold_value(content, group, 'flange_angle_rad', of_contact_angle, flange_angle_rad)
         law%flange_share = mu_flange/mu
         law%tread_angle = tread_angle_rad
         law%flange_angle = flange_angle_rad
     end subroutine read_friction_group
-
-    !> A contact angle lies within a right one.
-    subroutine need_angle(content, group, name, angle)
-        type(namelist_file_t), intent(in) :: content
-        type(group_t), intent(in) :: group
-        character(len=*), intent(in) :: name
-        real(wp), intent(in) :: angle ! rad
-
-        if (angle > quantities(of_contact_angle)%possible) &
-            call refuse(content, group, name, 'must be at most ' &
-                        // trim(number_text(quantities(of_contact_angle)%possible)), &
-                        trim(number_text(angle)) // likely_mistake(of_contact_angle, angle))
-    end subroutine need_angle
 
     !> What falling friction needs.
     subroutine take_falling(content, group, mu, mu_kinetic, half_slip_speed, kind, law)

@@ -155,6 +155,7 @@ class Wheelset(ProgramTest):
                 self.assertEqual(float(row[name]), -float(image[name]), name)
 
     def test_forces_of_the_frames_are_one_force(self):
+        self.is_doubtful = True  # no steel carries the flange of a new wheel
         rows = self.solved("1,both,7,,0.015,20000,,120000")
         for row in rows:
             angle, load = float(row["contact_angle_rad"]), float(row["N_N"])
@@ -265,6 +266,7 @@ class Wheelset(ProgramTest):
         self.write("law.csv", LAW)
         self.write("states.csv", f"{HEADER}\na,left,-7,,-0.01,20000,,5e4\nb,right,6,,0.01,20000,,"
                                  "5e4\nc,both,2,,0.002,20000,,1e5\n")
+        self.is_doubtful = True  # no steel carries the flange of a new wheel
         rows = self.good("wheelset", "f.nml", "--states", "states.csv", "--strips", "s.csv",
                          "--wear", "law.csv", "--yield-shear-MPa", "300")
         strips = self.read("s.csv")

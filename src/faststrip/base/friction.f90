@@ -26,7 +26,6 @@ module faststrip_base_friction
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
-    use faststrip_base_plausible, only: quantities, likely_mistake, of_contact_angle
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     implicit none
@@ -102,12 +101,6 @@ contains
                             'that of the tread, which must not be negative, got ' // &
                             trim(number_text(friction%flange_angle)) // ' and ' // &
                             trim(number_text(friction%tread_angle)) // ' rad')
-        else if (friction%flange_share /= 1.0_wp .and. &
-                 friction%flange_angle > quantities(of_contact_angle)%possible) then
-            call set_status(status, st_bad_argument, 'the angle of the flange must be at most ' // &
-                            trim(number_text(quantities(of_contact_angle)%possible)) // &
-                            ' rad, got ' // trim(number_text(friction%flange_angle)) // &
-                            likely_mistake(of_contact_angle, friction%flange_angle))
         else if (friction%kind /= friction_constant .and. &
                  min(friction%half_slip_speed, friction%speed) <= 0.0_wp) then
             call set_status(status, st_bad_argument, 'falling friction needs a rolling speed ' // &

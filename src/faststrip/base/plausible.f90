@@ -3,7 +3,7 @@
 !>
 !> A number outside of practice may still be meant; whoever takes it says so in one line, and no
 !> result changes by it. What no contact can have is refused where it is taken
-!> (`check_material`, `check_friction`, `check_state`, ...); their bounds stand here, too.
+!> (`check_material`, `check_state`, ...); their bounds stand here, too.
 module faststrip_base_plausible
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -78,7 +78,7 @@ module faststrip_base_plausible
                    'metres or inches', 'micrometres, or the radius in inches'), &
         quantity_t('inclination of the rail', '1', over_one, any_size, 0.0_wp, 0.1_wp, '', &
                    'degrees, percent, or 40 for 1:40'), &
-        quantity_t('contact angle', 'rad', over_one, 1.5708_wp, 0.0_wp, 1.5_wp, '', 'degrees'), &
+        quantity_t('contact angle', 'rad', over_one, any_size, 0.0_wp, 1.5_wp, '', 'degrees'), &
         quantity_t('yaw or roll', 'rad', over_one, 0.5_wp, 0.0_wp, 0.1_wp, '', &
                    'degrees or mrad'), &
         quantity_t('speed', 'mm/s', over_one, any_size, 250.0_wp, 1.7e5_wp, 'm/s or km/h', &
@@ -100,7 +100,7 @@ module faststrip_base_plausible
                    'Pa or kPa'), &
         quantity_t('noise', 'um', over_one, any_size, 0.01_wp, 500.0_wp, 'mm', 'nm'), &
         quantity_t('largest pressure', 'MPa', over_one, any_size, 0.0_wp, 4.2e3_wp, '', &
-                   'beyond any steel, by a unit')]
+                   'a unit, or an edge that would yield')]
 
 contains
 
