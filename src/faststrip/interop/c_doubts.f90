@@ -1,18 +1,16 @@
-!> What is outside of practice in the last call of a workspace or a wheelset, for hosts: the C and
-!> the F77 face of it.
-module faststrip_interop_doubts
+!> What is outside of practice in the last call of a workspace or a wheelset, in the C face.
+module faststrip_interop_c_doubts
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_intptr_t, &
                                            c_associated, c_f_pointer, c_null_char
     use faststrip_base_status, only: status_t, is_error, message_length, st_ok, st_bad_argument, &
                                      st_workspace_too_small
     use faststrip_contact_plausible, only: doubts_t
-    use faststrip_interop_f77, only: n_iwork, number_of
     use faststrip_interop_handle, only: handle_t, find_handle
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
     implicit none
     private
 
-    public :: faststrip_doubt, fsdoub
+    public :: faststrip_doubt, find_words
 
 contains
 
@@ -42,33 +40,13 @@ contains
         code = merge(st_ok, st_workspace_too_small, n == len_trim(words))
     end function faststrip_doubt
 
-    !> CALL FSDOUB(IWORK, I, N, TEXT, INFO)
-    !>
-    !> How many lines there are about what is outside of practice, mostly a unit, in the last call
-    !> of FSSOLV or FSWSLV, and the I-th of them; blank beyond.
-    subroutine fsdoub(iwork, i, n, text, info, length) bind(c, name='fsdoub_')
-        integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSINIT or FSWNEW
-        integer(c_int), intent(in) :: i                !! from 1 on
-        integer(c_int), intent(out) :: n               !! number of lines
-        character(kind=c_char), intent(out) :: text(*) !! CHARACTER*(*), blank-padded
-        integer(c_int), intent(out) :: info            !! status
-        integer(c_size_t), value :: length             !! passed by the compiler
-
-        character(len=message_length) :: words
-        integer(c_size_t) :: k
-
-        call find_words(number_of(iwork), i, words, n, info)
-        do k = 1, length
-            text(k) = ' '
-            if (k <= message_length) text(k) = words(k:k)
-        end do
-    end subroutine fsdoub
-
+    !> How many lines a handle of either kind has, and the i-th of them; blank beyond.
     subroutine find_words(number, i, words, n, code)
-        integer(c_intptr_t), intent(in) :: number
-        integer, intent(in) :: i
-        character(len=*), intent(out) :: words
-        integer(c_int), intent(out) :: n, code
+        integer(c_intptr_t), intent(in) :: number !! of the handle, as the caller passed it
+        integer, intent(in) :: i                  !! from 1 on
+        character(len=*), intent(out) :: words    !! the line
+        integer(c_int), intent(out) :: n          !! number of lines
+        integer(c_int), intent(out) :: code       !! status: 0, or no handle
 
         type(handle_t), pointer :: contact
         type(wheelset_handle_t), pointer :: wheelset
@@ -96,4 +74,4 @@ contains
         n = doubts%n
         if (i >= 1 .and. i <= doubts%n) words = doubts%words(i)
     end subroutine take_words
-end module faststrip_interop_doubts
+end module faststrip_interop_c_doubts
