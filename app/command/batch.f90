@@ -37,8 +37,8 @@ module faststrip_command_batch
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer, given, given_options
     use faststrip_command_parts, only: part_options, part_choice_t, take_part_options, share_of, &
-                                       part_beginning, part_name, parts_t, start_parts, next_part, mark_part, &
-                                       wait_for_others
+                                       part_beginning, part_name, parts_t, start_parts, &
+                                       next_part, mark_part, wait_for_others
     use faststrip_command_result_csv, only: result_columns, put_notes
     use faststrip_command_store, only: store_t, take_store, open_store, resume_store, &
                                        append_to_store, finish_store, release_store, is_made, &

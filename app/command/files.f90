@@ -1,6 +1,6 @@
-!> What a run reads and what it writes: no file that is written, outputs and what is made beside them
-!> on the way, may be an input or another one of these. All of them are known before anything is
-!> opened; inputs that rows name are compared when they are read.
+!> What a run reads and what it writes: no file that is written, outputs and what is made beside
+!> them on the way, may be an input or another one of these. All of them are known before anything
+!> is opened; inputs that rows name are compared when they are read.
 !>
 !> What killed runs have left is removed when a run ends well: then all its inputs are known.
 module faststrip_command_files
@@ -128,8 +128,8 @@ contains
     end subroutine spare
 
     !> Note a file that will be written, before anything is opened. Ends the program with a usage
-    !> error if it is an input or another output. What this run leaves beside it if it is killed by a
-    !> signal is removed.
+    !> error if it is an input or another output. What this run leaves beside it if it is killed by
+    !> a signal is removed.
     subroutine take_output(path, option)
         character(len=*), intent(in) :: path   !! as it was given
         character(len=*), intent(in) :: option !! that names it
@@ -174,8 +174,8 @@ contains
         end do
     end subroutine take_output
 
-    !> Note a file that may be made beside an output. Ends the program with a usage error if it is an
-    !> input or an output.
+    !> Note a file that may be made beside an output. Ends the program with a usage error if it is
+    !> an input or an output.
     subroutine take_beside(path, option, is_beginning)
         character(len=*), intent(in) :: path   !! of the file, or how the names of some begin
         character(len=*), intent(in) :: option !! that names the output
@@ -215,8 +215,8 @@ contains
         end do
     end subroutine check_beside
 
-    !> Remove what killed runs have left beside the outputs. For a run that ends well: what it has read
-    !> stays.
+    !> Remove what killed runs have left beside the outputs. For a run that ends well: what it has
+    !> read stays.
     subroutine clear_leftovers()
         character(len=:), allocatable :: folder
         integer :: i

@@ -34,8 +34,8 @@ contains
         if (index(path, '/dev/') /= 1) name = path // '.unfinished'
     end function work_name
 
-    !> Note the file of work that goes on, before any is opened. What is there must be unfinished work,
-    !> which is taken if it is wanted.
+    !> Look at the file of work that goes on. What is there must be unfinished work, which is taken
+    !> if it is wanted.
     subroutine take_work(path, lookup, is_wanted, status)
         character(len=*), intent(in) :: path    !! file of the work; empty: none is kept
         type(lookup_t), intent(inout) :: lookup !! begun

@@ -48,7 +48,7 @@ module faststrip_command_method_options
                  'auto: of forces (default), over mu N, pmax (default with' // newline &
                  // '--tangential none), penetration, area or power'), &
         option_t('--budget-us', 'US', 'auto: the best in that time; goes before the default' &
-                 // newline // 'tolerance')]
+                 // newline // 'tolerance; another run may end with other bytes')]
 
 contains
 

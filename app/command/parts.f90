@@ -121,7 +121,8 @@ contains
 
         number = integer_text(part)
         most = integer_text(parts)
-        name = part_beginning(path) // repeat('0', len(most) - len(number)) // number // 'of' // most
+        name = part_beginning(path) // repeat('0', len(most) - len(number)) // number // 'of' &
+               // most
     end function part_name
 
     !> Begin with parts of which none is known to be made.

@@ -2,6 +2,7 @@
 module faststrip_command_result_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
+    use faststrip_contact_methods, only: normal_auto
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
@@ -114,13 +115,16 @@ contains
     !> from, and that gaps are smoothed, if they are.
     subroutine put_notes(writer, numerics)
         type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
-        type(numerics_t), intent(in) :: numerics    !! smoothing, wear
+        type(numerics_t), intent(in) :: numerics    !! smoothing, wear, a budget
 
         call put_comment(writer, 'friction_power_N is the frictional work per distance rolled, ' &
                          // 'T gamma')
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fy ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
         call put_wear_source(writer, numerics%wear)
+        if (numerics%normal == normal_auto .and. numerics%wanted%budget_us > 0.0_wp) &
+            call put_comment(writer, 'within a budget of time, which another run may spend ' &
+                             // 'otherwise: its bytes may differ')
         if (numerics%smoothing_um <= 0.0_wp) return
         call put_comment(writer, 'gap smoothed for a noise of ' &
                          // trim(number_text(numerics%smoothing_um)) &

@@ -4,9 +4,9 @@
 !> Beside the output OUT stand, while it is being made, OUT.lock (which process makes it), and from
 !> the first piece on OUT.journal (a manifest of what there is, renamed into place after each piece)
 !> and OUT.partial (what there is; the first piece of it is named behind the journal). At the end
-!> OUT.partial becomes OUT, and OUT.journal OUT.manifest or nothing. An output that is to be NetCDF is
-!> made of OUT.partial and has no manifest. Whatever lies between two of these steps is found by the
-!> next run.
+!> OUT.partial becomes OUT, and OUT.journal OUT.manifest or nothing. An output that is to be NetCDF
+!> is made of OUT.partial and has no manifest. Whatever lies between two of these steps is found by
+!> the next run.
 !>
 !> None of these names is ever taken from somebody else: what has it must be none of the run's
 !> inputs, no link, and what a run has left there, which its words or its digest tell; or the output
@@ -120,8 +120,8 @@ module faststrip_command_store
 
 contains
 
-    !> Note the files that a store will need beside its output, before any is opened. Ends the program
-    !> with a usage error if one of them is an input or an output.
+    !> Note the files that a store will need beside its output, before any is opened. Ends the
+    !> program with a usage error if one of them is an input or an output.
     subroutine take_store(path, option, can_resume, with_manifest)
         character(len=*), intent(in) :: path     !! name of the output
         character(len=*), intent(in) :: option   !! that names it
@@ -135,8 +135,8 @@ contains
         if (with_manifest) call take_beside(manifest_path(path), option)
     end subroutine take_store
 
-    !> The same for a part that may be made, whose names are noted as a beginning: by another name, too,
-    !> nothing that is there may be an input.
+    !> The same for a part that may be made, whose names are noted as a beginning: by another name,
+    !> too, nothing that is there may be an input.
     subroutine check_store_of_part(path, option)
         character(len=*), intent(in) :: path   !! name of the part
         character(len=*), intent(in) :: option !! that names the output
@@ -483,7 +483,8 @@ contains
         else
             call refuse_place(store, journal_word, status)
         end if
-        if (.not. is_error(status) .and. allocated(store%temporary)) call name_partial(store, status)
+        if (.not. is_error(status) .and. allocated(store%temporary)) &
+            call name_partial(store, status)
     end subroutine append_to_store
 
     subroutine begin(store, status)

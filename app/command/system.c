@@ -181,8 +181,8 @@ static void remove_temporaries(void)
 }
 
 /* Remove what killed runs of this user on this host left in a folder: files with no other name,
- * called prefix, number of the process, underscore, number, ending; but for n of them, by device and
- * file. */
+ * called prefix, number of the process, underscore, number, ending; but for n of them, by device
+ * and file. */
 void faststrip_remove_leftovers(const char *folder, const char *prefix, const char *ending,
                                 const long long *spared, int n)
 {

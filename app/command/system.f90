@@ -5,7 +5,8 @@ module faststrip_command_system
     implicit none
     private
 
-    public :: file_kind, name_kind, identity_t, identify, resolved, is_fed, keep_in_mind, forget_file
+    public :: file_kind, name_kind, identity_t, identify, resolved, is_fed
+    public :: keep_in_mind, forget_file
     public :: remove_leftovers, start_signals, set_progress, set_detail, set_speaker, is_printed
     public :: be_quiet, use_one_thread_each, become, run_program, program_folder
     public :: is_terminal, make_folders, new_folder, remove_folder

@@ -192,6 +192,10 @@ class Auto(ProgramTest):
         self.assertEqual(len(steps_of(row)), 1)
         row = self.auto(case, "--budget-us", "1", "--force-limit", "1")
         self.assertEqual(row["status"], "ok")
+        # Of bytes, which time decides, the result promises nothing.
+        self.assertIn("# within a budget of time, which another run may spend otherwise: its bytes "
+                      "may differ\n", done.stdout)
+        self.assertNotIn("budget", self.run_program("contact", case, "--normal", "auto").stdout)
         # How good it gets is a matter of the machine.
         first = self.auto(case, "--budget-us", "1", "--target", "pmax", "--resolution-limit", "1")
         best = self.auto(case, "--budget-us", "1e6", "--target", "pmax")
