@@ -345,7 +345,7 @@ def compiler():
 
 
 # What fpm builds in its packages, in words.
-WORK = {"app": "the programs", "test": "the Fortran tests", ".": "the library"}
+WORK = {"app": "the programs", "test": "the Fortran tests", "src/files": "the library"}
 
 
 def fpm(name, package, command, flags, *words, trouble, twin=""):
