@@ -701,9 +701,6 @@ def sizes(rng, i):
                codes=(1, 3), files={"case.nml": text_of(lines)}, may_pass=True)
 
 
-FAMILIES = {"case values": (case_values, 16), "namelists": (namelists, 14),
-
-
 FAMILIES = {"case values": (case_values, 16), "units": (units, 8), "namelists": (namelists, 14),
             "gap files": (gap_files, 14), "profile files": (profile_files, 10),
             "conicities": (conicities, 8), "pairs": (pairs, 6), "batches": (batches, 12),
