@@ -214,6 +214,7 @@ contains
         call hold_value(content, group, 'gauge_mm', of_gauge, gauge_mm)
         call hold_value(content, group, 'gauge_depth_mm', of_gauge_depth, gauge_depth_mm)
         call hold_value(content, group, 'rail_distance_mm', of_gauge, rail_distance_mm)
+        call hold_value(content, group, 'inclination', of_inclination, inclination)
         call hold_value(content, group, 'cant', of_inclination, cant)
         track = track_t(gauge_mm, gauge_depth_mm)
         if (sets(content, group, 'rail_distance_mm')) then

@@ -31,6 +31,8 @@ MISTAKES = (
     ("creepage in percent", {"motion": "cksi = 0.5"}, ("cksi", "percent?")),
     ("lateral creepage in percent", {"motion": "ceta = -1.5"}, ("ceta", "percent?")),
     ("inclination in degrees", {"rail": "profile = 'uic60', cant = 1.43"}, ("cant", "degrees")),
+    ("inclination in degrees, by its name", {"rail": "profile = 'uic60', inclination = 1.43"},
+     ("inclination should", "degrees")),
     ("inclination as 1:40", {"rail": "profile = 'uic60', cant = 40"}, ("cant", "40 for 1:40?")),
     ("gauge in metres", {"rail": "profile = 'uic60', gauge_mm = 1.435"},
      ("gauge_mm", "metres or inches?")),
