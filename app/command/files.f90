@@ -145,7 +145,11 @@ contains
         select case (output%identity%kind)
         case (kind_file)
         case (kind_none)
-            if (len(output%identity%path) == 0) return ! whoever opens it says why
+            if (len(output%identity%path) == 0) then
+                if (name_kind(path) /= kind_none) call usage_error(option // ' must be a file, ' &
+                    // 'got links without an end: ' // path, '')
+                return ! whoever opens it says why
+            end if
         case (kind_pipe)
             if (index(output%path, '/dev/') /= 1 .and. index(output%path, '/proc/') /= 1) &
                 call usage_error(option // ' must be a file, got the pipe ' // path, '')

@@ -130,6 +130,12 @@ class Outputs(ProgramTest):
         self.refused(2, "bench", "accuracy", "--contacts", ROOT / "reference" / "contact", "-o",
                      GAPS / "shift_0.csv", says=["-o", "shift_0.csv"])
 
+    def test_links_without_an_end_are_no_place_for_a_table(self):
+        (self.folder / "one.csv").symlink_to("two.csv")
+        (self.folder / "two.csv").symlink_to("one.csv")
+        self.refused(2, "contact", "case.nml", "-o", "one.csv", says=["-o", "links", "one.csv"])
+        self.assertEqual(os.readlink(self.folder / "one.csv"), "two.csv")
+
     def test_a_pipe_is_no_place_for_a_table(self):
         os.mkfifo(self.folder / "pipe")
         self.refused(2, "contact", "case.nml", "-o", "pipe", says=["-o", "pipe"])
