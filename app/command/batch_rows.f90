@@ -55,9 +55,11 @@ contains
             if (is_error(status)) return
         end do
         columns%penetration = column_index(table, penetration_column)
-        call refuse_misspelt(table, penetration_column, status)
+        call refuse_misspelt(table, penetration_column, case_columns, status)
         do i = 1, size(friction_columns)
-            call refuse_misspelt(table, trim(friction_columns(i)), status)
+            ! Without a kind of friction the others are carried through.
+            if (i > 1 .and. column_index(table, friction_columns(1)) == 0) exit
+            call refuse_misspelt(table, trim(friction_columns(i)), friction_columns, status)
         end do
         if (is_error(status)) return
         do i = 1, table%n_columns

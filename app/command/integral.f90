@@ -93,7 +93,7 @@ contains
         call require_column(table, 'b', b_column, status)
         call fail_on_error(status)
         x_column = column_index(table, 'X')
-        call refuse_misspelt(table, 'X', status)
+        call refuse_misspelt(table, 'X', ['n', 'b'], status)
         call fail_on_error(status)
         allocate (n(table%n_rows), b(table%n_rows), x(table%n_rows))
         do row = 1, table%n_rows

@@ -67,7 +67,7 @@ contains
                 call require_column(table, trim(state_names(i)), columns%number(i), status)
             else
                 columns%number(i) = column_index(table, trim(state_names(i)))
-                call refuse_misspelt(table, trim(state_names(i)), status)
+                call refuse_misspelt(table, trim(state_names(i)), state_names, status)
             end if
         end do
     end subroutine find_state_columns

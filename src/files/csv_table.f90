@@ -523,15 +523,17 @@ contains
 
     !> Refuse a column that has nearly the name of one that may be left out, and is: it would be
     !> taken for none.
-    pure subroutine refuse_misspelt(table, name, status)
+    pure subroutine refuse_misspelt(table, name, known, status)
         type(csv_table_t), intent(in) :: table   !! a table that was read
         character(len=*), intent(in) :: name     !! of a column that may be left out
+        character(len=*), intent(in) :: known(:) !! names that mean something else
         type(status_t), intent(inout) :: status  !! `st_file_format`
 
         integer :: i
 
         if (status%code /= 0 .or. column_index(table, name) > 0) return
         do i = 1, table%n_columns
+            if (any(known == table%names(i)%text)) cycle
             if (.not. is_nearly(table%names(i)%text, name)) cycle
             call set_place_status(status, st_file_format, 'a column must be named ' // name, &
                                   table%names(i)%text, table%file, 0)

@@ -240,7 +240,8 @@ contains
         character(len=2) :: pair
 
         pair = line
-        is_wide = any(wide_marks == pair) .or. (index(pair, achar(0)) > 0 .and. len(line) > 1)
+        is_wide = any(wide_marks == pair) .or. len(line) > 1 .and. &
+                  (pair(1:1) == achar(0) .neqv. pair(2:2) == achar(0))
     end function is_wide
 
     ! Read on, behind what was not yet given, which moves to the beginning of the buffer.

@@ -49,4 +49,4 @@ class Bench(LabTest):
         self.refused(2, "bench")
         self.refused(2, "bench", "strips", says=["strips"])
         self.refused(2, "bench", "integral", "--rounds", "0", says=["--rounds"])
-        self.refused(1, "bench", "integral", "--rounds", "1", "-o", "no/such/folder.csv")
+        self.refused(1, "bench", "integral", "--rounds", "1", "-o", "/dev/null/folder.csv")

@@ -285,7 +285,8 @@ class Lookup(ProgramTest):
             self.refused(2, "lookup", *words, says=[says])
         self.refused(1, "lookup", "eval", table, "in.csv", says=["missing column: mu"])
         self.refused(1, "lookup", "eval", table, "twice.csv", says=["Fx_N"])
-        self.refused(1, "lookup", "make", "-o", "none/x.fslt", *MAKE, says=["none/x.fslt"])
+        self.refused(1, "lookup", "make", "-o", "/dev/null/x.fslt", *MAKE,
+                     says=["/dev/null/x.fslt"])
         self.refused(3, "lookup", "make", "-o", "x", "--error", "1e-9", "--ab", "1:1.1",
                      "--tests", "299", says=["nodes"])
         self.assertFalse((self.folder / "x").exists())

@@ -271,7 +271,7 @@ class TestUnusual(ProgramTest):
             {"contact": "load_N = 2e5, shift_mm = -2"},
             {"contact": "penetration_mm = 0.01"},
             {"material": "mu = 0.05"},
-            {"rail": "profile = 'uic60', rail_distance_mm = 1580"},
+            {"rail": "profile = 'uic60', rail_distance_mm = 1592"},
         ):
             with self.subTest(groups):
                 self.write("case.nml", profile_case(**groups))

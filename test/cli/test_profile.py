@@ -209,6 +209,7 @@ class Profiles(ProgramTest):
             done = self.run_program("contact", "c.nml")
             self.assertEqual(rows_of(done.stdout)[0]["status"], status, done.stderr)
             self.assertEqual(words in done.stderr, depth > 0.0, done.stderr)
+            self.is_doubtful = depth > 0.0  # no steel carries the point that stands out
             rows = self.good("sweep", "c.nml")
             self.assertEqual(rows[0]["status"], status)
 

@@ -25,9 +25,9 @@ module faststrip_base_decimal
     ! of the pairs are below 2**(-45).
     real(real64), parameter :: doubt = 2.0_real64**(-36)
 
-    integer :: power_index
+    integer :: k_
     real(real64), parameter :: ten(0:most_power) = &
-        [(10.0_real64**power_index, power_index=0, most_power)]
+        [(10.0_real64**k_, k_=0, most_power)]
 
     ! Given: the least and the first number beyond of 17 digits.
     real(real64), parameter :: least = 1.0e16_real64, beyond = 1.0e17_real64

@@ -7,7 +7,7 @@ module faststrip_contact_plausible
                                         of_radius, of_gap_radius, of_load, of_penetration, &
                                         of_creepage, of_spin, of_gap_width, of_gap_height, &
                                         of_speed, of_slip_speed, of_pressure
-    use faststrip_base_status, only: message_length
+    use faststrip_base_status, only: message_length, add_words
     use faststrip_contact_case, only: contact_case_t
     implicit none
     private
@@ -33,6 +33,7 @@ module faststrip_contact_plausible
         real(wp) :: radius = 0.0_wp   !! 1/(2 inv2r) where the gap is lowest, mm; 0: not known
         real(wp) :: width = 0.0_wp    !! from the first to the last point, mm
         real(wp) :: steepness = 0.0_wp !! from the lowest to the highest point, over the width
+        real(wp) :: lowest = 0.0_wp   !! height from which penetrations count, mm
     end type gap_size_t
 
     !> What the caller calls the numbers of a contact; one without a name is not looked at.
@@ -49,19 +50,31 @@ module faststrip_contact_plausible
 
 contains
 
-    !> Keep words about a number, if there are any.
-    pure subroutine add_doubt(doubts, quantity, name, value, radius)
+    !> Keep words about a number, if there are any. Nothing is allocated, whatever it is.
+    pure subroutine add_doubt(doubts, quantity, name, value, radius, before, behind)
         type(doubts_t), intent(inout) :: doubts  !! one more
         integer, intent(in) :: quantity          !! place in the table of quantities
-        character(len=*), intent(in) :: name     !! as the caller knows it
+        character(len=*), intent(in) :: name     !! as the caller knows it; blanks behind do not count
         real(wp), intent(in) :: value            !! in the unit of the table
         real(wp), intent(in), optional :: radius !! rolling radius, mm; 0: not known
+        character(len=*), intent(in), optional :: before !! words in front of the name
+        character(len=*), intent(in), optional :: behind !! words after it
 
-        character(len=message_length) :: words
+        character(len=message_length) :: words, said
+        integer :: n
 
-        if (doubts%n == most_doubts .or. len(name) == 0) return
-        words = doubt_about(quantity, name, value, radius)
-        if (words == '') return
+        if (doubts%n == most_doubts .or. name == '') return
+        said = doubt_about(quantity, '', value, radius)
+        if (said == '') return
+        words = ''
+        n = 0
+        if (present(before)) then
+            words = before
+            n = len(before)
+        end if
+        words(n + 1:) = name
+        if (present(behind)) call add_words(words, behind)
+        call add_words(words, said)
         doubts%n = doubts%n + 1
         doubts%quantity(doubts%n) = quantity
         doubts%words(doubts%n) = words
@@ -79,18 +92,20 @@ contains
         if (size%is_known) call doubt_gap(size, names, doubts)
         radius = size%radius
         call doubt_material(case, names, doubts)
+        ! What is not above 0 is an error, or no contact.
         if (case%by_load) then
-            call add_doubt(doubts, of_load, trim(names%load), case%load, radius)
-        else
-            call add_doubt(doubts, of_penetration, trim(names%penetration), case%penetration, &
-                           radius)
+            if (case%load > 0.0_wp) &
+                call add_doubt(doubts, of_load, names%load, case%load, radius)
+        else if (case%penetration > size%lowest) then
+            call add_doubt(doubts, of_penetration, names%penetration, &
+                           case%penetration - size%lowest, radius)
         end if
-        call add_doubt(doubts, of_creepage, trim(names%creepage(1)), case%creepage%cksi)
-        call add_doubt(doubts, of_creepage, trim(names%creepage(2)), case%creepage%ceta)
-        call add_doubt(doubts, of_spin, trim(names%creepage(3)), case%creepage%cphi, radius)
+        call add_doubt(doubts, of_creepage, names%creepage(1), case%creepage%cksi)
+        call add_doubt(doubts, of_creepage, names%creepage(2), case%creepage%ceta)
+        call add_doubt(doubts, of_spin, names%creepage(3), case%creepage%cphi, radius)
         if (case%friction%kind == friction_constant) return
-        call add_doubt(doubts, of_speed, trim(names%speed), case%friction%speed)
-        call add_doubt(doubts, of_slip_speed, trim(names%half_slip_speed), &
+        call add_doubt(doubts, of_speed, names%speed, case%friction%speed)
+        call add_doubt(doubts, of_slip_speed, names%half_slip_speed, &
                        case%friction%half_slip_speed)
     end subroutine find_doubts
 
@@ -101,10 +116,10 @@ contains
         type(doubts_t), intent(inout) :: doubts    !! more of them
 
         associate (material => case%material)
-            call add_doubt(doubts, stiffness(material%nu_wheel), trim(names%e(1)), material%e_wheel)
-            call add_doubt(doubts, stiffness(material%nu_rail), trim(names%e(2)), material%e_rail)
+            call add_doubt(doubts, stiffness(material%nu_wheel), names%e(1), material%e_wheel)
+            call add_doubt(doubts, stiffness(material%nu_rail), names%e(2), material%e_rail)
         end associate
-        call add_doubt(doubts, of_friction, trim(names%mu), case%mu)
+        call add_doubt(doubts, of_friction, names%mu, case%mu)
     end subroutine doubt_material
 
     !> Is the largest pressure beyond what any steel carries?
@@ -124,11 +139,11 @@ contains
         ! Under a contact angle inv2r is smaller, and not the same all over.
         call add_doubt(doubts, merge(of_radius, of_gap_radius, size%is_round .and. &
                                      size%radius > quantities(of_radius)%least), &
-                       '1/(2 ' // trim(names%gap(3)) // ')', size%radius)
-        call add_doubt(doubts, of_gap_width, 'the width of ' // trim(names%gap(1)), size%width, &
-                       size%radius)
-        call add_doubt(doubts, of_gap_height, 'the range of ' // trim(names%gap(2)) // &
-                       ' over the width', size%steepness)
+                       names%gap(3), size%radius, before='1/(2 ', behind=')')
+        call add_doubt(doubts, of_gap_width, names%gap(1), size%width, size%radius, &
+                       before='the width of ')
+        call add_doubt(doubts, of_gap_height, names%gap(2), size%steepness, &
+                       before='the range of ', behind=' over the width')
     end subroutine doubt_gap
 
     !> What a gap tells of its units.
@@ -146,6 +161,7 @@ contains
         size_of%width = y(size(y)) - y(1)
         if (.not. size_of%width > 0.0_wp) return
         size_of%is_known = .true.
+        size_of%lowest = h(lowest)
         size_of%steepness = (maxval(h) - h(lowest))/size_of%width
         if (.not. inv2r(lowest) > 0.0_wp) return
         size_of%radius = 0.5_wp/inv2r(lowest)

@@ -46,7 +46,7 @@ contains
         integer, intent(in) :: i                  !! from 1 on
         character(len=*), intent(out) :: words    !! the line
         integer(c_int), intent(out) :: n          !! number of lines
-        integer(c_int), intent(out) :: code       !! status: 0, or no handle
+        integer(c_int), intent(out) :: code       !! 0, or the status of no handle
 
         type(handle_t), pointer :: contact
         type(wheelset_handle_t), pointer :: wheelset

@@ -17,6 +17,7 @@ module faststrip_interop_register
     private
 
     public :: enter_register, leave_register, look_up_register
+    public :: lock_reading, unlock_reading
     public :: kind_contact, kind_wheelset, kind_lookup
 
     !> What a handle can stand for: one of a kind is none of another.
@@ -48,7 +49,8 @@ module faststrip_interop_register
     integer, save :: first_free = 0 ! of those given back; 0: none
     logical, save :: fork_waits = .false.
 
-    type(mutex_t), save :: mutex
+    ! Of the register, and of reading files.
+    type(mutex_t), save :: mutex, reading
 
     interface
         integer(c_int) function pthread_atfork(prepare, parent, child) bind(c)
@@ -199,11 +201,26 @@ contains
         call unlock_mutex(mutex)
     end subroutine unlock
 
+    !> Let one thread at a time read a file: gfortran keeps the length of a text that a function
+    !> gives in one place for all threads.
+    subroutine lock_reading()
+        call lock()
+        call unlock()
+        call lock_mutex(reading)
+    end subroutine lock_reading
+
+    !> Let the next one read.
+    subroutine unlock_reading()
+        call unlock_mutex(reading)
+    end subroutine unlock_reading
+
     subroutine before_fork() bind(c, name='')
+        call lock_mutex(reading)
         call lock_mutex(mutex)
     end subroutine before_fork
 
     subroutine after_fork() bind(c, name='')
         call unlock_mutex(mutex)
+        call unlock_mutex(reading)
     end subroutine after_fork
 end module faststrip_interop_register

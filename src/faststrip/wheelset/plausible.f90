@@ -2,7 +2,8 @@
 !> here, and no figure changes.
 module faststrip_wheelset_plausible
     use faststrip_base_kinds, only: wp
-    use faststrip_base_plausible, only: of_load, of_turn, of_speed, of_pitch, of_shift, of_curve
+    use faststrip_base_plausible, only: quantities, of_load, of_turn, of_speed, of_pitch, &
+                                        of_shift, of_curve
     use faststrip_contact_plausible, only: doubts_t, add_doubt
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, demand_loads, &
@@ -35,21 +36,24 @@ contains
 
         integer :: i
 
-        call add_doubt(doubts, of_shift, trim(names%y), state%y)
-        call add_doubt(doubts, of_turn, trim(names%roll), state%roll)
-        call add_doubt(doubts, of_turn, trim(names%yaw), state%yaw)
-        call add_doubt(doubts, of_speed, trim(names%speed), state%speed)
-        if (abs(state%speed) > 0.0_wp .and. model%radius > 0.0_wp) &
-            call add_doubt(doubts, of_pitch, trim(names%pitch_rate) // ' times the radius over ' &
-                           // trim(names%speed), state%pitch_rate*model%radius/state%speed)
+        call add_doubt(doubts, of_shift, names%y, state%y)
+        call add_doubt(doubts, of_turn, names%roll, state%roll)
+        call add_doubt(doubts, of_turn, names%yaw, state%yaw)
+        call add_doubt(doubts, of_speed, names%speed, state%speed)
+        ! Where a vehicle starts or stops wheels spin or stand.
+        if (abs(state%speed) >= quantities(of_speed)%least .and. model%radius > 0.0_wp) &
+            call add_doubt(doubts, of_pitch, names%pitch_rate, &
+                           state%pitch_rate*model%radius/state%speed, &
+                           behind=' times the radius over the speed')
         if (abs(state%curvature) > 0.0_wp) &
-            call add_doubt(doubts, of_curve, trim(names%curve), 1.0_wp/state%curvature)
+            call add_doubt(doubts, of_curve, names%curve, 1.0_wp/state%curvature)
         if (demand%kind == demand_axle_load) then
-            call add_doubt(doubts, of_load, trim(names%load), demand%axle_load, model%radius)
+            if (demand%axle_load > 0.0_wp) &
+                call add_doubt(doubts, of_load, names%load, demand%axle_load, model%radius)
         else if (demand%kind == demand_loads) then
             do i = 1, size(demand%load)
-                if (demand%wants(i)) call add_doubt(doubts, of_load, trim(names%load), &
-                                                    demand%load(i), model%radius)
+                if (demand%wants(i) .and. demand%load(i) > 0.0_wp) &
+                    call add_doubt(doubts, of_load, names%load, demand%load(i), model%radius)
             end do
         end if
     end subroutine find_state_doubts
