@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command
+from faststrip_plots import command, references
 from faststrip_plots.results import (
     QUANTITIES,
     compare,
@@ -33,7 +33,7 @@ def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
                         help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
+    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
                         help="the same sweep by full CONTACT")
     parser.add_argument("--fast-modes", default=FAST_MODES, metavar="CSV",
                         help="the same sweep by CONTACT's fast modes")

@@ -3,7 +3,7 @@
 
 import sys
 
-from faststrip_plots import command, panels, style
+from faststrip_plots import command, panels, references, style
 from faststrip_plots.results import read_field, read_reference, read_strips, read_sweep
 
 
@@ -19,14 +19,14 @@ def main(arguments=None):
                         " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
     parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
                         help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
+    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
                         help="the same sweep by full CONTACT")
     parser.add_argument("-o", "--output", default="out/overview.png", metavar="PNG",
                         help="picture to write")
     options = parser.parse_args(arguments)
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
-    contact = command.contact_file(options.contact, options.shift)
+    contact = references.contact_file(options.contact, options.shift)
     contact = read_field(contact) if contact else None
     sweep = read_sweep(options.sweep)
     reference = read_reference(options.reference)

@@ -3,7 +3,7 @@
 
 import sys
 
-from faststrip_plots import command, panels, style
+from faststrip_plots import command, panels, references, style
 from faststrip_plots.results import read_field, read_strips, read_sweep
 
 
@@ -30,7 +30,7 @@ def main(arguments=None):
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
     sweep = read_sweep(options.sweep)
-    contact = command.contact_file(options.contact, options.shift)
+    contact = references.contact_file(options.contact, options.shift)
     contact = read_field(contact) if contact and not options.no_contact else None
     norm = read_field(options.norm) if options.norm else None
     ellipse = panels.hertz_ellipse(sweep, options.shift)

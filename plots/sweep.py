@@ -4,7 +4,7 @@
 import os
 import sys
 
-from faststrip_plots import command, panels, style
+from faststrip_plots import command, panels, references, style
 from faststrip_plots.results import (
     NORMAL_QUANTITIES,
     TANGENTIAL_QUANTITIES,
@@ -17,7 +17,7 @@ def main(arguments=None):
     parser = command.parser(__doc__)
     parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
                         help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=command.REFERENCE, metavar="CSV",
+    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
                         help="the same sweep by full CONTACT")
     parser.add_argument("--no-reference", action="store_true",
                         help="draw the sweep alone, without ratios and differences")

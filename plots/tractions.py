@@ -6,7 +6,7 @@ import sys
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from faststrip_plots import command, style
+from faststrip_plots import command, references, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
@@ -28,7 +28,7 @@ def main(arguments=None):
                         help="picture to write (default: out/tractions_shift_MM.png)")
     options = parser.parse_args(arguments)
     own = read_table(options.fields or command.shift_file("fields", options.shift), COLUMNS)
-    path = command.contact_file(options.contact, options.shift)
+    path = references.contact_file(options.contact, options.shift)
     if path is None:
         raise InputError(f"no field by CONTACT for the shift {options.shift:g} mm")
     exact = read_table(path, COLUMNS)

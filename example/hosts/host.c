@@ -575,7 +575,7 @@ static void wheelsets_that_are_none(void)
     } while (0)
     EXPECT(0, faststrip_default_case(&contact, sizeof contact));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(NULL, sizeof setup));
-    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup - 8));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup - 16));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_default_wheelset(&setup, sizeof setup + 8));
     EXPECT(0, faststrip_default_wheelset(&setup, sizeof setup));
     EXPECT(1, setup.radius_right == 460.0 && setup.radius_left == 460.0);
@@ -594,9 +594,9 @@ static void wheelsets_that_are_none(void)
            faststrip_wheelset_new(&setup, wheels, rails, &contact, NULL, NULL, 0));
     setup.size += 8;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "the header is newer");
-    setup.size -= 16;
+    setup.size -= 24;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "the size that faststrip_default_wheelset set, got 64");
-    setup.size += 8;
+    setup.size += 16;
     setup.gauge = NAN;
     MAKES(FASTSTRIP_NOT_FINITE, "finite");
     setup.gauge = 1435.0;

@@ -9,7 +9,6 @@ import sys
 from .tables import InputError
 
 SWEEP = "out/sweep.csv"
-REFERENCE = "reference/contact/s1002_uic60_B.csv"
 
 
 def parser(description: str) -> argparse.ArgumentParser:
@@ -33,12 +32,6 @@ def run(main, arguments=None) -> int:
 def shift_file(kind: str, shift: float) -> str:
     """Where the program leaves a file of one shift unless told otherwise."""
     return f"out/{kind}_shift_{shift:g}.csv"
-
-
-def contact_file(given: str | None, shift: float) -> str | None:
-    """CONTACT's field: the file given, or the reference's for that shift if there is one."""
-    default = f"reference/contact/fields/shift_{shift:g}_B.csv"
-    return given or (default if os.path.exists(default) else None)
 
 
 def friction(text: str) -> float:

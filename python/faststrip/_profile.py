@@ -406,9 +406,9 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
             break
         capacity = n.value
     _raise(status, text)
-    y, h, inv2r, inclination = arrays[:, :n.value].copy()
+    y, h, inv2r, turned = arrays[:, :n.value].copy()
     angle, rolling_radius, y_wheel, y_rail, *clipped = contact.tolist()
-    return Gap(y, h, inv2r, inclination, angle, rolling_radius, y_wheel, y_rail,
+    return Gap(y, h, inv2r, turned, angle, rolling_radius, y_wheel, y_rail,
                (int(clipped[0]), int(clipped[1])))
 
 

@@ -143,11 +143,14 @@ class Field(ProgramTest):
                                 f"{wrong}\na,both,1,,0,20000,,160000,1\n")
             self.refused(1, "wheelset", "w.nml", "--states", "s.csv",
                          says=[f"a column must be named {right}, got {wrong}"])
-        for wrong, right in (("given_penetration_um", "given_penetration_mm"),
-                             ("Friction_kind", "friction_kind"), ("mu_kinetik", "mu_kinetic"),
-                             ("speed_m_s", "speed_mm_s")):
-            self.write("b.csv", f"{BATCH_COLUMNS},{wrong}\n"
-                                "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0,\n")
+        # The other columns of friction are the program's where a row may say its kind.
+        for wrong, right, kind in (("given_penetration_um", "given_penetration_mm", ""),
+                                   ("Friction_kind", "friction_kind", ""),
+                                   ("mu_kinetik", "mu_kinetic", "friction_kind,"),
+                                   ("speed_m_s", "speed_mm_s", "friction_kind,")):
+            cell = "constant," if kind else ""
+            self.write("b.csv", f"{BATCH_COLUMNS},{kind}{wrong}\n"
+                                f"a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0,{cell}\n")
             self.refused(1, "batch", "b.csv",
                          says=[f"a column must be named {right}, got {wrong}"])
 

@@ -18,7 +18,7 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
                 " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast fsints"
                 " fswdft fswnew fsrail fswslv fswfre fsfric fswear fsstwr fscfun fsconi"
-                " fslopn fslfre fslinf fslook fslwin fslcon fslwhl fsrdpr".split())
+                " fslopn fslfre fslinf fslook fslwin fslcon fslwhl fsrdpr fsdoub".split())
 
 # What only the laboratory says, its modules' names and its commands, and where it reads.
 LABORATORY = ("faststrip_lab", "fuzz", "bench", "trade", "scenes", "reference/", "example/")

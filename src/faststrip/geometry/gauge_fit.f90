@@ -79,8 +79,8 @@ contains
         if (is_flanged) then
             play = gauge - (back_spacing + 2.0_wp*(tread_line + y_flank))
             if (play < 0.0_wp) then
-                call set_status(status, st_bad_argument, pair_words(gauge, back_spacing) // &
-                                'fit, got a play of ' // trim(number_text(play)) // ' mm')
+                call set_status(status, st_bad_argument, trim(pair_words(gauge, back_spacing)) // &
+                                ' fit, got a play of ' // trim(number_text(play)) // ' mm')
                 return
             end if
         end if
@@ -102,11 +102,11 @@ contains
         if (apart > gauge .and. apart <= gauge + most_beyond_gauge) return
         call find_back_spacing(gauge, 0.0_wp, belonging, known)
         if (is_error(known)) then
-            call set_status(status, st_bad_argument, pair_words(gauge, back_spacing) // &
-                            'fit, got tape circles ' // trim(number_text(apart)) // ' mm apart')
+            call set_status(status, st_bad_argument, trim(pair_words(gauge, back_spacing)) // &
+                            ' fit, got tape circles ' // trim(number_text(apart)) // ' mm apart')
         else
-            call set_status(status, st_bad_argument, pair_words(gauge, back_spacing) // &
-                            'fit, got tape circles ' // trim(number_text(apart)) // &
+            call set_status(status, st_bad_argument, trim(pair_words(gauge, back_spacing)) // &
+                            ' fit, got tape circles ' // trim(number_text(apart)) // &
                             ' mm apart; ' // trim(number_text(belonging)) // &
                             ' mm belong to this gauge')
         end if
@@ -114,11 +114,11 @@ contains
 
     pure function pair_words(gauge, back_spacing) result(words)
         real(wp), intent(in) :: gauge, back_spacing
-        character(len=:), allocatable :: words
+        character(len=120) :: words
 
         words = 'the gauge ' // trim(number_text(gauge)) // &
                 ' mm and the distance of the flange backs ' // &
-                trim(number_text(back_spacing)) // ' mm must '
+                trim(number_text(back_spacing)) // ' mm must'
     end function pair_words
 
     ! Where the flange is as thick as EN 15313 measures it: from the tape circle inwards the first
