@@ -54,7 +54,7 @@ contains
     pure subroutine add_doubt(doubts, quantity, name, value, radius, before, behind)
         type(doubts_t), intent(inout) :: doubts  !! one more
         integer, intent(in) :: quantity          !! place in the table of quantities
-        character(len=*), intent(in) :: name     !! as the caller knows it; blanks behind do not count
+        character(len=*), intent(in) :: name     !! as the caller knows it, with or without blanks
         real(wp), intent(in) :: value            !! in the unit of the table
         real(wp), intent(in), optional :: radius !! rolling radius, mm; 0: not known
         character(len=*), intent(in), optional :: before !! words in front of the name
