@@ -67,7 +67,7 @@ module faststrip_base_plausible
                    'kN or tonnes', ''), &
         quantity_t('penetration', 'R', over_radius, any_size, 1.0e-6_wp, 0.03_wp, 'metres', &
                    'micrometres'), &
-        quantity_t('creepage', '1', over_one, any_size, 0.0_wp, 0.2_wp, '', 'percent'), &
+        quantity_t('creepage', '1', over_one, any_size, 0.0_wp, 0.3_wp, '', 'percent'), &
         quantity_t('spin creepage', '1/R', over_curvature, any_size, 0.0_wp, 4.0_wp, '', &
                    '1/m'), &
         quantity_t('width of a gap', 'R', over_radius, any_size, 5.0e-3_wp, 3.0_wp, &
