@@ -13,7 +13,7 @@ module faststrip_command_auto_solver
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, needs_forces, target_pmax, target_area
     use faststrip_command_auto_stage, only: wanted_of, grid_step_t, first_grid, next_grid, &
-                                            step_words, grid_words
+                                            add_step, add_grid
     use faststrip_command_clock, only: microseconds, cpu_microseconds
     use faststrip_command_methods, only: numerics_t, core_methods
     use faststrip_command_stages, only: solver_t, outcome_t, solve_pressures, solve_forces, &
@@ -50,10 +50,7 @@ contains
         end if
         if (is_error(status)) return
         cpu = cpu_microseconds() - cpu
-        ! Lengths of words are in memory that all threads share, see `faststrip_base_text`.
-        !$omp critical (words)
         call take_steps(taken, cpu, solver%tells_times, outcome)
-        !$omp end critical (words)
         call take_result(result, outcome)
         solver%chosen%contact_methods_t = taken%steps(taken%best)%methods
         if (wanted%others%one_us > 0.0_wp .and. .not. taken%is_met) &
@@ -89,9 +86,10 @@ contains
         if (tangential_us > 0.0_wp) share = normal_us/(normal_us + tangential_us)
         outcome%normal_cpu_us = outcome%normal_cpu_us + share*cpu_us
         outcome%tangential_cpu_us = outcome%tangential_cpu_us + (1.0_wp - share)*cpu_us
-        outcome%choice = step_words(taken%steps(1), tells_times)
-        do i = 2, taken%n
-            outcome%choice = outcome%choice // '; ' // step_words(taken%steps(i), tells_times)
+        outcome%choice = ''
+        do i = 1, taken%n
+            if (i > 1) outcome%choice = outcome%choice // '; '
+            call add_step(taken%steps(i), tells_times, outcome%choice)
         end do
     end subroutine take_steps
 
@@ -138,9 +136,8 @@ contains
             if (.not. is_error(tried)) step%estimate = max(step%estimate, &
                 contradiction(wanted%target, outcome%normal, best, trial%normal))
             call add_times(trial, outcome)
-            !$omp critical (words)
-            outcome%choice = outcome%choice // '; ' // grid_words(step, solver%tells_times)
-            !$omp end critical (words)
+            outcome%choice = outcome%choice // '; '
+            call add_grid(step, solver%tells_times, outcome%choice)
             if (is_error(tried) .or. step%estimate >= best) then
                 solver%workspace%strips = strips
                 if (solver%with_field) solver%field = field

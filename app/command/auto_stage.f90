@@ -17,7 +17,7 @@ module faststrip_command_auto_stage
     implicit none
     private
 
-    public :: wanted_of, grid_step_t, first_grid, next_grid, step_words, grid_words
+    public :: wanted_of, grid_step_t, first_grid, next_grid, add_step, add_grid
 
     ! Grids that Kalker's methods are tried on for one contact.
     integer, parameter :: most_grids = 3
@@ -141,52 +141,55 @@ contains
         step%estimate = unknown_error
     end function next_grid
 
-    !> A step of the core in words: methods, estimate, time.
-    function step_words(step, tells_time) result(text)
+    !> Add a step of the core in words: methods, estimate, time.
+    subroutine add_step(step, tells_time, text)
         type(auto_step_t), intent(in) :: step !! what was tried
         logical, intent(in) :: tells_time     !! else the words are those of any other run
-        character(len=:), allocatable :: text !! for the CSV
+        character(len=:), allocatable, intent(inout) :: text !! for the CSV
 
         associate (methods => step%methods)
-            text = trim(normal_method_name(methods%normal)) // ' ' &
+            text = text // trim(normal_method_name(methods%normal)) // ' ' &
                    // integer_text(methods%strips_per_patch)
             if (methods%tangential /= tangential_none) &
                 text = text // ' + ' // trim(tangential_method_name(methods%tangential)) // ' ' &
                        // integer_text(methods%points_per_strip)
         end associate
-        text = text // told(step%estimate, step%normal_us + step%tangential_us, tells_time)
-    end function step_words
+        call add_told(step%estimate, step%normal_us + step%tangential_us, tells_time, text)
+    end subroutine add_step
 
-    !> A try of Kalker's methods in words.
-    function grid_words(step, tells_time) result(text)
+    !> Add a try of Kalker's methods in words.
+    subroutine add_grid(step, tells_time, text)
         type(grid_step_t), intent(in) :: step !! what was tried
-        logical, intent(in) :: tells_time     !! as for `step_words`
-        character(len=:), allocatable :: text !! for the CSV
+        logical, intent(in) :: tells_time     !! as for `add_step`
+        character(len=:), allocatable, intent(inout) :: text !! for the CSV
 
-        text = trim(normal_method_name(normal_norm)) // ' ' // integer_text(nint(step%across))
+        text = text // trim(normal_method_name(normal_norm)) // ' ' // integer_text(nint(step%across))
         if (step%tangential /= tangential_none) &
             text = text // ' + ' // trim(tangential_method_name(step%tangential))
         if (is_error(step%status)) then
             text = text // ': ' // trim(status_word(step%status%code))
         else
-            text = text // told(step%estimate, step%us, tells_time)
+            call add_told(step%estimate, step%us, tells_time, text)
         end if
-    end function grid_words
+    end subroutine add_grid
 
-    function told(estimate, us, tells_time) result(text)
+    subroutine add_told(estimate, us, tells_time, text)
         real(wp), intent(in) :: estimate, us
         logical, intent(in) :: tells_time
-        character(len=:), allocatable :: text
+        character(len=:), allocatable, intent(inout) :: text
 
-        text = ': not known'
-        if (estimate < unknown_error) text = ': ' // short(estimate)
+        if (estimate < unknown_error) then
+            text = text // ': ' // trim(short(estimate))
+        else
+            text = text // ': not known'
+        end if
         if (tells_time) text = text // ' in ' // integer_text(nint(us)) // ' us'
-    end function told
+    end subroutine add_told
 
     !> A number of two digits that count.
     function short(value) result(text)
         real(wp), intent(in) :: value
-        character(len=:), allocatable :: text
+        character(len=24) :: text
 
         real(wp), parameter :: least_plain = 1.0e-6_wp, most_plain = 10.0_wp
         character(len=24) :: buffer, form
@@ -197,6 +200,6 @@ contains
             form = '(es8.1)'
         end if
         write (buffer, form) value
-        text = trim(adjustl(buffer))
+        text = adjustl(buffer)
     end function short
 end module faststrip_command_auto_stage

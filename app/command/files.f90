@@ -6,7 +6,7 @@
 module faststrip_command_files
     use, intrinsic :: iso_c_binding, only: c_long_long
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: temporary_name, temporary_prefix, temporary_ending, &
+    use faststrip_files_csv, only: name_temporary, find_prefix, temporary_ending, &
                                    most_temporaries
     use faststrip_command_console, only: fail, usage_error, exit_bad_input, exit_usage
     use faststrip_command_system, only: identity_t, identify, is_fed, keep_in_mind, name_kind, &
@@ -114,9 +114,11 @@ contains
         type(identity_t), intent(in) :: identity
 
         integer(c_long_long), allocatable :: longer(:, :)
+        character(len=:), allocatable :: prefix
         integer :: n
 
-        if (index(identity%path, '/' // temporary_prefix()) == 0) return
+        call find_prefix(prefix)
+        if (index(identity%path, '/' // prefix) == 0) return
         !$omp critical (spared_inputs)
         n = 0
         if (allocated(spared)) n = size(spared, 2)
@@ -136,6 +138,7 @@ contains
 
         type(used_t) :: output
         type(trouble_t) :: trouble
+        character(len=:), allocatable :: temporary
         integer :: i
 
         ! Before the name is looked up, so that two outputs in a new folder are told apart.
@@ -173,8 +176,8 @@ contains
         if (index(output%path, '/dev/') == 1) return
         do i = 1, most_temporaries
             ! What is there by such a name is no file of this run.
-            if (name_kind(temporary_name(path, i)) == kind_none) &
-                call keep_in_mind(temporary_name(path, i))
+            call name_temporary(path, i, temporary)
+            if (name_kind(temporary) == kind_none) call keep_in_mind(temporary)
         end do
     end subroutine take_output
 
@@ -222,18 +225,19 @@ contains
     !> Remove what killed runs have left beside the outputs. For a run that ends well: what it has
     !> read stays.
     subroutine clear_leftovers()
-        character(len=:), allocatable :: folder
+        character(len=:), allocatable :: folder, prefix
         integer :: i
 
         if (.not. allocated(spared)) allocate (spared(2, 0))
+        call find_prefix(prefix)
         do i = 1, outputs%n
             associate (output => outputs%files(i))
                 if (index(output%path, '/dev/') == 1 .or. len(output%beside) > 0) cycle
-                folder = temporary_name(output%path, 1)
+                call name_temporary(output%path, 1, folder)
             end associate
             folder = folder(:index(folder, '/', back=.true.))
             if (len(folder) == 0) folder = '.'
-            call remove_leftovers(folder, temporary_prefix(), temporary_ending, spared)
+            call remove_leftovers(folder, prefix, temporary_ending, spared)
         end do
     end subroutine clear_leftovers
 

@@ -7,6 +7,7 @@
 module faststrip_command_gap_cache
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_digest, only: digest_length
     use faststrip_files_gap, only: read_gap_file
     use faststrip_geometry_gap, only: gap_t
     use faststrip_command_console, only: exit_bad_input
@@ -72,7 +73,7 @@ contains
         type(trouble_t), intent(out) :: trouble           !! why the run has to end, if it has to
 
         type(gap_t) :: gap
-        character(len=:), allocatable :: digest
+        character(len=digest_length) :: digest
         integer :: i
         logical :: is_wanted, is_like
 

@@ -4,7 +4,7 @@
 !> Of many files only the first ones are listed.
 module faststrip_command_gap_digests
     use faststrip_files_csv, only: csv_text_t
-    use faststrip_files_digest, only: digest_of_file
+    use faststrip_files_digest, only: digest_of_file, digest_length
     use faststrip_command_files, only: spare_input
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, names_with
     use faststrip_command_system, only: file_kind, kind_file
@@ -28,10 +28,10 @@ module faststrip_command_gap_digests
 
 contains
 
-    !> SHA-256 of a file that can be read twice; empty if it is none.
+    !> SHA-256 of a file that can be read twice; blank if it is none.
     function digest_of_gap(path) result(digest)
-        character(len=*), intent(in) :: path !! name of the file
-        character(len=:), allocatable :: digest
+        character(len=*), intent(in) :: path   !! name of the file
+        character(len=digest_length) :: digest
 
         digest = ''
         call spare_input(path)
@@ -53,7 +53,7 @@ contains
     subroutine add_digest(digests, path, digest, is_like)
         type(gap_digests_t), intent(inout) :: digests !! gets it, if there is room
         character(len=*), intent(in) :: path          !! name of the file
-        character(len=*), intent(in) :: digest        !! its SHA-256; empty: none is known
+        character(len=*), intent(in) :: digest        !! its SHA-256; blank: none is known
         logical, intent(out) :: is_like               !! is it not listed, or with this digest?
 
         integer :: i, k
@@ -63,7 +63,7 @@ contains
         call find(digests, path, i, is_there)
         if (is_there) then
             is_like = digests%values(i)%text == digest
-        else if (digests%n < most_digests .and. len(digest) > 0) then
+        else if (digests%n < most_digests .and. digest /= '') then
             if (.not. allocated(digests%names)) &
                 allocate (digests%names(most_digests), digests%values(most_digests))
             do k = digests%n, i, -1

@@ -7,9 +7,9 @@ module faststrip_command_netcdf_file
                                      set_status, st_file_format, st_file_write
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_columns, only: is_variable_name
-    use faststrip_files_csv, only: csv_text_t, failure_words, finish_tables, free_temporary
+    use faststrip_files_csv, only: csv_text_t, failure_words, finish_tables, find_free_temporary
     use faststrip_files_stdio, only: c_remove, c_rename
-    use faststrip_files_temporary, only: final_path
+    use faststrip_files_temporary, only: find_final_path
     use faststrip_command_console, only: note, progress, version_text
     use faststrip_command_system, only: set_progress
     implicit none
@@ -123,7 +123,7 @@ contains
         call load_library(table_procedure, path, found, status)
         if (is_error(status)) return
         call c_f_procpointer(found, write_table)
-        target = free_temporary(path)
+        call find_free_temporary(path, target)
         said = path
         if (present(called)) said = called
         status%code = write_table(source // c_null_char, said // c_null_char, &
@@ -150,7 +150,7 @@ contains
         call load_library(lookup_procedure, path, found, status)
         if (is_error(status)) return
         call c_f_procpointer(found, write_table)
-        target = free_temporary(path)
+        call find_free_temporary(path, target)
         status%code = write_table(source // c_null_char, target // c_null_char, &
                                   path // c_null_char, version_text() // c_null_char, words)
         status%message = transfer(words, status%message)
@@ -162,12 +162,14 @@ contains
         character(len=*), intent(in) :: target, path
         type(status_t), intent(inout) :: status
 
+        character(len=:), allocatable :: final
         integer(c_int) :: code
 
         if (.not. is_error(status)) then
-            code = c_rename(target // c_null_char, final_path(path) // c_null_char)
+            call find_final_path(path, final)
+            code = c_rename(target // c_null_char, final // c_null_char)
             if (code /= 0) call set_status(status, st_file_write, 'cannot write the file: ' &
-                                           // path // ': ' // failure_words())
+                                           // path // ': ' // trim(failure_words()))
         end if
         if (is_error(status)) code = c_remove(target // c_null_char)
     end subroutine finish_file
@@ -180,10 +182,12 @@ contains
 
         character(kind=c_char) :: why(message_length)
         character(len=message_length) :: words
+        character(len=:), allocatable :: final
 
         call clear_status(status)
         found = c_null_funptr
-        if (index(final_path(path), '/dev/') == 1) then
+        call find_final_path(path, final)
+        if (index(final, '/dev/') == 1) then
             call set_status(status, st_file_write, 'NetCDF must go to a file, got ' // path)
             return
         end if

@@ -254,7 +254,8 @@ contains
                 if (len(text) > 0) text = text // ' '
                 text = text // trim(option%name)
                 if (option%value_name /= '') text = text // '=' // printable(option%text)
-                if (option%reads) text = text // ' (SHA-256 ' // digest_of_file(option%text) // ')'
+                if (option%reads) text = text // ' (SHA-256 ' &
+                    // trim(digest_of_file(option%text)) // ')'
             end associate
         end do
     end function given_options

@@ -179,7 +179,7 @@ contains
         cell_width = 0
         do i = 1, size(columns)
             names(i)%text = trim(columns(i))
-            units(i)%text = column_unit(trim(columns(i)))
+            units(i)%text = trim(column_unit(trim(columns(i))))
             do k = 1, size(labels)
                 if (labels(k)%column /= columns(i)) cycle
                 names(i)%text = trim(labels(k)%words)

@@ -16,7 +16,7 @@ module faststrip_command_store
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_file_write
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_text, close_csv, failure_words, &
-                                   final_path, free_temporary
+                                   find_final_path, find_free_temporary
     use faststrip_files_digest, only: hash_file
     use faststrip_files_lines, only: is_folder
     use faststrip_files_sha256, only: sha256_t, sha256_start, sha256_add, sha256_digest
@@ -127,11 +127,14 @@ contains
         character(len=*), intent(in) :: option   !! that names it
         logical, intent(in) :: can_resume, with_manifest !! as for `open_store`
 
+        character(len=:), allocatable :: final
+
         if (is_stream(path)) return
-        call take_beside(final_path(path) // lock_word, option)
+        call find_final_path(path, final)
+        call take_beside(final // lock_word, option)
         if (.not. can_resume) return
-        call take_beside(final_path(path) // journal_word, option)
-        call take_beside(final_path(path) // partial_word, option)
+        call take_beside(final // journal_word, option)
+        call take_beside(final // partial_word, option)
         if (with_manifest) call take_beside(manifest_path(path), option)
     end subroutine take_store
 
@@ -168,7 +171,7 @@ contains
         call clear_status(status)
         if (present(is_busy)) is_busy = .false.
         store%path = path
-        store%final = final_path(path)
+        call find_final_path(path, store%final)
         store%with_manifest = with_manifest
         is_beside = .false.
         if (present(is_part)) is_beside = is_part
@@ -211,8 +214,11 @@ contains
     logical function is_stream(path)
         character(len=*), intent(in) :: path
 
-        is_stream = path == '-' .or. index(path, '/dev/') == 1 .or. &
-                    index(final_path(path), '/dev/') == 1 .or. len_trim(path) == 0
+        character(len=:), allocatable :: final
+
+        call find_final_path(path, final)
+        is_stream = path == '-' .or. index(path, '/dev/') == 1 .or. index(final, '/dev/') == 1 &
+                    .or. len_trim(path) == 0
     end function is_stream
 
     !> What lies where this run will write must be what a run has left.
@@ -277,17 +283,19 @@ contains
 
         integer(c_int), parameter :: longest = 200
         character(kind=c_char) :: words(longest)
+        character(len=:), allocatable :: temporary
         integer :: i
 
         call clear_status(status)
         holder = ''
-        lock = c_lock(path // c_null_char, free_temporary(path) // c_null_char, words, longest)
+        call find_free_temporary(path, temporary)
+        lock = c_lock(path // c_null_char, temporary // c_null_char, words, longest)
         if (lock >= 0) then
             call keep_in_mind(path)
         else if (lock == lock_of_others) then
             return
         else if (lock < -1) then
-            call set_status(status, st_file_write, failure_words())
+            call set_status(status, st_file_write, trim(failure_words()))
         else
             do i = 1, longest
                 if (words(i) == c_null_char) exit
@@ -401,6 +409,7 @@ contains
         logical, intent(in), optional :: by_length
             !! is it enough that it is as long? Many processes must not read all of it, each
 
+        character(len=:), allocatable :: final
         type(status_t) :: status
 
         is_there = name_kind(manifest_path(path)) == kind_file
@@ -408,13 +417,14 @@ contains
         call read_manifest(manifest_path(path), manifest, status)
         is_there = .not. is_error(status)
         if (.not. is_there) return
+        call find_final_path(path, final)
         if (present(by_length)) then
             if (by_length) then
-                is_there = c_length(final_path(path) // c_null_char) == number_of(manifest, 'bytes')
+                is_there = c_length(final // c_null_char) == number_of(manifest, 'bytes')
                 return
             end if
         end if
-        call check_bytes(final_path(path), number_of(manifest, 'bytes'), &
+        call check_bytes(final, number_of(manifest, 'bytes'), &
                          value_of(manifest, 'sha256'), is_there)
     end subroutine is_made
 
@@ -423,7 +433,8 @@ contains
         character(len=*), intent(in) :: path !! name of the output
         character(len=:), allocatable :: name
 
-        name = final_path(path) // manifest_word
+        call find_final_path(path, name)
+        name = name // manifest_word
     end function manifest_path
 
     !> Remove an output with its manifest, if it is no link and as long as that says.
@@ -493,7 +504,7 @@ contains
 
         call drop_leftover(store, status)
         if (is_error(status)) return
-        store%temporary = free_temporary(store%final)
+        call find_free_temporary(store%final, store%temporary)
         store%file = c_create(store%temporary // c_null_char)
         if (store%file < 0) call refuse(store, status)
         if (is_error(status)) return
@@ -547,7 +558,7 @@ contains
         type(status_t), intent(out) :: status
 
         call set_status(status, st_file_write, 'cannot write the file: ' // store%path // ': ' &
-                        // failure_words())
+                        // trim(failure_words()))
     end subroutine refuse
 
     !> Give the output its name.

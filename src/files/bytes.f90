@@ -7,7 +7,7 @@ module faststrip_files_bytes
                                      st_file_write
     use faststrip_files_lines, only: is_folder
     use faststrip_files_stdio, only: c_fopen, c_fclose, c_ferror, c_rename, c_remove
-    use faststrip_files_temporary, only: most_temporaries, temporary_name, final_path
+    use faststrip_files_temporary, only: most_temporaries, name_temporary, find_final_path
     implicit none
     private
 
@@ -105,12 +105,12 @@ contains
         end if
         stream = c_null_ptr
         final = path
-        if (index(path, '/dev/') /= 1) final = final_path(path)
+        if (index(path, '/dev/') /= 1) call find_final_path(path, final)
         if (index(final, '/dev/') == 1) then
             stream = c_fopen(final // c_null_char, 'w' // c_null_char)
         else
             do number = 1, most_temporaries
-                temporary = temporary_name(path, number)
+                call name_temporary(path, number, temporary)
                 stream = c_fopen(temporary // c_null_char, 'wx' // c_null_char)
                 if (c_associated(stream)) exit
             end do

@@ -22,8 +22,8 @@ contains
 
         character(len=:), allocatable :: one, other
 
-        one = folded(name)
-        other = folded(known)
+        call fold(name, one)
+        call fold(known, other)
         is_nearly = one == other
         if (is_nearly .or. len(one) == 0) return
         one = without_unit(one)
@@ -34,9 +34,9 @@ contains
     end function is_nearly
 
     ! Small letters; an underscore for what else may stand between words and around a unit.
-    pure function folded(name) result(text)
+    pure subroutine fold(name, text)
         character(len=*), intent(in) :: name
-        character(len=:), allocatable :: text
+        character(len=:), allocatable, intent(out) :: text
         integer :: i
 
         text = ''
@@ -54,7 +54,7 @@ contains
             if (i == 0) exit
             text = text(:i) // text(i + 2:)
         end do
-    end function folded
+    end subroutine fold
 
     ! Are both the same but for one letter that is another one, is missing in the first, or has
     ! changed its place with the next?

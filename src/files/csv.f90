@@ -20,8 +20,8 @@ module faststrip_files_csv
                                           abort_csv, collect_csv, collected, collected_length, &
                                           forget_collected, real_text, failure_words, &
                                           finish_tables
-    use faststrip_files_temporary, only: temporary_prefix, temporary_ending, most_temporaries, &
-                                         temporary_name, free_temporary, final_path
+    use faststrip_files_temporary, only: find_prefix, temporary_ending, most_temporaries, &
+                                         name_temporary, find_free_temporary, find_final_path
     implicit none
     private
 
@@ -30,8 +30,8 @@ module faststrip_files_csv
     public :: column_numbers, several_columns, take_only_row, refuse_misspelt
     public :: csv_stream_t, csv_scan_t, row_place_t
     public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
-    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
-    public :: free_temporary, final_path
+    public :: find_prefix, temporary_ending, most_temporaries, name_temporary
+    public :: find_free_temporary, find_final_path
     public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, put_text
     public :: close_csv, abort_csv, finish_tables
     public :: collect_csv, collected, collected_length, forget_collected

@@ -11,7 +11,7 @@ module faststrip_files_csv_writer
     use faststrip_base_text, only: trim_blanks, integer_text
     use faststrip_files_lines, only: is_folder
     use faststrip_files_stdio, only: c_fopen, c_fdopen, c_fwrite, c_fclose, c_rename, c_remove
-    use faststrip_files_temporary, only: most_temporaries, temporary_name, final_path
+    use faststrip_files_temporary, only: most_temporaries, name_temporary, find_final_path
     implicit none
     private
 
@@ -37,6 +37,8 @@ module faststrip_files_csv_writer
 
     ! Tuned [characters]: first room. Origin: chosen: a row of a result.
     integer, parameter :: first_room = 2048
+    ! Of the C library's words for an error, which it has in every language.
+    integer, parameter :: longest_words = 200
 
     !> Add one cell to the row: text (quoted where needed), a whole number, or a real number so
     !> that it reads back as the same double; a number that is not finite leaves the cell empty.
@@ -99,7 +101,7 @@ contains
         call clear_status(status)
         writer%path = path
         writer%final = path
-        if (index(path, '/dev/') /= 1) writer%final = final_path(path)
+        if (index(path, '/dev/') /= 1) call find_final_path(path, writer%final)
         writer%temporary = ''
         allocate (character(len=first_room) :: writer%row)
         if (path == '-') then
@@ -114,7 +116,7 @@ contains
                             // ': Is a directory')
         else
             do number = 1, most_temporaries
-                writer%temporary = temporary_name(path, number)
+                call name_temporary(path, number, writer%temporary)
                 writer%stream = c_fopen(writer%temporary // c_null_char, 'wx' // c_null_char)
                 if (c_associated(writer%stream)) exit
             end do
@@ -221,18 +223,26 @@ contains
         call append_cell(writer, buffer(first:))
     end subroutine put_real_cell
 
-    !> A double as text with 17 significant digits, which read back as the same double; empty
-    !> if it is not finite.
-    pure function real_text(value) result(text)
-        real(wp), intent(in) :: value         !! any
-        character(len=:), allocatable :: text !! as `1.2345678901234567E+002`, no blanks
+    pure integer function real_length(value) result(length)
+        real(wp), intent(in) :: value
         character(len=24) :: buffer
         integer :: first
 
-        if (.not. ieee_is_finite(value)) then
-            text = ''
-            return
-        end if
+        length = 0
+        if (.not. ieee_is_finite(value)) return
+        call write_real(value, buffer, first)
+        length = len(buffer) - first + 1
+    end function real_length
+
+    !> A double as text with 17 significant digits, which read back as the same double; empty
+    !> if it is not finite.
+    pure function real_text(value) result(text)
+        real(wp), intent(in) :: value               !! any
+        character(len=real_length(value)) :: text   !! as `1.2345678901234567E+002`, no blanks
+        character(len=24) :: buffer
+        integer :: first
+
+        if (len(text) == 0) return
         call write_real(value, buffer, first)
         text = buffer(first:)
     end function real_text
@@ -353,40 +363,33 @@ contains
     subroutine note_failure(writer)
         type(csv_writer_t), intent(inout) :: writer
 
-        character(len=:), allocatable :: name, words
+        character(len=:), allocatable :: name
+        character(len=longest_words) :: words
 
         words = failure_words()
         if (writer%status%code /= 0) return
         name = writer%path
         if (name == '-') name = 'standard output'
         call set_status(writer%status, st_file_write, 'cannot write the file: ' // name // ': ' &
-                        // words)
+                        // trim(words))
     end subroutine note_failure
 
     !> The C library's words for its last error.
     function failure_words() result(words)
-        character(len=:), allocatable :: words
+        character(len=longest_words) :: words
         integer(c_int), pointer :: last_error
-
-        call c_f_pointer(c_errno_location(), last_error)
-        words = cause(last_error)
-    end function failure_words
-
-    ! The C library's words for an error.
-    function cause(number) result(words)
-        integer(c_int), intent(in) :: number
-        character(len=:), allocatable :: words
         character(kind=c_char), pointer :: text(:)
         type(c_ptr) :: place
         integer :: i
 
-        place = c_strerror(number)
+        call c_f_pointer(c_errno_location(), last_error)
+        place = c_strerror(last_error)
         call c_f_pointer(place, text, [int(c_strlen(place))])
-        allocate (character(len=size(text)) :: words)
-        do i = 1, size(text)
+        words = ''
+        do i = 1, min(size(text), len(words))
             words(i:i) = text(i)
         end do
-    end function cause
+    end function failure_words
 
     subroutine note_line_break(writer)
         type(csv_writer_t), intent(inout) :: writer

@@ -15,7 +15,7 @@ contains
     !> SHA-256 of a whole file in hexadecimal digits; empty if it cannot be read.
     function digest_of_file(path) result(digest)
         character(len=*), intent(in) :: path !! name of the file
-        character(len=:), allocatable :: digest
+        character(len=digest_length) :: digest !! blank if it cannot be read
         type(sha256_t) :: hash
         logical :: is_read
 

@@ -6,27 +6,46 @@ module faststrip_files_printable
 
     public :: printable
 
+    ! How a byte is shown that is no character.
+    character(len=*), parameter :: escape = '\xNN'
+
 contains
+
+    pure integer function safe_length(text) result(length)
+        character(len=*), intent(in) :: text
+
+        integer :: i, n
+
+        i = 1
+        length = 0
+        do while (i <= len(text))
+            n = length_of_character(text(i:))
+            length = length + merge(n, len(escape), n > 0)
+            i = i + max(n, 1)
+        end do
+    end function safe_length
 
     !> A text in which control characters, and bytes that are no UTF-8, stand as `\xNN`: what was
     !> typed or read cannot steer the terminal or break the line.
     pure function printable(text) result(safe)
-        character(len=*), intent(in) :: text  !! any bytes
-        character(len=:), allocatable :: safe
+        character(len=*), intent(in) :: text       !! any bytes
+        character(len=safe_length(text)) :: safe
 
         character(len=2) :: hexadecimal
-        integer :: i, n
+        integer :: i, k, n
 
-        safe = ''
         i = 1
+        k = 0
         do while (i <= len(text))
             n = length_of_character(text(i:))
             if (n > 0) then
-                safe = safe // text(i:i + n - 1)
+                safe(k + 1:k + n) = text(i:i + n - 1)
+                k = k + n
             else
                 n = 1
                 write (hexadecimal, '(z2.2)') ichar(text(i:i))
-                safe = safe // '\x' // lower_case(hexadecimal)
+                safe(k + 1:k + len(escape)) = escape(:2) // lower_case(hexadecimal)
+                k = k + len(escape)
             end if
             i = i + n
         end do

@@ -238,7 +238,7 @@ contains
         type(header_t), intent(inout) :: header
         type(status_t), intent(inout) :: status
 
-        character(len=:), allocatable :: range
+        character(len=:), allocatable :: range, columns
         real(wp) :: taper_line
         logical :: valid
 
@@ -247,7 +247,8 @@ contains
         select case (lower_case(key))
         case ('columndef')
             range = 'column letters with commas between them, X and Y among them'
-            call take_columns(without_blanks(text), header, valid)
+            call remove_blanks(text, columns)
+            call take_columns(columns, header, valid)
         case ('xypoints')
             range = 'a whole number from 0 on'
             if (len(text) == 0) return
@@ -278,9 +279,9 @@ contains
                                                range, "'" // text // "'", path, number)
     end subroutine take_key
 
-    pure function without_blanks(text) result(packed)
+    pure subroutine remove_blanks(text, packed)
         character(len=*), intent(in) :: text
-        character(len=:), allocatable :: packed
+        character(len=:), allocatable, intent(out) :: packed
 
         integer :: i
 
@@ -288,7 +289,7 @@ contains
         do i = 1, len(text)
             if (text(i:i) /= ' ' .and. text(i:i) /= achar(9)) packed = packed // text(i:i)
         end do
-    end function without_blanks
+    end subroutine remove_blanks
 
     !> The columns of X and Y.
     pure subroutine take_columns(text, header, valid)
@@ -328,6 +329,7 @@ contains
         type(status_t), intent(inout) :: status
 
         real(wp) :: values(most_columns)
+        character(len=:), allocatable :: content
         integer :: n, least, most
 
         least = 2
@@ -336,28 +338,28 @@ contains
             least = header%n_columns
             most = header%n_columns
         end if
-        call parse_words(without_words(without_comment(line, '"!%'), header%n_columns), least, &
-                         most, path, number, values, n, status)
+        content = without_comment(line, '"!%')
+        call parse_words(content(:end_of_numbers(content, header%n_columns)), least, most, path, &
+                         number, values, n, status)
         if (is_error(status)) return
         call append_point(profile, values(header%column_x), values(header%column_y), number)
     end subroutine take_point
 
-    !> A line of points without words behind its columns that begin with a letter.
-    pure function without_words(line, n_columns) result(text)
+    !> Where a line of points ends without words behind its columns that begin with a letter.
+    pure integer function end_of_numbers(line, n_columns) result(length)
         character(len=*), intent(in) :: line
         integer, intent(in) :: n_columns ! 0: not said
-        character(len=:), allocatable :: text
 
         integer :: first(most_columns + 1), last(most_columns + 1), n
 
-        text = line
+        length = len(line)
         if (n_columns == 0) return
         call split_words(line, first, last, n)
         if (n <= n_columns) return
         select case (lower_case(line(first(n_columns + 1):first(n_columns + 1))))
-        case ('a':'z'); text = line(:last(n_columns))
+        case ('a':'z'); length = last(n_columns)
         end select
-    end function without_words
+    end function end_of_numbers
 
     !> Are there as many points as the header says?
     subroutine check_count(path, header, n_comments, options, profile, status)

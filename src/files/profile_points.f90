@@ -20,6 +20,9 @@ module faststrip_files_profile_points
     !> Largest coordinate that is read, in the file's own unit.
     real(wp), parameter :: largest_coordinate = 1.0e9_wp
 
+    ! Around values that are texts.
+    character(len=*), parameter :: quotes = '"'''
+
     !> One line of a file.
     type :: line_t
         character(len=:), allocatable :: text !! without its end
@@ -192,11 +195,9 @@ contains
         end if
     end subroutine add_note
 
-    !> A line without what follows the first comment mark outside single quotes, trimmed.
-    pure function without_comment(line, marks) result(text)
-        character(len=*), intent(in) :: line  !! any
-        character(len=*), intent(in) :: marks !! each begins a comment
-        character(len=:), allocatable :: text
+    ! Where a line ends before its comment.
+    pure integer function content_end(line, marks)
+        character(len=*), intent(in) :: line, marks
 
         integer :: i
         logical :: is_quoted
@@ -211,21 +212,35 @@ contains
             i = scan(line, marks)
             if (i == 0) i = len(line) + 1
         end if
-        text = trim_blanks(line(:i - 1))
+        content_end = i - 1
+    end function content_end
+
+    !> A line without what follows the first comment mark outside single quotes, trimmed.
+    pure function without_comment(line, marks) result(text)
+        character(len=*), intent(in) :: line  !! any
+        character(len=*), intent(in) :: marks !! each begins a comment
+        character(len=len(trim_blanks(line(:content_end(line, marks))))) :: text
+
+        text = trim_blanks(line(:content_end(line, marks)))
     end function without_comment
+
+    ! 1 for a text in quotes, else 0.
+    pure integer function quotes_of(text) result(n)
+        character(len=*), intent(in) :: text
+
+        n = 0
+        if (len(text) < 2) return
+        if (scan(text, quotes) == 1 .and. text(len(text):) == text(1:1)) n = 1
+    end function quotes_of
 
     !> Text without the quotes around it.
     pure function unquoted(text) result(inner)
-        character(len=*), intent(in) :: text   !! any
-        character(len=:), allocatable :: inner !! without blanks around it, either
-
-        integer :: n
+        character(len=*), intent(in) :: text     !! any
+        character(len=len(trim_blanks(text)) - 2*quotes_of(trim_blanks(text))) :: inner
+            !! without blanks around it, either
 
         inner = trim_blanks(text)
-        n = len(inner)
-        if (n < 2) return
-        if (inner(1:1) == inner(n:n) .and. (inner(1:1) == '"' .or. inner(1:1) == "'")) &
-            inner = inner(2:n - 1)
+        if (quotes_of(trim_blanks(text)) == 1) inner = text(scan(text, quotes) + 1:)
     end function unquoted
 
     !> Key and value of a line `key = value`.

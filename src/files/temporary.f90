@@ -5,8 +5,8 @@ module faststrip_files_temporary
     implicit none
     private
 
-    public :: temporary_prefix, temporary_ending, most_temporaries, temporary_name
-    public :: free_temporary, final_path
+    public :: find_prefix, temporary_ending, most_temporaries, name_temporary
+    public :: find_free_temporary, find_final_path
 
     !> What is written goes to a file of the name `faststrip_HOST_PROCESS_NUMBER.tmp` beside its
     !> place first; by host and process a file that a killed run left is told from that of a run
@@ -42,8 +42,8 @@ module faststrip_files_temporary
 contains
 
     !> The beginning of the names of files being written on this host.
-    function temporary_prefix() result(prefix)
-        character(len=:), allocatable :: prefix !! `faststrip_HOST_`
+    subroutine find_prefix(prefix)
+        character(len=:), allocatable, intent(out) :: prefix !! `faststrip_HOST_`
         character(kind=c_char) :: name(longest_path)
         integer :: i
 
@@ -55,38 +55,43 @@ contains
             if (name(i) /= '/') prefix = prefix // name(i)
         end do
         prefix = prefix // '_'
-    end function temporary_prefix
+    end subroutine find_prefix
 
     !> Where a file is written until it is whole.
-    function temporary_name(path, number) result(name)
+    subroutine name_temporary(path, number, name)
         character(len=*), intent(in) :: path       !! name of the file
         integer, intent(in) :: number              !! 1 to `most_temporaries`
-        character(len=:), allocatable :: name
+        character(len=:), allocatable, intent(out) :: name
 
-        name = final_path(path)
-        name = name(:index(name, '/', back=.true.)) // temporary_prefix() &
-               // integer_text(int(c_getpid())) // '_' // integer_text(number) // temporary_ending
-    end function temporary_name
+        character(len=:), allocatable :: final, prefix
+
+        call find_final_path(path, final)
+        call find_prefix(prefix)
+        name = final(:index(final, '/', back=.true.)) // prefix // integer_text(int(c_getpid())) &
+               // '_' // integer_text(number) // temporary_ending
+    end subroutine name_temporary
 
     !> A name of those of a file that nothing has yet; the last one if all are taken.
-    function free_temporary(path) result(name)
+    subroutine find_free_temporary(path, name)
         character(len=*), intent(in) :: path !! name of the file
-        character(len=:), allocatable :: name
+        character(len=:), allocatable, intent(out) :: name
 
+        character(len=:), allocatable :: final
         integer :: number
         logical :: is_there
 
         do number = 1, most_temporaries
-            name = temporary_name(path, number)
-            inquire (file=final_path(name), exist=is_there)
-            if (.not. is_there .and. final_path(name) == name) return
+            call name_temporary(path, number, name)
+            call find_final_path(name, final)
+            inquire (file=final, exist=is_there)
+            if (.not. is_there .and. final == name) return
         end do
-    end function free_temporary
+    end subroutine find_free_temporary
 
     !> Where symbolic links lead to, also to what is not there yet.
-    function final_path(path) result(final)
-        character(len=*), intent(in) :: path   !! name of a file
-        character(len=:), allocatable :: final !! name of the file itself
+    subroutine find_final_path(path, final)
+        character(len=*), intent(in) :: path                !! name of a file
+        character(len=:), allocatable, intent(out) :: final !! name of the file itself
         integer, parameter :: most_links = 40
         character(kind=c_char) :: target(longest_path)
         character(len=:), allocatable :: text
@@ -103,5 +108,5 @@ contains
             if (text(1:1) /= '/') text = final(:index(final, '/', back=.true.)) // text
             call move_alloc(text, final)
         end do
-    end function final_path
+    end subroutine find_final_path
 end module faststrip_files_temporary

@@ -35,7 +35,7 @@ contains
     !> ends in no unit that is known here: it may have none.
     pure function column_unit(name) result(unit)
         character(len=*), intent(in) :: name  !! of a column
-        character(len=:), allocatable :: unit
+        character(len=len(units%unit)) :: unit
         integer :: i, from
 
         unit = ''
@@ -43,22 +43,29 @@ contains
             ! Before the underscore stands what is measured.
             from = len(name) - len_trim(units(i)%ending)
             if (from < 2) cycle
-            if (name(from:) == '_' // trim(units(i)%ending)) unit = trim(units(i)%unit)
+            if (name(from:) == '_' // trim(units(i)%ending)) unit = units(i)%unit
         end do
     end function column_unit
+
+    pure integer function length_without_unit(name) result(length)
+        character(len=*), intent(in) :: name
+        integer :: i, from
+
+        length = len(name)
+        do i = 1, size(units)
+            from = len(name) - len_trim(units(i)%ending)
+            if (from < 2) cycle
+            if (name(from:) == '_' // lower_case(trim(units(i)%ending))) &
+                length = min(length, from - 1)
+        end do
+    end function length_without_unit
 
     !> A column's name in small letters without its unit: `inv2r` of `inv2r_per_mm`.
     pure function without_unit(name) result(what)
         character(len=*), intent(in) :: name !! of a column, in small letters
-        character(len=:), allocatable :: what
-        integer :: i, from, first
+        character(len=length_without_unit(name)) :: what
 
-        first = len(name) + 1
-        do i = 1, size(units)
-            from = len(name) - len_trim(units(i)%ending)
-            if (from < 2) cycle
-            if (name(from:) == '_' // lower_case(trim(units(i)%ending))) first = min(first, from)
-        end do
-        what = name(:first - 1)
+        what = name
     end function without_unit
+
 end module faststrip_files_units

@@ -50,7 +50,7 @@ contains
         column%name = name
         column%long_name = trim(known%long_name)
         column%holds = known%holds
-        column%unit = column_unit(name)
+        column%unit = trim(column_unit(name))
         if (len(column%unit) == 0 .and. (known%holds == holds_counts .or. &
                                          known%holds == holds_numbers)) column%unit = '1'
     end subroutine make_column

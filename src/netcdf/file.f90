@@ -247,11 +247,11 @@ contains
         words = ''
         stream = c_fopen(path // c_null_char, 'a' // c_null_char)
         if (.not. c_associated(stream)) then
-            words = failure_words()
+            words = trim(failure_words())
             return
         end if
         if (c_fwrite(repeat(' ', trial), 1_c_size_t, int(trial, c_size_t), stream) < trial) &
-            words = failure_words()
-        if (c_fclose(stream) /= 0 .and. len(words) == 0) words = failure_words()
+            words = trim(failure_words())
+        if (c_fclose(stream) /= 0 .and. len(words) == 0) words = trim(failure_words())
     end function writing_trouble
 end module faststrip_netcdf_file

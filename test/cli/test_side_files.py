@@ -86,6 +86,15 @@ class Places(ProgramTest):
         self.good("batch", "b.csv", "-o", "r.csv", "--parts", "2")
         self.assertEqual(self.contents(), before)
 
+    def test_a_gap_in_the_place_of_a_part_is_told_before_one_is_made(self):
+        self.write("r.csv.part2of2", gap_text(parabola, n=61))
+        rows = [f"{k},{ROW}" for k in range(8)]
+        rows.insert(0, "x,r.csv.part2of2,210000,0.28,0.3,1e5,0,0,0")
+        self.write("b.csv", "\n".join([BATCH_COLUMNS, *rows]) + "\n")
+        before = self.contents()
+        self.refused(2, "batch", "b.csv", "-o", "r.csv", "--parts", "2", says=["r.csv.part2of2"])
+        self.assertEqual(self.contents(), before)
+
     def test_a_lock_that_only_begins_as_one(self):
         for text in ("process", "process on here", "process 12", "process 12 of here", ""):
             self.write("r.csv.lock", text)

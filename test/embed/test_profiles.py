@@ -2,6 +2,7 @@
 
 import csv
 import ctypes
+import dataclasses
 import math
 import os
 import pathlib
@@ -295,7 +296,12 @@ class Python(HostTest):
             contact.set_gap(gap.y, 2.0 * gap.h, 1e-3)
             contact.set_gap(whole)
             self.assertEqual(contact.solve(load=1e5, creepage=(0, 0, 0), mu=0.3), result)
+        turned = dataclasses.replace(gap, inclination=0.1 * gap.y)
+        for whole in (turned, turned[:4]):
+            contact.set_gap(whole)
+            self.assertEqual(contact.solve(load=1e5).word, "conformal")
         contact.set_gap(gap[:3])
+        self.assertEqual(contact.solve(load=1e5).word, "ok")
         for call, text in (
                 (lambda: faststrip.Profile.read("none.txt"), "no such file: none.txt"),
                 (lambda: faststrip.profile_gap(rail, wheel), "wheel must be a Profile of a wheel"),

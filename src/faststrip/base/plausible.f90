@@ -11,7 +11,7 @@ module faststrip_base_plausible
     implicit none
     private
 
-    public :: quantity_t, quantities, doubt_about, likely_mistake, stiffness
+    public :: quantity_t, quantities, is_plausible, doubt_about, likely_mistake, stiffness
     public :: of_friction, of_stiff_modulus, of_soft_modulus, of_poisson_ratio, of_radius
     public :: of_gap_radius, of_load, of_penetration, of_creepage, of_spin, of_gap_width
     public :: of_gap_height, of_profile_width, of_inclination, of_contact_angle, of_turn
@@ -124,29 +124,20 @@ contains
         real(wp), intent(in), optional :: radius !! rolling radius, mm; 0: not known
         character(len=message_length) :: words   !! of fixed length: nothing is allocated
 
-        type(quantity_t) :: known
-        real(wp) :: scale
+        real(wp) :: least, most
 
         words = ''
-        known = quantities(quantity)
-        scale = 1.0_wp
-        if (known%power /= over_one) then
-            if (.not. present(radius)) return
-            if (.not. (radius > 0.0_wp .and. is_usual(quantities(of_gap_radius), radius))) return
-            scale = radius**known%power
-        end if
-        known%least = known%least*scale
-        if (known%most < any_size) known%most = known%most*scale
-        if (is_usual(known, value)) return
+        if (is_plausible(quantity, value, radius)) return
+        call range_of(quantity, radius, least, most)
         words = name
-        if (abs(value) > known%most) then
-            call add_words(words, ' should be at most ' // number_text(known%most))
+        if (abs(value) > most) then
+            call add_words(words, ' should be at most ' // number_text(most))
             call add_words(words, ', got ' // number_text(value))
-            call add_words(words, ': ' // known%above)
+            call add_words(words, ': ' // quantities(quantity)%above)
         else
-            call add_words(words, ' should be at least ' // number_text(known%least))
+            call add_words(words, ' should be at least ' // number_text(least))
             call add_words(words, ', got ' // number_text(value))
-            call add_words(words, ': ' // known%below)
+            call add_words(words, ': ' // quantities(quantity)%below)
         end if
         call add_words(words, '?')
     end function doubt_about
@@ -164,13 +155,40 @@ contains
         call add_words(words, '?')
     end function likely_mistake
 
-    pure logical function is_usual(known, value)
-        type(quantity_t), intent(in) :: known
-        real(wp), intent(in) :: value
+    !> Is a number within practice? It counts as such where it is told over a radius that is not
+    !> known, or itself in doubt, and where it is not finite, which others refuse.
+    pure logical function is_plausible(quantity, value, radius)
+        integer, intent(in) :: quantity          !! place in the table
+        real(wp), intent(in) :: value            !! in the unit of the table
+        real(wp), intent(in), optional :: radius !! rolling radius, mm; 0: not known
 
-        is_usual = .true.
-        if (.not. ieee_is_finite(value)) return ! which others refuse
-        is_usual = .not. (abs(value) > known%most .or. &
-                          (abs(value) < known%least .and. abs(value) > 0.0_wp))
-    end function is_usual
+        real(wp) :: least, most
+
+        is_plausible = .true.
+        if (quantities(quantity)%power /= over_one) then
+            if (.not. present(radius)) return
+            if (.not. (radius >= quantities(of_gap_radius)%least .and. &
+                       radius <= quantities(of_gap_radius)%most)) return
+        end if
+        if (.not. ieee_is_finite(value)) return
+        call range_of(quantity, radius, least, most)
+        is_plausible = .not. (abs(value) > most .or. &
+                              (abs(value) < least .and. abs(value) > 0.0_wp))
+    end function is_plausible
+
+    !> The range of a quantity in practice.
+    pure subroutine range_of(quantity, radius, least, most)
+        integer, intent(in) :: quantity
+        real(wp), intent(in), optional :: radius
+        real(wp), intent(out) :: least, most
+
+        real(wp) :: scale
+
+        least = quantities(quantity)%least
+        most = quantities(quantity)%most
+        if (quantities(quantity)%power == over_one) return
+        scale = radius**quantities(quantity)%power
+        least = least*scale
+        if (most < any_size) most = most*scale
+    end subroutine range_of
 end module faststrip_base_plausible

@@ -3,10 +3,10 @@
 module faststrip_contact_plausible
     use faststrip_base_friction, only: friction_constant
     use faststrip_base_kinds, only: wp
-    use faststrip_base_plausible, only: doubt_about, quantities, stiffness, of_friction, &
-                                        of_radius, of_gap_radius, of_load, of_penetration, &
-                                        of_creepage, of_spin, of_gap_width, of_gap_height, &
-                                        of_speed, of_slip_speed, of_pressure
+    use faststrip_base_plausible, only: is_plausible, doubt_about, quantities, stiffness, &
+                                        of_friction, of_radius, of_gap_radius, of_load, &
+                                        of_penetration, of_creepage, of_spin, of_gap_width, &
+                                        of_gap_height, of_speed, of_slip_speed, of_pressure
     use faststrip_base_status, only: message_length, add_words
     use faststrip_contact_case, only: contact_case_t
     implicit none
@@ -60,12 +60,12 @@ contains
         character(len=*), intent(in), optional :: before !! words in front of the name
         character(len=*), intent(in), optional :: behind !! words after it
 
-        character(len=message_length) :: words, said
+        character(len=message_length) :: words
         integer :: n
 
+        ! The numbers first: words take longer than a Hertz contact.
+        if (is_plausible(quantity, value, radius)) return
         if (doubts%n == most_doubts .or. name == '') return
-        said = doubt_about(quantity, '', value, radius)
-        if (said == '') return
         words = ''
         n = 0
         if (present(before)) then
@@ -74,7 +74,7 @@ contains
         end if
         words(n + 1:) = name
         if (present(behind)) call add_words(words, behind)
-        call add_words(words, said)
+        call add_words(words, doubt_about(quantity, '', value, radius))
         doubts%n = doubts%n + 1
         doubts%quantity(doubts%n) = quantity
         doubts%words(doubts%n) = words
