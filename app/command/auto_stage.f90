@@ -163,7 +163,8 @@ contains
         logical, intent(in) :: tells_time     !! as for `add_step`
         character(len=:), allocatable, intent(inout) :: text !! for the CSV
 
-        text = text // trim(normal_method_name(normal_norm)) // ' ' // integer_text(nint(step%across))
+        text = text // trim(normal_method_name(normal_norm)) // ' ' &
+               // integer_text(nint(step%across))
         if (step%tangential /= tangential_none) &
             text = text // ' + ' // trim(tangential_method_name(step%tangential))
         if (is_error(step%status)) then

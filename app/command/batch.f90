@@ -8,8 +8,8 @@ module faststrip_command_batch
     !$ use omp_lib, only: omp_get_num_procs, omp_get_thread_num
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text, &
-                                     first_error
-    use faststrip_base_text, only: integer_text
+                                     first_error, st_file_format
+    use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_contact_case, only: contact_case_t
     use faststrip_files_csv, only: csv_stream_t, csv_scan_t, csv_writer_t, csv_text_t, &
                                    row_place_t, open_stream, find_row, row_place, go_to_row, &
@@ -546,6 +546,9 @@ contains
             if (modulo(chunk%n, job%chain) == 0 .and. &
                 (chunk%n >= job%wanted .or. chunk%end_of(chunk%n) > most_text)) exit
             call find_row(job%stream, from, to, found, status)
+            if (.not. (is_error(status) .or. found) .and. job%is_file) &
+                call set_place_status(status, st_file_format, 'the file has changed', '', &
+                                      job%input, job%stream%file%line)
             if (is_error(status) .or. .not. found) exit
             length = chunk%end_of(chunk%n) + to - from + 1
             if (length > len(chunk%text)) then

@@ -6,7 +6,7 @@ module faststrip_command_joined
                                      st_bad_argument, st_file_missing
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t
-    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose, c_fseek
+    use faststrip_files_stdio, only: c_open_input, c_fread, c_ferror, c_fclose, c_fseek
     use faststrip_command_gap_digests, only: gap_digests_t, take_digests, put_digests
     use faststrip_command_manifest, only: manifest_t, set_value, value_of, number_of, &
                                           unlike_value, status_counts_t, add_counts, put_counts, &
@@ -149,7 +149,7 @@ contains
         integer(c_int) :: code
 
         call clear_status(status)
-        stream = c_fopen(name // c_null_char, 'r' // c_null_char)
+        stream = c_open_input(name // c_null_char)
         if (c_associated(stream)) then
             allocate (character(len=most_bytes) :: piece)
             code = c_fseek(stream, int(from, c_long), 0_c_int)

@@ -137,7 +137,7 @@ int faststrip_is_fed(const char *path, int wait)
         return 1;
     for (i = 0; i < 20 * wait; i++) {
         ready = poll(&pipe, 1, 0);
-        if (ready > 0 && pipe.revents & (POLLIN | POLLHUP))
+        if (ready > 0 && pipe.revents & POLLIN)
             return 1;
         nanosleep(&nap, NULL);
     }

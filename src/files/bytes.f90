@@ -6,7 +6,8 @@ module faststrip_files_bytes
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_missing, &
                                      st_file_write
     use faststrip_files_lines, only: is_folder
-    use faststrip_files_stdio, only: c_fopen, c_fclose, c_ferror, c_rename, c_remove
+    use faststrip_files_stdio, only: c_open_input, c_fopen, c_fclose, c_ferror, c_rename, &
+                                     c_remove
     use faststrip_files_temporary, only: most_temporaries, name_temporary, find_final_path
     implicit none
     private
@@ -62,7 +63,7 @@ contains
             call set_status(status, st_file_missing, 'a file too large to be read: ' // path)
         end if
         if (status%code /= 0) return
-        stream = c_fopen(trim(path) // c_null_char, 'r' // c_null_char)
+        stream = c_open_input(trim(path) // c_null_char)
         allocate (bytes(max(length, 0_int64)), stat=failure)
         n = 0
         if (c_associated(stream) .and. failure == 0) then

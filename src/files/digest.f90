@@ -4,7 +4,7 @@ module faststrip_files_digest
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_files_sha256, only: sha256_t, sha256_start, sha256_add, sha256_digest, &
                                       digest_length
-    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose
+    use faststrip_files_stdio, only: c_open_input, c_fread, c_ferror, c_fclose
     implicit none
     private
 
@@ -42,7 +42,7 @@ contains
         call sha256_start(hash)
         done = 0
         if (present(found)) found = 0
-        stream = c_fopen(path // c_null_char, 'r' // c_null_char)
+        stream = c_open_input(path // c_null_char)
         is_read = c_associated(stream)
         if (.not. is_read) return
         allocate (character(len=most) :: piece)

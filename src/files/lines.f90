@@ -10,7 +10,7 @@ module faststrip_files_lines
                                      st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_sha256, only: sha256_t, sha256_add
-    use faststrip_files_stdio, only: c_fopen, c_fread, c_ferror, c_fclose, c_fseek
+    use faststrip_files_stdio, only: c_open_input, c_fread, c_ferror, c_fclose, c_fseek
     implicit none
     private
 
@@ -86,7 +86,7 @@ contains
         else if (is_folder(path)) then
             call set_status(status, st_file_missing, 'a folder, not a file: ' // path)
         else
-            file%stream = c_fopen(trim(path) // c_null_char, 'r' // c_null_char)
+            file%stream = c_open_input(trim(path) // c_null_char)
             if (c_associated(file%stream)) then
                 allocate (character(len=buffer_length) :: file%buffer)
                 return

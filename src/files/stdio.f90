@@ -5,9 +5,17 @@ module faststrip_files_stdio
     implicit none
     private
 
-    public :: c_fopen, c_fdopen, c_fread, c_fwrite, c_ferror, c_fclose, c_fseek, c_rename, c_remove
+    public :: c_open_input, c_fopen, c_fdopen, c_fread, c_fwrite, c_ferror, c_fclose, c_fseek
+    public :: c_rename, c_remove
 
     interface
+        !> Open a file, or a pipe, for reading; no stream if that fails.
+        function c_open_input(path) bind(c, name='faststrip_open_input') result(stream)
+            import :: c_char, c_ptr
+            character(kind=c_char), intent(in) :: path(*) !! with a null behind it
+            type(c_ptr) :: stream                         !! to be closed by `c_fclose`
+        end function c_open_input
+
         !> Open a file; no stream if that fails.
         function c_fopen(path, mode) bind(c, name='fopen') result(stream)
             import :: c_char, c_ptr

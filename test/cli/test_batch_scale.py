@@ -305,6 +305,23 @@ class Ended(Scale):
         self.refused(1, "batch", "cases.csv", "-o", "out.csv", "--resume", "--normal", "hertz",
                      "--tangential", "none", says=["cannot resume out.csv", "has changed"])
 
+    def test_a_table_that_is_cut_meanwhile(self):
+        os.mkfifo(self.folder / "pipe.csv")
+        self.write("gap.csv", gap_text(parabola, n=61))
+        rows = [f"{k},{'gap' if k else 'pipe'}.csv,209920,0.28,0.3,50000,0,0,0"
+                for k in range(9000)]
+        lines = [line + "\n" for line in [BATCH_COLUMNS, *rows]]
+        self.write("cases.csv", "".join(lines))
+        process = self.start("--normal", "hertz", "--tangential", "none")
+        # Opened once the program has counted the rows and wants the first gap.
+        with open(self.folder / "pipe.csv", "w", encoding="utf-8") as pipe:
+            os.truncate(self.folder / "cases.csv", len("".join(lines[:6000])))
+            pipe.write(gap_text(parabola, n=61))
+        said = without_progress(process.communicate()[1]).splitlines()
+        self.assertEqual(process.returncode, 1, said)
+        self.assertRegex(said[-1], r"the file has changed.* \(cases.csv:6000\)")
+        self.assertFalse((self.folder / "out.csv").exists())
+
     def test_what_was_done_is_not_done_again(self):
         process = self.start()
         self.begun(process)

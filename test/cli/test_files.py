@@ -1,6 +1,7 @@
 """No output is an input or another output; what is read and what is solved has an end."""
 
 import os
+import subprocess
 import sys
 import threading
 from unittest import mock
@@ -9,6 +10,8 @@ from cli_program import (
     BATCH_COLUMNS,
     GAPS,
     LAB,
+    PATIENCE,
+    PROGRAM,
     ROOT,
     ProgramTest,
     gap_case,
@@ -171,6 +174,24 @@ class Endless(ProgramTest):
         self.refused(1, "contact", "silent", says=["silent", "nobody writes"])
         self.feed(b"# nothing\n")
         self.refused(1, "batch", "pipe", says=["pipe:1200001", "1200000 lines"])
+
+    def test_pipes_that_are_written_at_once(self):
+        """Who feeds them has written all, and is gone, before they are read."""
+        os.mkfifo(self.folder / "pipe")
+        self.write("piped.nml", gap_case("pipe"))
+        self.write("gap.csv", gap_text(parabola, n=61))
+        self.write("b.csv", f"{BATCH_COLUMNS}\na,gap.csv,210000,0.28,0.3,1e5,0.001,0,0\n")
+        for name, words in (("gap.csv", ("contact", "piped.nml")),
+                            ("case.nml", ("contact", "pipe")), ("b.csv", ("batch", "pipe"))):
+            with subprocess.Popen([PROGRAM, *words], cwd=self.folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, encoding="utf-8") as process:
+                (self.folder / "pipe").write_bytes((self.folder / name).read_bytes())
+                try:
+                    said = process.communicate(timeout=PATIENCE / 10)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    self.fail(f"{name} is waited for without end")
+            self.assertEqual((process.returncode, len(rows_of(said[0]))), (0, 1), (name, said[1]))
 
     def test_a_case_file(self):
         self.feed(b"&contact\n")

@@ -52,7 +52,9 @@ class GapInvariance(ProgramTest):
         self.assertIn(done.returncode, (0, 1, 3), done.stderr)
         for word in ("NaN", "Infinity"):
             self.assertNotIn(word, done.stderr)
-        return {row["case"]: row for row in rows_of(done.stdout)}
+        found = {row["case"]: row for row in rows_of(done.stdout)}
+        self.assertEqual(set(found), {str(row[0]) for row in rows}, done.stderr)
+        return found
 
     def case(self, name, gap, demand, material="", motion="cksi = 0.001"):
         self.write(name, f"&contact\n gap_file = '{gap}'\n {demand}\n/\n&material\n mu = 0.3\n"
