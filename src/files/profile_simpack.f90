@@ -68,6 +68,7 @@ contains
         place = in_none
         in_points = .false.
         has_points = .false.
+        line = ''
         do i = 1, size(lines)
             line = without_comment(lines(i)%text, '!%')
             if (len(line) == 0) cycle

@@ -69,6 +69,7 @@ contains
             from_middle = from_middle + datum
             profile%flange_back = -datum
         end if
+        line = ''
         do i = header_lines + 1, size(lines)
             line = without_comment(lines(i)%text, '"!%')
             if (len(line) == 0) cycle

@@ -7,15 +7,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Open a file for reading; NULL if that fails. A named pipe is opened without waiting for a second
- * writer: the first one may have written all and gone while what it wrote is kept by another
- * opening of the pipe. Then something has to be in it. */
-FILE *faststrip_open_input(const char *path)
+/* Open a file for reading; NULL if that fails. A named pipe is opened once there is something in
+ * it, and not only when somebody writes: who wrote all of it may have gone. So this is a writer
+ * itself while the pipe is opened. */
+FILE *files_open_input(const char *path)
 {
     struct pollfd pipe = { .events = POLLIN };
     struct stat about;
     FILE *stream = NULL;
-    int ready;
+    int ready, writer;
 
     if (stat(path, &about) != 0 || !S_ISFIFO(about.st_mode))
         return fopen(path, "r");
@@ -25,9 +25,11 @@ FILE *faststrip_open_input(const char *path)
     do
         ready = poll(&pipe, 1, -1);
     while (ready < 0 && errno == EINTR);
-    if (ready > 0 && fcntl(pipe.fd, F_SETFL, fcntl(pipe.fd, F_GETFL) & ~O_NONBLOCK) == 0)
-        stream = fdopen(pipe.fd, "r");
-    if (!stream)
-        close(pipe.fd);
+    writer = ready > 0 ? open(path, O_WRONLY | O_NONBLOCK) : -1;
+    if (writer >= 0) {
+        stream = fopen(path, "r");
+        close(writer);
+    }
+    close(pipe.fd);
     return stream;
 }

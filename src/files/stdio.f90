@@ -10,7 +10,7 @@ module faststrip_files_stdio
 
     interface
         !> Open a file, or a pipe, for reading; no stream if that fails.
-        function c_open_input(path) bind(c, name='faststrip_open_input') result(stream)
+        function c_open_input(path) bind(c, name='files_open_input') result(stream)
             import :: c_char, c_ptr
             character(kind=c_char), intent(in) :: path(*) !! with a null behind it
             type(c_ptr) :: stream                         !! to be closed by `c_fclose`
