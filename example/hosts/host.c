@@ -924,7 +924,7 @@ static void *make_and_free(void *argument)
     return NULL;
 }
 
-static void forked(void)
+static void forked(int forks)
 {
     faststrip_workspace *workspace;
     faststrip_case contact;
@@ -936,7 +936,7 @@ static void forked(void)
     contact.normal = FASTSTRIP_NORMAL_HERTZ;
     contact.strips_per_patch = 1;
     for (i = 0; i < 4; i++) pthread_create(&thread[i], NULL, make_and_free, &contact);
-    for (i = 0; i < 300; i++) {
+    for (i = 0; i < forks; i++) {
         child = fork();
         if (child == 0) {
             alarm(20); /* a child that waits for ever ends by this */
@@ -1047,7 +1047,8 @@ static int look_after(const char *what)
     else if (strcmp(what, "errors") == 0) errors();
     else if (strcmp(what, "freed") == 0) freed();
     else if (strcmp(what, "older") == 0) older();
-    else if (strcmp(what, "forked") == 0) forked();
+    else if (strcmp(what, "forked") == 0) forked(300);
+    else if (strcmp(what, "forked_once") == 0) forked(1);
 #ifdef COUNTING
     else if (strcmp(what, "quiet") == 0) quiet();
 #endif

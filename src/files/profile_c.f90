@@ -7,7 +7,6 @@ module faststrip_files_profile_c
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_interop_c, only: put_text, numbers_at
-    use faststrip_interop_register, only: lock_reading, unlock_reading
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_files_printable, only: printable
     use faststrip_files_profile, only: profile_options_t
@@ -75,7 +74,6 @@ contains
         type(status_t) :: status
         character(len=:), allocatable :: name, words
 
-        call lock_reading()
         words = ''
         call find_reading(reading, fields, status)
         if (.not. is_error(status)) call find_path(path, name, status)
@@ -92,7 +90,6 @@ contains
         code = status%code
         if (is_error(status)) words = printable(trim(status%message))
         if (c_associated(text)) code = max(code, put_text(words, text, length))
-        call unlock_reading()
 
     contains
 

@@ -12,7 +12,6 @@ module faststrip_files_profile_f77
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_size_t
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, &
                                      st_workspace_too_small
-    use faststrip_interop_register, only: lock_reading, unlock_reading
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_files_printable, only: printable
     use faststrip_files_profile, only: profile_options_t
@@ -51,7 +50,6 @@ contains
             name(i:i) = path(i)
         end do
         n = 0
-        call lock_reading()
         call hold_environment(environment)
         call take_profile(trim(name), profile_options_t(kind=kind), curation_t(), taken, status)
         call restore_environment(environment)
@@ -67,7 +65,6 @@ contains
             y(:n) = taken%points%y
             z(:n) = taken%points%z
         end if
-        call unlock_reading()
         do i = 1, text_length
             text(i) = words(i:i)
         end do

@@ -4,20 +4,18 @@
 !> given out. So a handle that was freed, or never made, is told without touching memory that is
 !> no longer its own, and does not become another one's.
 !>
-!> Entering and leaving go one at a time, by a mutex that a fork waits for. Looking up takes no
-!> lock: a place changes only when its own handle enters or leaves, and who frees a workspace while
-!> another thread uses it breaks the rule of one thread at a time.
+!> Entering and leaving go one at a time, by a mutex that a fork waits for (in C beside this).
+!> Looking up takes no lock: a place changes only when its own handle enters or leaves, and who
+!> frees a workspace while another thread uses it breaks the rule of one thread at a time.
 module faststrip_interop_register
-    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_funptr, c_null_ptr, &
-                                           c_loc, c_funloc, c_f_pointer, c_associated
+    use, intrinsic :: iso_c_binding, only: c_intptr_t, c_ptr, c_null_ptr, c_loc, c_f_pointer, &
+                                           c_associated
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_workspace_too_small
-    use faststrip_interop_threads, only: mutex_t, lock_mutex, unlock_mutex
     implicit none
     private
 
     public :: enter_register, leave_register, look_up_register
-    public :: lock_reading, unlock_reading
     public :: kind_contact, kind_wheelset, kind_lookup
 
     !> What a handle can stand for: one of a kind is none of another.
@@ -47,16 +45,13 @@ module faststrip_interop_register
     type(c_ptr), save :: blocks(n_blocks) = c_null_ptr
     integer, save :: n_places = 0   ! that were ever given out
     integer, save :: first_free = 0 ! of those given back; 0: none
-    logical, save :: fork_waits = .false.
-
-    ! Of the register, and of reading files.
-    type(mutex_t), save :: mutex, reading
 
     interface
-        integer(c_int) function pthread_atfork(prepare, parent, child) bind(c)
-            import :: c_int, c_funptr
-            type(c_funptr), value :: prepare, parent, child
-        end function pthread_atfork
+        subroutine lock() bind(c, name='interop_lock_register')
+        end subroutine lock
+
+        subroutine unlock() bind(c, name='interop_unlock_register')
+        end subroutine unlock
     end interface
 
 contains
@@ -188,39 +183,4 @@ contains
 
         block_length = ishft(first_length, k - 1)
     end function block_length
-
-    subroutine lock()
-        call lock_mutex(mutex)
-        if (fork_waits) return
-        ! A child of a fork must not find the mutex taken by a thread that it does not have.
-        fork_waits = pthread_atfork(c_funloc(before_fork), c_funloc(after_fork), &
-                                    c_funloc(after_fork)) == 0
-    end subroutine lock
-
-    subroutine unlock()
-        call unlock_mutex(mutex)
-    end subroutine unlock
-
-    !> Let one thread at a time read a file: gfortran keeps the length of a text that a function
-    !> gives in one place for all threads.
-    subroutine lock_reading()
-        call lock()
-        call unlock()
-        call lock_mutex(reading)
-    end subroutine lock_reading
-
-    !> Let the next one read.
-    subroutine unlock_reading()
-        call unlock_mutex(reading)
-    end subroutine unlock_reading
-
-    subroutine before_fork() bind(c, name='')
-        call lock_mutex(reading)
-        call lock_mutex(mutex)
-    end subroutine before_fork
-
-    subroutine after_fork() bind(c, name='')
-        call unlock_mutex(mutex)
-        call unlock_mutex(reading)
-    end subroutine after_fork
 end module faststrip_interop_register
