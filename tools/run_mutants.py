@@ -434,7 +434,9 @@ class Job:
     def attempt(self, kind, what, only=None):
         """The same, tried once; of one test if there is an `only`."""
         self.prepare(kind)
-        extra = {"FASTSTRIP_INSTALLED": str(self.prefix)} if kind == "installed" else {}
+        extra = {}
+        if kind == "installed":
+            extra = {"FASTSTRIP_INSTALLED": str(self.prefix), "FASTSTRIP_NOT_OPTIMIZED": "1"}
         if kind == "fortran":
             command = [str(self.folder / "build" / "runner"), only or what]
         else:

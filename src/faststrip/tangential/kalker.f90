@@ -104,7 +104,7 @@ contains
         real(wp), intent(in) :: log_ratio, weight(n_poisson)
         real(wp) :: c(4)
         real(wp) :: h, t, s, left, right, left_slope, right_slope
-        integer :: i
+        integer :: i, k
 
         i = min(max(count(table_log_ratio <= log_ratio), 1), n_ratios - 1)
         h = table_log_ratio(i + 1) - table_log_ratio(i)
@@ -115,9 +115,14 @@ contains
         right = t*t*(1.0_wp + 2.0_wp*s)
         left_slope = h*t*s*s
         right_slope = -h*s*t*t
-        c = matmul(weight, exp(left*table_log_value(i, :, :) + right*table_log_value(i + 1, :, :) &
-                               + left_slope*table_slope(i, :, :) &
-                               + right_slope*table_slope(i + 1, :, :)))
+        ! No matmul: without optimization it allocates.
+        c = 0.0_wp
+        do k = 1, n_poisson
+            c = c + weight(k)*exp(left*table_log_value(i, k, :) &
+                                  + right*table_log_value(i + 1, k, :) &
+                                  + left_slope*table_slope(i, k, :) &
+                                  + right_slope*table_slope(i + 1, k, :))
+        end do
     end function inside
 
     !> The asymptotes, led over into the end of the table.
