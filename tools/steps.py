@@ -534,6 +534,8 @@ def test(*words):
     text, *more = [word for word in words if word != "--quick"] or [""]
     if more:
         raise Trouble(f"test takes one TEXT, got {' '.join([text, *more])}", code=2)
+    if text.startswith("-"):
+        raise Trouble(f"test has the option --quick, not {text}", code=2)
     counts = Counts(text)
     counts.stage("lint", "form of the sources", lint_checks)
     if "--quick" in words:
@@ -846,6 +848,9 @@ def main(command="", *words):
     if command not in STEPS:
         print(__doc__, end="", file=sys.stderr)
         return 2
+    if command in ("build", "test", "demo") and {"-h", "--help"} & set(words):
+        print(__doc__, end="")
+        return 0
     most = WORDS.get(command, 0)
     try:
         if most is not None and len(words) > most:

@@ -1,5 +1,6 @@
 """What ./run says and returns, in a small project of its own."""
 
+import contextlib
 import io
 import os
 import pathlib
@@ -151,6 +152,17 @@ class Usage(Project):
         for word in ("-h", "--help", "help"):
             self.assertEqual(self.run_it(word).stdout, steps.__doc__)
         self.assertEqual(self.run_it().stdout, steps.__doc__)
+
+    def test_commands_without_words_have_the_same_help(self):
+        for command in ("build", "test", "demo"):
+            for word in ("-h", "--help"):
+                with contextlib.redirect_stdout(io.StringIO()) as said:
+                    self.assertEqual(steps.main(command, word), 0)
+                self.assertEqual(said.getvalue(), steps.__doc__)
+
+    def test_an_option_that_test_does_not_have(self):
+        with self.assertRaisesRegex(steps.Trouble, "has the option --quick, not --fast"):
+            steps.test("--fast")
 
     def test_the_bootstrap_stays_short(self):
         text = (ROOT / "run").read_text(encoding="utf-8")
