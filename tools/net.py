@@ -173,11 +173,11 @@ def input_of_figures():
 
 
 def without_stamps(path):
-    """The bytes of an output without what says when and by which revision it was made."""
+    """The bytes of an output without what says when, where and by which revision it was made."""
     if path.suffix != ".csv":
         return path.read_bytes()
-    lines = [line for line in path.read_text(encoding="utf-8").splitlines()
-             if not STAMP.match(line)]
+    text = path.read_text(encoding="utf-8").replace(f"{ROOT}{os.sep}", "")
+    lines = [line for line in text.splitlines() if not STAMP.match(line)]
     comments = [line for line in lines if line.startswith("#")]
     rows = list(csv.reader(lines[len(comments):]))
     timed = {i for i, name in enumerate(rows[0]) if name in TIME_COLUMNS}
