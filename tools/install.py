@@ -108,13 +108,24 @@ def defined_names(archives):
     return names
 
 
+# Where the abstract methods are that a host's own methods extend.
+EXTENDED = ("method", "method_capacity")
+
+
 def umbrella_names():
-    """The linker's names of what `use faststrip` gives, whether they are procedures or not."""
+    """The linker's names of what `use faststrip` gives, whether they are procedures or not: of
+    types the tables of their procedures, and those that a host's methods inherit."""
     text = (ROOT / "src" / "faststrip" / "faststrip.f90").read_text(encoding="utf-8")
     text = re.sub(r"&\s*\n\s*", "", text)
     names = set()
     for module, only in re.findall(r"^\s*use (\w+), only: (.*)$", text, re.MULTILINE):
-        names.update(f"__{module}_MOD_{name.strip()}" for name in only.split(","))
+        for name in map(str.strip, only.split(",")):
+            names.add(f"__{module}_MOD_{name}")
+            names.add(f"__{module}_MOD___vtab_{module}_{name.capitalize()}")
+    for last in EXTENDED:
+        source = ROOT / "src" / "faststrip" / "contact" / "method" / f"{last.split('_')[-1]}.f90"
+        bound = re.findall(r"procedure :: \w+ => (\w+)", source.read_text(encoding="utf-8"))
+        names.update(f"__faststrip_contact_{last}_MOD_{name}" for name in bound)
     return names
 
 

@@ -107,7 +107,8 @@ def run_all(prefix, new):
             done = subprocess.run(["sh", "-c", line], cwd=here, env=environment,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, encoding="utf-8", check=False)
-            said = "".join(row for row in done.stdout.splitlines(keepends=True)
+            said = "".join(row for row in done.stdout.replace(f"{ROOT}{os.sep}", "")
+                           .splitlines(keepends=True)
                            if not re.match(r"faststrip.*, \d+ s\b", row))
             (new / f"{name}.txt").write_text(f"{TIME.sub('us', said)}exit code {done.returncode}\n",
                                              encoding="utf-8")
@@ -205,8 +206,12 @@ def difference(before, after):
         return f"{before.stat().st_size} bytes, now {after.stat().st_size}"
     old, new = (list(csv.DictReader(line for line in path.read_text(encoding="utf-8").splitlines()
                                     if not line.startswith("#"))) for path in (before, after))
-    if len(old) != len(new) or list(old[0]) != list(new[0]):
-        return f"{len(old)} rows of {len(old[0])} columns, now {len(new)} of {len(new[0])}"
+    if len(old) != len(new):
+        return f"{len(old)} rows, now {len(new)}"
+    if not old:
+        return "comments or names of columns"
+    if list(old[0]) != list(new[0]):
+        return f"{len(old[0])} columns, now {len(new[0])}"
     largest, where, cells = -1.0, "comments alone", 0
     for i, (one, other) in enumerate(zip(old, new, strict=True), 1):
         for column in one:

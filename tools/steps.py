@@ -88,6 +88,7 @@ PROGRAM_FLAGS = f"{RELEASE_FLAGS} -fopenmp"
 # Without the C library's vector functions, which know rounding to nearest only.
 SCALAR_FLAGS = f"-O3 -fno-tree-vectorize -fPIC {COMMON}"
 TEST_FLAGS = (f"-Og -g -fopenmp-simd {COMMON} -Wall -Wextra -pedantic -Werror -Wno-compare-reals"
+              " -Wno-unused-dummy-argument"
               " -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow -finit-real=snan")
 
 # The pipelines: `== ` before a heading; the other lines are commands, run from the checkout.

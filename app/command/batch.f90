@@ -32,7 +32,7 @@ module faststrip_command_batch
                                           status_counts_t, count_status, add_counts, put_counts, &
                                           counted, unlike_value, value_of
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_methods, only: settings_t
     use faststrip_command_netcdf_file, only: is_netcdf, check_names, use_single_precision
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer, given, given_options
@@ -84,8 +84,7 @@ module faststrip_command_batch
         type(csv_scan_t) :: scan                     ! of it, if so
         type(csv_stream_t) :: stream
         type(row_columns_t) :: columns
-        type(numerics_t) :: numerics
-        type(contact_case_t) :: options              ! what counts for all rows
+        type(settings_t) :: options                  ! what counts for all rows
         type(part_choice_t) :: choice
         integer :: threads = 1
         integer :: chain = 1                         ! rows of a chain
@@ -166,7 +165,7 @@ contains
                 part_options, method_options]
             command%about = command%about // method_notes()
             call parse_command(command, 1)
-            call take_method_options(command, job%numerics, job%options)
+            call take_method_options(command, job%options)
             if (given(command, '--quiet')) call be_quiet()
             job%threads = 1
             !$ job%threads = min(omp_get_num_procs(), most_threads)
@@ -242,14 +241,14 @@ contains
         call use_one_thread_each()
         if (job%is_file) job%threads = int(min(int(job%threads, int64), &
                                                max(job%scan%rows, 1_int64)))
-        call make_workers(job%threads, job%numerics, job%stream%table, &
+        call make_workers(job%threads, job%stream%table, &
                           given(job%command, '--times'), job%workers, status)
         call fail_on_error(status)
         call start_cache(job%cache)
         job%wanted = 4*least_chains*job%threads*job%chain
         call collect_csv(writer)
         call put_origin(writer)
-        call put_notes(writer, job%numerics)
+        call put_notes(writer, job%options)
         call put_names(writer, job%stream%table%names)
         job%header = collected(writer, 1, collected_length(writer))
     end subroutine prepare
@@ -491,7 +490,8 @@ contains
             !$omp end single nowait
             !$omp do schedule(dynamic, 1)
             do g = 1, groups
-                call solve_chain(job%workers(me), me, job%columns, job%cache, job%options, &
+                call solve_chain(job%workers(me), me, job%columns, job%cache, &
+                                 job%options%contact_case_t, &
                                  job%chain, chunks(now), g, trouble)
             end do
             !$omp end do

@@ -17,7 +17,7 @@ module faststrip_command_batch_rows
     use faststrip_command_doubts, only: count_doubts
     use faststrip_command_files, only: trouble_t
     use faststrip_command_gap_cache, only: gap_cache_t, find_gap
-    use faststrip_command_result_csv, only: result_columns, put_result
+    use faststrip_command_result_csv, only: result_columns, put_result, no_wear
     use faststrip_command_solver, only: solve, ready_gap_t
     use faststrip_command_worker, only: worker_t
     implicit none
@@ -96,10 +96,10 @@ contains
             return
         end if
         case = options
-        associate (table => worker%table, writer => worker%writer, outcome => worker%outcome)
+        associate (table => worker%table, writer => worker%writer, result => worker%result)
             call read_row(table, columns, case, status)
             if (.not. is_error(status)) then
-                call find_gap(cache, worker%gap, worker%own%solver%numerics, &
+                call find_gap(cache, worker%gap, case%smoothing, &
                               beside(table%file, cell_text(table, 1, columns%of(gap_column))), &
                               ready, status, trouble)
                 if (trouble%code /= 0) return
@@ -107,28 +107,30 @@ contains
             if (.not. is_error(status)) then
                 call find_row_doubts(worker, case, ready, doubts)
                 case%warm_start = worker%can_go_on
-                call solve(worker%own%solver, case, outcome, status, ready)
+                case%asked%times = worker%tells_times
+                call solve(worker%solver, case, result, status, ready)
                 worker%can_go_on = .not. is_error(status)
                 if (.not. is_error(status)) &
-                    call doubt_pressure('pmax_MPa', outcome%normal%pmax, doubts)
+                    call doubt_pressure('pmax_MPa', result%normal%pmax, doubts)
             end if
             call count_doubts(worker%tally, doubts, int(number, int64), number)
             do i = 1, table%n_columns
                 if (i == columns%of(load_column) .and. .not. (case%by_load .or. is_error(status))) &
                     then
-                    call put_cell(writer, outcome%normal%load)
+                    call put_cell(writer, result%normal%load)
                 else
                     call put_cell(writer, cell_text(table, 1, i))
                 end if
             end do
-            call put_result(writer, outcome, status, worker%tells_times)
+            call put_result(writer, result, worker%solver%workspace%steps, status, &
+                            worker%tells_times)
             call end_row(writer)
             if (is_error(status)) then
                 words = trim(status%message)
                 if (concerns_gap(status)) &
                     words = words // ' (' // cell_text(table, 1, columns%of(gap_column)) // ')'
-            else if (allocated(outcome%wear%words)) then
-                if (len(outcome%wear%words) > 0) words = outcome%wear%words
+            else if (is_error(worker%solver%workspace%wear_status)) then
+                words = no_wear // trim(worker%solver%workspace%wear_status%message)
             end if
         end associate
     end subroutine solve_row

@@ -16,12 +16,11 @@ module faststrip_command_case_file
                                              not_given, take_list, need_as_many, case_groups
     use faststrip_command_doubts, only: hold_value
     use faststrip_command_files, only: take_input
-    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name
     use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_methods, only: numerics_t, check_numerics, one_of, word_length
+    use faststrip_command_methods, only: settings_t, check_settings, one_of, word_length, norm_starts
     use faststrip_command_wear_figures, only: take_wear_law
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                           find_group, sets, refuse
@@ -51,7 +50,7 @@ module faststrip_command_case_file
 
     !> A case as its file tells it: a contact but for its gap, which the profiles make or another
     !> file holds. The load may be a vertical one, creepages may follow from the shift.
-    type, extends(contact_case_t) :: case_t
+    type, extends(settings_t) :: case_t
         character(len=:), allocatable :: name       !! for the CSV
         character(len=:), allocatable :: gap_file   !! empty: the gap comes from the profiles
         logical :: load_is_vertical = .false.       !! else along the contact normal
@@ -66,7 +65,6 @@ module faststrip_command_case_file
         type(track_t) :: track                      !! mm
         logical :: creepage_by_formula = .false.    !! from the shift, else as given
         integer :: creepage_signs = creepage_set_b  !! for the formula
-        type(numerics_t) :: numerics                !! how to solve it
         real(wp) :: gap_step = 0.0_wp               !! sampling of the gap, mm
         real(wp) :: gap_height = 0.0_wp             !! largest gap sampled, mm
     end type case_t
@@ -240,7 +238,6 @@ contains
         type(namelist_file_t), intent(in) :: content
         type(case_t), intent(inout) :: case
 
-        type(numerics_t) :: numbers
         character(len=word_length) :: normal, tangential, norm_start, target
         integer :: strips_per_patch, points_per_strip, fastsim_nx, fastsim_ny, max_elements
         real(wp) :: gap_step_mm, gap_height_mm, smoothing_um, element_dx_mm, element_dy_mm, &
@@ -256,28 +253,28 @@ contains
         integer :: code
         character(len=:), allocatable :: what, range, value
 
-        normal = normal_method_name(case%numerics%normal)
-        tangential = tangential_method_name(case%numerics%tangential)
-        strips_per_patch = case%numerics%strips_per_patch
-        points_per_strip = case%numerics%points_per_strip
-        fastsim_nx = case%numerics%fastsim_nx
-        fastsim_ny = case%numerics%fastsim_ny
-        element_dx_mm = case%numerics%element_dx
-        element_dy_mm = case%numerics%element_dy
-        error_target = case%numerics%error_target
-        norm_start = case%numerics%norm_start
-        tolerance = case%numerics%wanted%tolerance
-        budget_us = case%numerics%wanted%budget_us
-        max_elements = case%numerics%max_elements
-        target = target_names(case%numerics%wanted%target)
+        normal = normal_method_name(case%methods%normal)
+        tangential = tangential_method_name(case%methods%tangential)
+        strips_per_patch = case%methods%strips_per_patch
+        points_per_strip = case%methods%points_per_strip
+        fastsim_nx = case%methods%fastsim_nx
+        fastsim_ny = case%methods%fastsim_ny
+        element_dx_mm = case%methods%element_dx
+        element_dy_mm = case%methods%element_dy
+        error_target = case%methods%error_target
+        norm_start = norm_starts(case%methods%norm_start)
+        tolerance = case%wanted%tolerance
+        budget_us = case%wanted%budget_us
+        max_elements = case%methods%max_elements
+        target = target_names(case%wanted%target)
         resolution_limit = case%resolution_limit
         force_limit = case%force_limit
-        yield_mpa = case%numerics%yield_mpa
-        yield_shear_mpa = case%numerics%wear%yield_shear_mpa
+        yield_mpa = case%yield
+        yield_shear_mpa = case%yield_shear
         wear_file = ''
         gap_step_mm = standard_gap_step
         gap_height_mm = standard_gap_height
-        smoothing_um = case%numerics%smoothing_um
+        smoothing_um = 0.0_wp
         call find_group(content, 'numerics', .false., group)
         do
             call next_lines(content, group, reading)
@@ -285,43 +282,44 @@ contains
             read (reading%text, nml=numerics, iostat=code, iomsg=reading%words)
             if (code /= 0) call refuse_values(content, group, numerics_names, reading)
         end do
-        numbers%normal = normal_method(normal)
-        if (numbers%normal < 0) call refuse(content, group, 'normal', 'must be ' &
+        case%methods%normal = normal_method(normal)
+        if (case%methods%normal < 0) call refuse(content, group, 'normal', 'must be ' &
                                             // one_of(normal_table%name), trim(normal))
-        numbers%tangential = tangential_method(tangential)
-        if (numbers%tangential < 0) call refuse(content, group, 'tangential', 'must be ' &
+        case%methods%tangential = tangential_method(tangential)
+        if (case%methods%tangential < 0) call refuse(content, group, 'tangential', 'must be ' &
                                                 // one_of(tangential_table%name), trim(tangential))
-        numbers%strips_per_patch = strips_per_patch
-        numbers%points_per_strip = points_per_strip
-        numbers%fastsim_nx = fastsim_nx
-        numbers%fastsim_ny = fastsim_ny
-        numbers%smoothing_um = smoothing_um
-        numbers%yield_mpa = yield_mpa
-        numbers%wear%yield_shear_mpa = yield_shear_mpa
-        numbers%element_dx = element_dx_mm
-        numbers%element_dy = element_dy_mm
-        numbers%dx_is_given = sets(content, group, 'element_dx_mm')
-        numbers%dy_is_given = sets(content, group, 'element_dy_mm')
-        numbers%error_target = error_target
-        numbers%norm_start = norm_start
-        numbers%wanted%tolerance = tolerance
-        numbers%wanted%budget_us = budget_us
-        numbers%tolerance_is_given = sets(content, group, 'tolerance')
-        numbers%target_is_given = sets(content, group, 'target')
-        numbers%max_elements = max_elements
-        numbers%wanted%target = target_number(target)
-        if (numbers%wanted%target == 0) call refuse(content, group, 'target', 'must be ' &
+        case%methods%strips_per_patch = strips_per_patch
+        case%methods%points_per_strip = points_per_strip
+        case%methods%fastsim_nx = fastsim_nx
+        case%methods%fastsim_ny = fastsim_ny
+        case%smoothing = 1.0e-3_wp*smoothing_um
+        case%yield = yield_mpa
+        case%yield_shear = yield_shear_mpa
+        case%methods%element_dx = element_dx_mm
+        case%methods%element_dy = element_dy_mm
+        case%methods%dx_is_given = sets(content, group, 'element_dx_mm')
+        case%methods%dy_is_given = sets(content, group, 'element_dy_mm')
+        case%methods%error_target = error_target
+        case%methods%norm_start = findloc(norm_starts == norm_start, .true., dim=1)
+        if (case%methods%norm_start == 0) call refuse(content, group, 'norm_start', 'must be ' &
+                                                      // one_of(norm_starts), trim(norm_start))
+        case%wanted%tolerance = tolerance
+        case%wanted%budget_us = budget_us
+        case%tolerance_is_given = sets(content, group, 'tolerance')
+        case%target_is_given = sets(content, group, 'target')
+        case%methods%max_elements = max_elements
+        case%wanted%target = target_number(target)
+        if (case%wanted%target == 0) call refuse(content, group, 'target', 'must be ' &
                                                     // one_of(target_names), trim(target))
-        call check_numerics(numbers, what, range, value)
+        call check_settings(case, smoothing_um, what, range, value)
         call hold_value(content, group, 'smoothing_um', of_noise, smoothing_um)
         call hold_value(content, group, 'yield_MPa', of_yield, yield_mpa)
         call hold_value(content, group, 'yield_shear_MPa', of_yield, yield_shear_mpa)
         if (len(what) > 0) call refuse(content, group, what, 'must be ' // range, value)
         if (len_trim(wear_file) > 0) then
             call take_input(beside(content%file, trim(wear_file)))
-            call take_wear_law(beside(content%file, trim(wear_file)), numbers%wear)
+            call take_wear_law(beside(content%file, trim(wear_file)), case)
         end if
-        case%numerics = numbers
         call need_positive(content, group, 'resolution_limit', resolution_limit)
         call need_positive(content, group, 'force_limit', force_limit)
         case%resolution_limit = resolution_limit

@@ -11,7 +11,8 @@ module faststrip_command_contact
     use faststrip_command_case_doubts, only: hold_case_doubts, hold_pressure
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case, put_gap, put_profiles
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_command_result_csv, only: put_strips, put_field, note_wear
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -36,8 +37,8 @@ contains
         type(command_t) :: command
         type(case_t) :: case
         type(prepared_case_t) :: prepared
-        type(solver_t) :: solver
-        type(outcome_t) :: outcome
+        type(solver_t), pointer :: solver
+        type(contact_result_t) :: result
         type(point_spacing_t) :: spacing
         type(csv_writer_t) :: writer(size(outputs))
         type(status_t) :: status
@@ -67,7 +68,10 @@ contains
         call parse_command(command, 1)
         call prepare_plot(command)
         call read_case(command%arguments(1)%text, case)
-        call take_method_options(command, case%numerics, case)
+        call take_method_options(command, case)
+        case%asked%times = .true.
+        case%asked%field = given(command, '--fields')
+        case%asked%strip_forces = given(command, '--strips')
         if (len(case%gap_file) > 0) then
             if (given(command, '--profiles')) &
                 call usage_error('--profiles: the case has a gap file', command%name)
@@ -78,33 +82,33 @@ contains
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
         call hold_case_doubts(case, prepared, command%arguments(1)%text)
-        call make_solver(case%numerics, given(command, '--fields'), solver, status, &
-                         with_strip_forces=given(command, '--strips'))
+        call new_solver(solver, status)
         call fail_on_error(status)
-        call solve(solver, prepared, outcome, status)
+        call solve(solver, prepared, result, status)
         if (concerns_gap(status) .and. len(case%gap_file) > 0) &
             call fail_on_error(status, case%gap_file // ', ' // command%arguments(1)%text)
         call fail_on_error(status, command%arguments(1)%text)
-        call hold_pressure(outcome%normal%pmax, command%arguments(1)%text)
+        call hold_pressure(result%normal%pmax, command%arguments(1)%text)
         call judge_spacing(case, prepared, spacing)
         call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
-        call note_wear(outcome, '')
+        call note_wear(solver%workspace%wear_status, '')
         call open_outputs(command, outputs, writer)
         call put_sweep_header(writer(1), case)
-        call put_sweep_row(writer(1), case, case%numerics, prepared, outcome, status)
+        call put_sweep_row(writer(1), case, prepared, result, solver%workspace%steps, status)
         if (given(command, '--strips')) &
             call put_strips(writer(2), case%name, solver%workspace%strips, &
-                            solver%strip_forces, case%numerics%wear, &
+                            solver%workspace%strip_forces, case, &
                             prepared%rigid_contact%radius)
-        if (given(command, '--fields')) call put_field(writer(3), case%name, solver%field)
-        if (given(command, '--gap')) call put_gap(writer(4), solver%case%gap, &
-                                                  case%numerics%smoothing_um)
+        if (given(command, '--fields')) call put_field(writer(3), case%name, &
+                                                       solver%workspace%field)
+        if (given(command, '--gap')) call put_gap(writer(4), solver%workspace%solver%curve, &
+                                                  case%smoothing)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
         if (given(command, '--plot')) &
             call keep_files(case, prepared, solver)
         call close_outputs(command, outputs, writer, shown)
-        call release_solver(solver)
+        call free_solver(solver)
     end subroutine run_contact
 
     !> What a picture is drawn from, beside the result.
@@ -118,13 +122,13 @@ contains
 
         call open_csv(writer, plot_file('strips.csv'), status)
         call fail_on_error(status)
-        call put_strips(writer, case%name, solver%workspace%strips, solver%strip_forces, &
-                        case%numerics%wear, prepared%rigid_contact%radius)
+        call put_strips(writer, case%name, solver%workspace%strips, &
+                        solver%workspace%strip_forces, case, prepared%rigid_contact%radius)
         call close_csv(writer, status)
         call fail_on_error(status)
         call open_csv(writer, plot_file('gap.csv'), status)
         call fail_on_error(status)
-        call put_gap(writer, solver%case%gap, case%numerics%smoothing_um)
+        call put_gap(writer, solver%workspace%solver%curve, case%smoothing)
         call close_csv(writer, status)
         call fail_on_error(status)
     end subroutine keep_files

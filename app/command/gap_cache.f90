@@ -6,6 +6,7 @@
 !> not asked for longest. So a gap is the same to the last bit wherever a row has it from.
 module faststrip_command_gap_cache
     use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_files_digest, only: digest_length
     use faststrip_files_gap, only: read_gap_file
@@ -14,7 +15,6 @@ module faststrip_command_gap_cache
     use faststrip_command_files, only: trouble_t, check_input
     use faststrip_command_gap_digests, only: gap_digests_t, wants_digest, add_digest, &
                                            digest_of_gap
-    use faststrip_command_methods, only: numerics_t
     use faststrip_command_solver, only: ready_gap_t, make_ready
     implicit none
     private
@@ -63,10 +63,10 @@ contains
     end subroutine start_cache
 
     !> The gap in a file. What cannot be read is tried anew for each row.
-    subroutine find_gap(cache, own, numerics, path, ready, status, trouble)
+    subroutine find_gap(cache, own, smoothing, path, ready, status, trouble)
         type(gap_cache_t), intent(inout), target :: cache !! of all threads
         type(own_gap_t), intent(inout), target :: own     !! of this thread
-        type(numerics_t), intent(in) :: numerics          !! smoothing
+        real(wp), intent(in) :: smoothing                 !! noise gaps are smoothed for, mm; or 0
         character(len=*), intent(in) :: path              !! name of the file
         type(ready_gap_t), pointer, intent(out) :: ready  !! until the next call; none on an error
         type(status_t), intent(out) :: status             !! those of `read_gap_file`, `make_ready`
@@ -107,7 +107,7 @@ contains
         call read_gap_file(path, gap, status)
         if (is_error(status)) return
         own%ready = ready_gap_t()
-        call make_ready(numerics, gap, own%ready, status)
+        call make_ready(smoothing, gap, own%ready, status)
         if (is_error(status)) return
         !$omp critical (gap_cache)
         i = index_of(cache, path)

@@ -1,14 +1,14 @@
 !> The options by which several subcommands choose methods and resolutions.
 module faststrip_command_method_options
+    use faststrip_base_kinds, only: wp
     use faststrip_normal_strip, only: strips_auto
     use faststrip_command_options, only: command_t, option_t, option_text, option_integer, &
                                          option_number, option_word, given
-    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_t, normal_table, tangential_table, normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name
     use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_methods, only: numerics_t, norm_starts, most_strips, &
+    use faststrip_command_methods, only: settings_t, settle_wanted, norm_starts, most_strips, &
                                          most_points, most_points_per_strip, most_elements
     use faststrip_command_wear_figures, only: take_wear_law
     implicit none
@@ -76,57 +76,58 @@ contains
 
     !> Let the options that were given replace what was chosen before; a usage error if one is
     !> out of range.
-    subroutine take_method_options(command, numerics, case)
-        type(command_t), intent(in) :: command     !! parsed, with `method_options` in its table
-        type(numerics_t), intent(inout) :: numerics !! defaults or those of a case file
-        class(contact_case_t), intent(inout) :: case !! the same: the limits of its errors
+    subroutine take_method_options(command, case)
+        type(command_t), intent(in) :: command    !! parsed, with `method_options` in its table
+        class(settings_t), intent(inout) :: case !! defaults or those of a case file
 
-        numerics%normal = normal_method(option_word( &
-            command, '--normal', trim(normal_method_name(numerics%normal)), normal_table%name))
-        numerics%tangential = tangential_method(option_word( &
-            command, '--tangential', trim(tangential_method_name(numerics%tangential)), &
+        case%methods%normal = normal_method(option_word( &
+            command, '--normal', trim(normal_method_name(case%methods%normal)), normal_table%name))
+        case%methods%tangential = tangential_method(option_word( &
+            command, '--tangential', trim(tangential_method_name(case%methods%tangential)), &
             tangential_table%name))
         if (option_text(command, '--strips-per-patch', '') == 'auto') then
-            numerics%strips_per_patch = strips_auto
+            case%methods%strips_per_patch = strips_auto
         else
-            numerics%strips_per_patch = option_integer(command, '--strips-per-patch', &
-                numerics%strips_per_patch, least=1, most=most_strips, or='auto')
+            case%methods%strips_per_patch = option_integer(command, '--strips-per-patch', &
+                case%methods%strips_per_patch, least=1, most=most_strips, or='auto')
         end if
-        numerics%points_per_strip = option_integer(command, '--points-per-strip', &
-            numerics%points_per_strip, least=1, most=most_points_per_strip)
-        numerics%fastsim_nx = option_integer(command, '--fastsim-nx', numerics%fastsim_nx, &
+        case%methods%points_per_strip = option_integer(command, '--points-per-strip', &
+            case%methods%points_per_strip, least=1, most=most_points_per_strip)
+        case%methods%fastsim_nx = option_integer(command, '--fastsim-nx', case%methods%fastsim_nx, &
                                             least=1, most=most_points)
-        numerics%fastsim_ny = option_integer(command, '--fastsim-ny', numerics%fastsim_ny, &
+        case%methods%fastsim_ny = option_integer(command, '--fastsim-ny', case%methods%fastsim_ny, &
                                             least=1, most=most_points)
-        numerics%max_elements = option_integer(command, '--max-elements', numerics%max_elements, &
+        case%methods%max_elements = option_integer(command, '--max-elements', case%methods%max_elements, &
                                               least=1, most=most_elements)
-        numerics%smoothing_um = option_number(command, '--smooth', numerics%smoothing_um, &
-                                             least=0)
-        numerics%wanted%tolerance = option_number(command, '--tolerance', &
-                                                  numerics%wanted%tolerance, above=0)
-        if (given(command, '--tolerance')) numerics%tolerance_is_given = .true.
-        numerics%wanted%target = target_number(option_word( &
-            command, '--target', trim(target_names(numerics%wanted%target)), target_names))
-        if (given(command, '--target')) numerics%target_is_given = .true.
-        numerics%wanted%budget_us = option_number(command, '--budget-us', &
-                                                  numerics%wanted%budget_us, above=0)
-        numerics%element_dx = option_number(command, '--element-dx', numerics%element_dx, &
+        if (given(command, '--smooth')) &
+            case%smoothing = 1.0e-3_wp*option_number(command, '--smooth', 0.0_wp, least=0)
+        case%wanted%tolerance = option_number(command, '--tolerance', &
+                                                  case%wanted%tolerance, above=0)
+        if (given(command, '--tolerance')) case%tolerance_is_given = .true.
+        case%wanted%target = target_number(option_word( &
+            command, '--target', trim(target_names(case%wanted%target)), target_names))
+        if (given(command, '--target')) case%target_is_given = .true.
+        case%wanted%budget_us = option_number(command, '--budget-us', &
+                                                  case%wanted%budget_us, above=0)
+        case%methods%element_dx = option_number(command, '--element-dx', case%methods%element_dx, &
                                            above=0)
-        numerics%element_dy = option_number(command, '--element-dy', numerics%element_dy, &
+        case%methods%element_dy = option_number(command, '--element-dy', case%methods%element_dy, &
                                            above=0)
-        if (given(command, '--element-dx')) numerics%dx_is_given = .true.
-        if (given(command, '--element-dy')) numerics%dy_is_given = .true.
-        numerics%error_target = option_number(command, '--error-target', numerics%error_target, &
+        if (given(command, '--element-dx')) case%methods%dx_is_given = .true.
+        if (given(command, '--element-dy')) case%methods%dy_is_given = .true.
+        case%methods%error_target = option_number(command, '--error-target', case%methods%error_target, &
                                              least=0)
         case%resolution_limit = option_number(command, '--resolution-limit', &
                                                  case%resolution_limit, above=0)
         case%force_limit = option_number(command, '--force-limit', case%force_limit, above=0)
-        numerics%yield_mpa = option_number(command, '--yield-MPa', numerics%yield_mpa, least=0)
-        numerics%wear%yield_shear_mpa = option_number(command, '--yield-shear-MPa', &
-                                                      numerics%wear%yield_shear_mpa, least=0)
+        case%yield = option_number(command, '--yield-MPa', case%yield, least=0)
+        case%yield_shear = option_number(command, '--yield-shear-MPa', &
+                                                      case%yield_shear, least=0)
         if (given(command, '--wear')) &
-            call take_wear_law(option_text(command, '--wear', ''), numerics%wear)
-        numerics%norm_start = option_word(command, '--norm-start', trim(numerics%norm_start), &
-                                         norm_starts)
+            call take_wear_law(option_text(command, '--wear', ''), case)
+        case%methods%norm_start = findloc(norm_starts == option_word( &
+            command, '--norm-start', trim(norm_starts(case%methods%norm_start)), norm_starts), &
+            .true., dim=1)
+        call settle_wanted(case)
     end subroutine take_method_options
 end module faststrip_command_method_options

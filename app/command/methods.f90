@@ -6,53 +6,41 @@ module faststrip_command_methods
     use faststrip_base_text, only: integer_text
     use faststrip_normal_strip, only: strips_auto
     use faststrip_tangential_types, only: most_points_per_strip => most_points
-    use faststrip_contact_methods, only: contact_methods_t, method_t, normal_table, &
-                                         tangential_table, normal_strip, tangential_none, &
-                                         method_name_length, most_strips, &
-                                         most_points => most_rows
-    use faststrip_contact_wanted, only: wanted_t
-    use faststrip_command_wear_figures, only: wear_choice_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: method_t, tangential_none, method_name_length, &
+                                         most_strips, most_points => most_rows
+    use faststrip_contact_wanted, only: target_pmax
     implicit none
     private
 
-    public :: numerics_t, check_numerics, one_of, core_methods, in_core
+    public :: settings_t, check_settings, settle_wanted, one_of, in_core
     public :: most_strips, most_points, most_points_per_strip, most_elements
     public :: word_length, norm_starts
 
     !> Length of a word of the case file, characters.
     integer, parameter :: word_length = method_name_length
-    !> What Kalker's method starts from: a coarser grid, which gives errors too, or strips.
+    !> What norm starts from, `start_coarse` and `start_strips`: a coarser grid, which gives errors
+    !> too, or strips.
     character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
         'coarse', 'strips']
-    !> Most elements of a grid of norm or tang, unless the user says otherwise: solved within about
-    !> five seconds on one core; the time grows with their number.
-    integer, parameter :: standard_max_elements = 1000000
     !> What the user may ask for: 10 GB of memory.
     integer, parameter :: most_elements = 20000000
 
-    !> Methods and resolutions: those of the core, and what norm, tang and auto need besides.
-    type, extends(contact_methods_t) :: numerics_t
-        real(wp) :: yield_mpa = 0.0_wp   !! pmax above is beyond_yield, MPa; 0: no limit
-        real(wp) :: smoothing_um = 0.0_wp !! noise the gap is smoothed for, um; 0: not at all
-        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
-        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
-        logical :: dx_is_given = .false. !! else it is shorter where the contact is small
-        logical :: dy_is_given = .false. !! the same along y
-        real(wp) :: error_target = 0.0_wp !! of penetration and pmax; sets the sides if positive
-        integer :: max_elements = standard_max_elements !! of a grid, norm, tang
-        character(len=word_length) :: norm_start = 'coarse' !! one of `norm_starts`
-        type(wanted_t) :: wanted = wanted_t() !! of auto: target, tolerance, budget
-        type(wear_choice_t) :: wear      !! wear law and yield stress in shear, if there are any
+    !> A contact's case with what only people give, or need to be told.
+    type, extends(contact_case_t) :: settings_t
+        character(len=:), allocatable :: wear_file   !! of the wear law; or not allocated
+        character(len=:), allocatable :: wear_source !! what the file names as its source
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
         logical :: target_is_given = .false. !! else it is pmax where no forces are asked for
-    end type numerics_t
+    end type settings_t
 
 contains
 
     !> Find the first name that is out of range; `what` is empty if there is none. The methods are
     !> numbers of the list.
-    subroutine check_numerics(numerics, what, range, value)
-        type(numerics_t), intent(in) :: numerics            !! as the user gave them
+    subroutine check_settings(case, smoothing_um, what, range, value)
+        class(settings_t), intent(in) :: case               !! as the user gave them
+        real(wp), intent(in) :: smoothing_um                !! the same, um
         character(len=:), allocatable, intent(out) :: what  !! name of the culprit
         character(len=:), allocatable, intent(out) :: range !! what it must be
         character(len=:), allocatable, intent(out) :: value !! its value
@@ -60,32 +48,24 @@ contains
         what = ''
         range = ''
         value = ''
-        call check_word('norm_start', numerics%norm_start, norm_starts)
-        if (numerics%strips_per_patch /= strips_auto) &
-            call check('strips_per_patch', numerics%strips_per_patch, 1, most_strips)
-        call check('points_per_strip', numerics%points_per_strip, 1, most_points_per_strip)
-        call check('fastsim_nx', numerics%fastsim_nx, 1, most_points)
-        call check('fastsim_ny', numerics%fastsim_ny, 1, most_points)
-        call check('max_elements', numerics%max_elements, 1, most_elements)
-        call check_real('element_dx_mm', numerics%element_dx, .false.)
-        call check_real('element_dy_mm', numerics%element_dy, .false.)
-        call check_real('error_target', numerics%error_target, .true.)
-        call check_real('yield_MPa', numerics%yield_mpa, .true.)
-        call check_real('yield_shear_MPa', numerics%wear%yield_shear_mpa, .true.)
-        call check_real('smoothing_um', numerics%smoothing_um, .true.)
-        call check_real('tolerance', numerics%wanted%tolerance, numerics%wanted%budget_us > 0.0_wp)
-        call check_real('budget_us', numerics%wanted%budget_us, .true.)
+        associate (methods => case%methods)
+            if (methods%strips_per_patch /= strips_auto) &
+                call check('strips_per_patch', methods%strips_per_patch, 1, most_strips)
+            call check('points_per_strip', methods%points_per_strip, 1, most_points_per_strip)
+            call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
+            call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
+            call check('max_elements', methods%max_elements, 1, most_elements)
+            call check_real('element_dx_mm', methods%element_dx, .false.)
+            call check_real('element_dy_mm', methods%element_dy, .false.)
+            call check_real('error_target', methods%error_target, .true.)
+        end associate
+        call check_real('yield_MPa', case%yield, .true.)
+        call check_real('yield_shear_MPa', case%yield_shear, .true.)
+        call check_real('smoothing_um', smoothing_um, .true.)
+        call check_real('tolerance', case%wanted%tolerance, case%wanted%budget_us > 0.0_wp)
+        call check_real('budget_us', case%wanted%budget_us, .true.)
 
     contains
-
-        subroutine check_word(name, word, words)
-            character(len=*), intent(in) :: name, word, words(:)
-
-            if (any(words == word) .or. len(what) > 0) return
-            what = name
-            range = one_of(words)
-            value = trim(word)
-        end subroutine check_word
 
         subroutine check(name, number, least, most)
             character(len=*), intent(in) :: name
@@ -112,7 +92,7 @@ contains
             if (may_be_zero) range = 'a number from 0 on'
             value = trim(number_text(number))
         end subroutine check_real
-    end subroutine check_numerics
+    end subroutine check_settings
 
     !> What a word must be.
     pure function one_of(words) result(text)
@@ -137,14 +117,14 @@ contains
         in_core = any(table%number == number .and. table%in_core)
     end function in_core
 
-    !> The part of the core: strips where it has no such normal method, which stand for the rows of
-    !> norm, and no forces where it has no such tangential method.
-    pure type(contact_methods_t) function core_methods(numerics)
-        type(numerics_t), intent(in) :: numerics !! checked
+    !> Settle what auto is asked for, when all is given: pmax, where neither a target nor forces are
+    !> asked for; a budget alone, where no tolerance is given beside it.
+    subroutine settle_wanted(case)
+        class(settings_t), intent(inout) :: case !! as the user gave it
 
-        core_methods = numerics%contact_methods_t
-        if (.not. in_core(normal_table, core_methods%normal)) core_methods%normal = normal_strip
-        if (.not. in_core(tangential_table, core_methods%tangential)) &
-            core_methods%tangential = tangential_none
-    end function core_methods
+        if (.not. case%target_is_given .and. case%methods%tangential == tangential_none) &
+            case%wanted%target = target_pmax
+        if (case%wanted%budget_us > 0.0_wp .and. .not. case%tolerance_is_given) &
+            case%wanted%tolerance = 0.0_wp
+    end subroutine settle_wanted
 end module faststrip_command_methods

@@ -10,9 +10,10 @@ module faststrip_command_point_spacing
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_methods, only: normal_strip, tangential_faststrip
     use faststrip_command_case_file, only: case_t
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_contact_case, only: asked_t
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
     private
 
@@ -41,19 +42,18 @@ contains
 
         type(case_t) :: thinned
         type(prepared_case_t) :: contact
-        type(solver_t) :: solver
-        type(numerics_t) :: numerics
-        type(outcome_t) :: given, outcome
+        type(prepared_case_t) :: whole
+        type(solver_t), pointer :: solver
+        type(contact_result_t) :: given, result
         type(status_t) :: status
         integer :: first
 
         if (len(case%gap_file) > 0) return
         if (all([case%wheel%profile%kind, case%rail%profile%kind] /= profile_curve)) return
-        numerics = case%numerics
-        numerics%normal = normal_strip
-        numerics%tangential = tangential_faststrip
-        call make_solver(numerics, .false., solver, status)
-        if (.not. is_error(status)) call solve(solver, prepared, given, status)
+        whole = prepared
+        call choose(whole)
+        call new_solver(solver, status)
+        if (.not. is_error(status)) call solve(solver, whole, given, status)
         if (.not. is_error(status)) then
             spacing%is_known = .true.
             thinned = case
@@ -63,28 +63,39 @@ contains
                     call thin_profile(case%rail%profile, first, thinned%rail%profile, status)
                 if (.not. is_error(status)) &
                     call prepare_case(thinned, prepared%shift, contact, status)
-                if (.not. is_error(status)) call solve(solver, contact, outcome, status)
+                call choose(contact)
+                if (.not. is_error(status)) call solve(solver, contact, result, status)
                 if (is_error(status)) then
                     spacing%is_solved = .false.
                 else
-                    call compare(prepared, given, outcome, spacing)
+                    call compare(prepared, given, result, spacing)
                 end if
             end do
         end if
-        call release_solver(solver)
+        call free_solver(solver)
     end subroutine judge_spacing
 
-    subroutine compare(prepared, given, outcome, spacing)
+    ! Strips and FASTSTRIP, and nothing else.
+    subroutine choose(contact)
+        type(prepared_case_t), intent(inout) :: contact
+
+        contact%methods%normal = normal_strip
+        contact%methods%tangential = tangential_faststrip
+        contact%asked = asked_t()
+        contact%wear_law%n = 0
+    end subroutine choose
+
+    subroutine compare(prepared, given, result, spacing)
         type(prepared_case_t), intent(in) :: prepared
-        type(outcome_t), intent(in) :: given, outcome
+        type(contact_result_t), intent(in) :: given, result
         type(point_spacing_t), intent(inout) :: spacing
 
         real(wp) :: change
 
-        spacing%pmax = max(spacing%pmax, abs(outcome%normal%pmax - given%normal%pmax) &
+        spacing%pmax = max(spacing%pmax, abs(result%normal%pmax - given%normal%pmax) &
                            /given%normal%pmax)
-        change = hypot(outcome%tangential%fx - given%tangential%fx, &
-                       outcome%tangential%fy - given%tangential%fy) &
+        change = hypot(result%tangential%fx - given%tangential%fx, &
+                       result%tangential%fy - given%tangential%fy) &
                  /(prepared%mu*given%normal%load)
         if (ieee_is_finite(change)) spacing%forces = max(spacing%forces, change)
     end subroutine compare

@@ -7,7 +7,7 @@ module faststrip_command_prepared_case
     use faststrip_base_friction, only: friction_at_angle
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_geometry_profile, only: profile_t, profile_at
-    use faststrip_geometry_gap, only: gap_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_files_gap, only: read_gap_file
     use faststrip_geometry_rigid_contact, only: rigid_contact_t, find_rigid_contacts, &
                                                 contact_force, shift_creepage
@@ -92,19 +92,19 @@ contains
     end subroutine clear_rigid_contact
 
     !> The gap, one row a point.
-    subroutine put_gap(writer, gap, smoothing_um)
+    subroutine put_gap(writer, gap, smoothing)
         type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(gap_t), intent(in) :: gap              !! mm, mm, 1/mm
-        real(wp), intent(in) :: smoothing_um        !! noise it was smoothed for, um; 0: it was not
+        type(gap_curve_t), intent(in) :: gap        !! as it was solved, mm, mm, 1/mm
+        real(wp), intent(in) :: smoothing           !! noise it was smoothed for, mm; 0: it was not
 
         integer :: i
 
         call put_origin(writer)
-        if (smoothing_um > 0.0_wp) &
+        if (smoothing > 0.0_wp) &
             call put_comment(writer, 'smoothed for a noise of ' // &
-                             trim(number_text(smoothing_um)) // ' um, rms')
+                             trim(number_text(1.0e3_wp*smoothing)) // ' um, rms')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
-        do i = 1, size(gap%y)
+        do i = 1, gap%n
             call put_cell(writer, gap%y(i))
             call put_cell(writer, gap%h(i))
             call put_cell(writer, gap%inv2r(i))

@@ -2,20 +2,24 @@
 module faststrip_command_result_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
+    use faststrip_contact_method, only: contact_result_t, wear_figures_t
     use faststrip_contact_methods, only: normal_auto
+    use faststrip_contact_wanted, only: auto_steps_t
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
     use faststrip_command_console, only: note, put_origin
-    use faststrip_command_methods, only: numerics_t
-    use faststrip_command_solver, only: outcome_t
-    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, &
-                                              strip_wear_t, make_strip_wear
+    use faststrip_command_auto_words, only: words_of_steps
+    use faststrip_command_methods, only: settings_t
+    use faststrip_command_wear_figures, only: strip_wear_t, make_strip_wear
     implicit none
     private
 
-    public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear
+    public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear, no_wear
     public :: wear_columns, put_wear, put_wear_source, strip_columns, put_strip
+
+    !> Begins what is said where there is no wear in spite of a law.
+    character(len=*), parameter :: no_wear = 'no wear: '
 
     !> Names of the columns of wear, in the order of `put_wear`.
     character(len=*), parameter :: wear_columns(6) = [character(len=26) :: &
@@ -40,13 +44,15 @@ module faststrip_command_result_csv
 contains
 
     !> The cells of one contact; all but the status word are empty if there is no result.
-    subroutine put_result(writer, outcome, status, tells_times)
+    subroutine put_result(writer, result, steps, status, tells_times)
         type(csv_writer_t), intent(inout) :: writer !! an open file, in the middle of a row
-        type(outcome_t), intent(in) :: outcome      !! figures
+        type(contact_result_t), intent(in) :: result !! figures
+        type(auto_steps_t), intent(in) :: steps     !! of auto
         type(status_t), intent(in) :: status        !! how it ended
         logical, intent(in), optional :: tells_times !! else the cells of times are empty; default
                                                     !! true
 
+        character(len=:), allocatable :: choice
         logical :: with_times
         integer :: i
 
@@ -59,42 +65,43 @@ contains
             end do
             return
         end if
-        call put_cell(writer, outcome%normal%penetration)
-        call put_cell(writer, outcome%normal%area)
-        call put_cell(writer, outcome%normal%pmax)
-        call put_cell(writer, outcome%normal%y_min)
-        call put_cell(writer, outcome%normal%y_max)
-        call put_cell(writer, outcome%normal%x_max)
-        call put_cell(writer, outcome%normal%n_patches)
-        associate (tangential => outcome%tangential)
-            call put_cell(writer, tangential%fx, is_known=outcome%has_forces)
-            call put_cell(writer, tangential%fy, is_known=outcome%has_forces)
-            call put_cell(writer, tangential%mz, is_known=outcome%has_forces)
-            call put_cell(writer, tangential%friction_power, is_known=outcome%has_forces)
-            call put_cell(writer, tangential%stick_fraction, is_known=outcome%knows_stick)
+        call put_cell(writer, result%normal%penetration)
+        call put_cell(writer, result%normal%area)
+        call put_cell(writer, result%normal%pmax)
+        call put_cell(writer, result%normal%y_min)
+        call put_cell(writer, result%normal%y_max)
+        call put_cell(writer, result%normal%x_max)
+        call put_cell(writer, result%normal%n_patches)
+        associate (tangential => result%tangential)
+            call put_cell(writer, tangential%fx, is_known=result%has_forces)
+            call put_cell(writer, tangential%fy, is_known=result%has_forces)
+            call put_cell(writer, tangential%mz, is_known=result%has_forces)
+            call put_cell(writer, tangential%friction_power, is_known=result%has_forces)
+            call put_cell(writer, tangential%stick_fraction, is_known=result%knows_stick)
         end associate
-        call put_cell(writer, outcome%normal_us, is_known=with_times)
-        call put_cell(writer, outcome%tangential_us, is_known=with_times)
-        associate (certificate => outcome%certificate)
-            call put_cell(writer, certificate%residual_inside, is_known=outcome%is_certified)
-            call put_cell(writer, certificate%overlap_outside, is_known=outcome%is_certified)
-            call put_cell(writer, certificate%est_err_penetration, is_known=outcome%is_estimated)
-            call put_cell(writer, certificate%est_err_pmax, is_known=outcome%is_estimated)
-            call put_cell(writer, certificate%est_err_area, is_known=outcome%is_estimated)
+        call put_cell(writer, result%times%normal_us, is_known=with_times)
+        call put_cell(writer, result%times%tangential_us, is_known=with_times)
+        associate (certificate => result%certificate)
+            call put_cell(writer, certificate%residual_inside, is_known=result%has_residuals)
+            call put_cell(writer, certificate%overlap_outside, is_known=result%has_residuals)
+            call put_cell(writer, certificate%est_err_penetration, is_known=result%is_estimated)
+            call put_cell(writer, certificate%est_err_pmax, is_known=result%is_estimated)
+            call put_cell(writer, certificate%est_err_area, is_known=result%is_estimated)
         end associate
-        associate (errors => outcome%force_errors)
-            call put_cell(writer, errors%fx, is_known=outcome%forces_are_estimated)
-            call put_cell(writer, errors%fy, is_known=outcome%forces_are_estimated)
-            call put_cell(writer, errors%mz, is_known=outcome%forces_are_estimated)
+        associate (errors => result%force_errors)
+            call put_cell(writer, errors%fx, is_known=result%forces_are_estimated)
+            call put_cell(writer, errors%fy, is_known=result%forces_are_estimated)
+            call put_cell(writer, errors%mz, is_known=result%forces_are_estimated)
         end associate
-        call put_cell(writer, outcome%gap_change_um, is_known=outcome%gap_change_um > 0.0_wp)
-        call put_cell(writer, outcome%choice)
-        if (outcome%normal%strips_across > 0) then
-            call put_cell(writer, outcome%normal%strips_across)
+        call put_cell(writer, 1.0e3_wp*result%gap_change, is_known=result%gap_change > 0.0_wp)
+        call words_of_steps(steps, with_times, choice)
+        call put_cell(writer, choice)
+        if (result%normal%strips_across > 0) then
+            call put_cell(writer, result%normal%strips_across)
         else
             call put_cell(writer, '')
         end if
-        call put_wear(writer, outcome%wear, outcome%has_forces)
+        call put_wear(writer, result%wear, result%has_forces)
     end subroutine put_result
 
     !> The cells of T gamma, fatigue and wear.
@@ -113,62 +120,61 @@ contains
 
     !> The comment lines on columns: what the friction power and T gamma are, where a wear law is
     !> from, and that gaps are smoothed, if they are.
-    subroutine put_notes(writer, numerics)
+    subroutine put_notes(writer, case)
         type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
-        type(numerics_t), intent(in) :: numerics    !! smoothing, wear, a budget
+        class(settings_t), intent(in) :: case       !! smoothing, wear, a budget
 
         call put_comment(writer, 'friction_power_N is the frictional work per distance rolled, ' &
                          // 'T gamma')
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fy ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
-        call put_wear_source(writer, numerics%wear)
-        if (numerics%normal == normal_auto .and. numerics%wanted%budget_us > 0.0_wp) &
+        call put_wear_source(writer, case)
+        if (case%methods%normal == normal_auto .and. case%wanted%budget_us > 0.0_wp) &
             call put_comment(writer, 'within a budget of time, which another run may spend ' &
                              // 'otherwise: its bytes may differ')
-        if (numerics%smoothing_um <= 0.0_wp) return
+        if (case%smoothing <= 0.0_wp) return
         call put_comment(writer, 'gap smoothed for a noise of ' &
-                         // trim(number_text(numerics%smoothing_um)) &
+                         // trim(number_text(1.0e3_wp*case%smoothing)) &
                          // ' um, rms; gap_change_um is by how much it changed, rms')
     end subroutine put_notes
 
     !> Say on stderr why there is no wear, where a law was given and does not go as far.
-    subroutine note_wear(outcome, place)
-        type(outcome_t), intent(in) :: outcome !! solved
+    subroutine note_wear(wear_status, place)
+        type(status_t), intent(in) :: wear_status !! of the workspace
         character(len=*), intent(in) :: place  !! which one it is, with what parts it; or empty
 
-        if (.not. allocated(outcome%wear%words)) return
-        if (len(outcome%wear%words) > 0) call note(place // outcome%wear%words)
+        if (is_error(wear_status)) call note(place // no_wear // trim(wear_status%message))
     end subroutine note_wear
 
     !> Where a wear law is from, and whose wear it is, if there is one.
-    subroutine put_wear_source(writer, choice)
+    subroutine put_wear_source(writer, case)
         type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
-        type(wear_choice_t), intent(in) :: choice   !! law, or none
+        class(settings_t), intent(in) :: case       !! law, or none
 
-        if (choice%law%n == 0) return
-        if (choice%law%of_wheel) then
-            call put_comment(writer, 'wear of the wheel by ' // choice%file)
+        if (case%wear_law%n == 0) return
+        if (case%wear_law%of_wheel) then
+            call put_comment(writer, 'wear of the wheel by ' // case%wear_file)
         else
-            call put_comment(writer, 'wear of the rail by ' // choice%file)
+            call put_comment(writer, 'wear of the rail by ' // case%wear_file)
         end if
-        call put_comment(writer, 'its source: ' // choice%source)
+        call put_comment(writer, 'its source: ' // case%wear_source)
     end subroutine put_wear_source
 
     !> The strips of a contact, one row a strip.
-    subroutine put_strips(writer, case_name, strips, forces, choice, radius)
+    subroutine put_strips(writer, case_name, strips, forces, case, radius)
         type(csv_writer_t), intent(inout) :: writer  !! an open file
         character(len=*), intent(in) :: case_name    !! for the column `case`
         type(contact_strips_t), intent(in) :: strips !! mm, MPa
         type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
-        type(wear_choice_t), intent(in) :: choice    !! wear law
+        class(settings_t), intent(in) :: case        !! wear law
         real(wp), intent(in) :: radius               !! rolling radius, mm; 0: not known
 
         type(strip_wear_t) :: wear
         integer :: k
 
-        call make_strip_wear(choice, strips, forces, radius, wear)
+        call make_strip_wear(case%wear_law, strips, forces, radius, wear)
         call put_origin(writer)
-        call put_wear_source(writer, choice)
+        call put_wear_source(writer, case)
         call put_header(writer, [character(len=len(strip_columns)) :: 'case', strip_columns])
         do k = 1, strips%n
             call put_cell(writer, case_name)

@@ -11,14 +11,14 @@ module faststrip_command_sweep
     use faststrip_contact_methods, only: normal_strip, normal_hertz, tangential_faststrip, &
                                          tangential_fastsim, normal_method_name, &
                                          tangential_method_name
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_command_method_options, only: method_options, method_notes, take_method_options
     use faststrip_command_case_doubts, only: hold_sweep_doubts, count_pressure
     use faststrip_command_doubts, only: tally_t, hold_tally
     use faststrip_command_case_file, only: case_t, read_case
     use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
-    use faststrip_command_solver, only: own_solver_t, outcome_t, new_solver, free_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_command_result_csv, only: note_wear
     use faststrip_command_sweep_csv, only: put_sweep_header, put_sweep_row
     implicit none
@@ -43,14 +43,13 @@ contains
         type(command_t) :: command
         type(case_t) :: case
         type(prepared_case_t) :: prepared
-        type(own_solver_t) :: own(size(pairs, 2) + 1)
-        type(numerics_t) :: numerics
-        type(outcome_t) :: outcome
+        type(solver_t), pointer :: solver
+        type(contact_result_t) :: result
         type(point_spacing_t) :: spacing
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
         type(tally_t) :: pressures
-        integer :: i, m, n_failed, n_solvers
+        integer :: i, m, n_failed, n_pairs
 
         command%name = 'sweep'
         command%usage = 'CASE.nml'
@@ -68,28 +67,22 @@ contains
         call parse_command(command, 1)
         call prepare_plot(command)
         call read_case(command%arguments(1)%text, case)
-        call take_method_options(command, case%numerics, case)
+        call take_method_options(command, case)
+        case%asked%times = .true.
         if (size(case%shifts) == 0) &
             call fail(exit_bad_input, 'missing group: &sweep with shifts_mm (' &
                       // command%arguments(1)%text // ')')
         if (len(case%gap_file) > 0) &
             call fail(exit_bad_input, 'a sweep must have profiles, got the gap file ' &
                       // case%gap_file // ' (' // command%arguments(1)%text // ')')
-        n_solvers = size(pairs, 2)
+        n_pairs = size(pairs, 2)
         if (given(command, '--normal') .or. given(command, '--tangential')) then
             ! Unless it is one of the three.
-            if (.not. any(pairs(1, :) == case%numerics%normal &
-                          .and. pairs(2, :) == case%numerics%tangential)) n_solvers = n_solvers + 1
+            if (.not. any(pairs(1, :) == case%methods%normal &
+                          .and. pairs(2, :) == case%methods%tangential)) n_pairs = n_pairs + 1
         end if
-        do m = 1, n_solvers
-            numerics = case%numerics
-            if (m <= size(pairs, 2)) then
-                numerics%normal = pairs(1, m)
-                numerics%tangential = pairs(2, m)
-            end if
-            call new_solver(numerics, own(m), status)
-            call fail_on_error(status)
-        end do
+        call new_solver(solver, status)
+        call fail_on_error(status)
         call hold_sweep_doubts(case, command%arguments(1)%text)
         call open_result(command, writer, written)
         call fail_on_error(written)
@@ -100,37 +93,40 @@ contains
             call prepare_case(case, case%shifts(i), prepared, placed)
             spacing = point_spacing_t()
             if (.not. is_error(placed)) call judge_spacing(case, prepared, spacing)
-            do m = 1, n_solvers
+            do m = 1, n_pairs
                 status = placed
-                if (.not. is_error(placed)) &
-                    call solve(own(m)%solver, prepared, outcome, status)
+                prepared%methods = case%methods
+                if (m <= size(pairs, 2)) then
+                    prepared%methods%normal = pairs(1, m)
+                    prepared%methods%tangential = pairs(2, m)
+                end if
+                if (.not. is_error(placed)) call solve(solver, prepared, result, status)
                 if (.not. is_error(status)) call name_spacing(spacing, status)
-                call put_sweep_row(writer, case, own(m)%solver%numerics, prepared, outcome, status)
+                call put_sweep_row(writer, case, prepared, result, solver%workspace%steps, &
+                                   status)
                 if (.not. is_error(status)) &
-                    call count_pressure(pressures, outcome%normal%pmax, 0)
+                    call count_pressure(pressures, result%normal%pmax, 0)
                 if (.not. is_error(status)) &
-                    call note_wear(outcome, 'shift ' // trim(number_text(case%shifts(i))) &
+                    call note_wear(solver%workspace%wear_status, 'shift ' // trim(number_text(case%shifts(i))) &
                                    // ' mm: ')
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &
-                          // trim(normal_method_name(own(m)%solver%numerics%normal)) &
+                          // trim(normal_method_name(prepared%methods%normal)) &
                           // ' and ' &
-                          // trim(tangential_method_name(own(m)%solver%numerics%tangential)) &
+                          // trim(tangential_method_name(prepared%methods%tangential)) &
                           // ': ' &
                           // trim(status%message))
             end do
         end do
-        do m = 1, n_solvers
-            call free_solver(own(m))
-        end do
+        call free_solver(solver)
         call close_result(command, writer, shown, written)
         call fail_on_error(written)
         call draw_plot(command)
         call hold_tally(pressures, command%arguments(1)%text)
         call tell_held()
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
-                                    // integer_text(size(case%shifts)*n_solvers) &
+                                    // integer_text(size(case%shifts)*n_pairs) &
                                     // ' contacts failed')
     end subroutine run_sweep
 end module faststrip_command_sweep

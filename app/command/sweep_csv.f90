@@ -4,10 +4,10 @@ module faststrip_command_sweep_csv
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_command_console, only: put_origin, note, tell_held
     use faststrip_command_case_file, only: case_t
-    use faststrip_contact_methods, only: contact_methods_t, normal_method_name, &
-                                         tangential_method_name
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_methods, only: normal_method_name, tangential_method_name
+    use faststrip_contact_wanted, only: auto_steps_t
     use faststrip_command_prepared_case, only: prepared_case_t
-    use faststrip_command_solver, only: outcome_t
     use faststrip_command_result_csv, only: result_columns, put_result, put_notes
     implicit none
     private
@@ -34,7 +34,7 @@ contains
             call tell(case%wheel%words)
             call tell(case%rail%words)
         end if
-        call put_notes(writer, case%numerics)
+        call put_notes(writer, case)
         call tell_held(writer)
         call put_header(writer, [case_columns, result_columns])
 
@@ -51,24 +51,24 @@ contains
     end subroutine put_sweep_header
 
     !> One contact by one choice of methods.
-    subroutine put_sweep_row(writer, case, methods, prepared, outcome, status)
+    subroutine put_sweep_row(writer, case, prepared, result, steps, status)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         type(case_t), intent(in) :: case            !! its name is used
-        class(contact_methods_t), intent(in) :: methods !! by which it was solved
-        type(prepared_case_t), intent(in) :: prepared !! shift, load, creepages
-        type(outcome_t), intent(in) :: outcome      !! figures
+        type(prepared_case_t), intent(in) :: prepared !! shift, load, creepages, methods
+        type(contact_result_t), intent(in) :: result !! figures
+        type(auto_steps_t), intent(in) :: steps     !! of auto
         type(status_t), intent(in) :: status        !! how it ended
 
         call put_cell(writer, case%name)
         call put_cell(writer, prepared%shift)
-        call put_cell(writer, trim(normal_method_name(methods%normal)))
-        call put_cell(writer, trim(tangential_method_name(methods%tangential)))
+        call put_cell(writer, trim(normal_method_name(prepared%methods%normal)))
+        call put_cell(writer, trim(tangential_method_name(prepared%methods%tangential)))
         if (prepared%by_load) then
             call put_cell(writer, prepared%load)
         else if (is_error(status)) then
             call put_cell(writer, '')
         else
-            call put_cell(writer, outcome%normal%load)
+            call put_cell(writer, result%normal%load)
         end if
         if (len(case%gap_file) > 0) then
             call put_cell(writer, '')
@@ -78,7 +78,7 @@ contains
         call put_cell(writer, prepared%creepage%cksi)
         call put_cell(writer, prepared%creepage%ceta)
         call put_cell(writer, prepared%creepage%cphi)
-        call put_result(writer, outcome, status)
+        call put_result(writer, result, steps, status)
         call end_row(writer)
     end subroutine put_sweep_row
 end module faststrip_command_sweep_csv

@@ -18,9 +18,9 @@ module faststrip_command_wheelset
                                          option_number
     use faststrip_command_plot, only: plot_option, prepare_plot, plot_file
     use faststrip_command_outputs, only: open_outputs, close_outputs
-    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, take_wear_law, &
-                                              find_wear_figures
-    use faststrip_command_solver, only: name_yield
+    use faststrip_contact_solve, only: name_yield
+    use faststrip_command_result_csv, only: note_wear
+    use faststrip_command_wear_figures, only: take_wear_law
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
     use faststrip_command_case_doubts, only: count_pressure
     use faststrip_command_doubts, only: tally_t, hold_tally
@@ -56,8 +56,6 @@ module faststrip_command_wheelset
         type(wheelset_model_t) :: model
         type(wheelset_workspace_t) :: workspaces(2)      !! one for each state beside; first: state
         type(wheel_strips_t) :: strips                   !! of the last contact
-        type(wear_choice_t) :: wear                      !! wear law, yield stress
-        real(wp) :: yield_mpa = 0.0_wp                   !! pmax above is named, MPa; 0: no limit
         logical :: wants_strips = .false.
         logical :: wants_profiles = .false.
         logical :: is_drawn = .false.                    !! is there to be a picture?
@@ -125,12 +123,10 @@ contains
         if (given(command, '--profiles-of') .and. .not. (given(command, '--profiles') .or. &
                                                          given(command, '--plot'))) &
             call usage_error('--profiles-of: it needs --profiles', command%name)
-        run%wear = case%numerics%wear
-        run%yield_mpa = case%numerics%yield_mpa
-        run%wear%yield_shear_mpa = option_number(command, '--yield-shear-MPa', &
-                                                 run%wear%yield_shear_mpa, least=0)
-        if (given(command, '--wear')) &
-            call take_wear_law(option_text(command, '--wear', ''), run%wear)
+        run%model%case%yield_shear = option_number(command, '--yield-shear-MPa', &
+                                                   case%yield_shear, least=0)
+        if (given(command, '--wear')) call take_wear_law(option_text(command, '--wear', ''), case)
+        run%model%case%wear_law = case%wear_law
         run%beside = um*option_number(command, '--near-jumps', 0.0_wp, least=0)
         run%wants_strips = given(command, '--strips')
         run%wants_profiles = given(command, '--profiles')
@@ -149,8 +145,8 @@ contains
         call refuse_unknown_state(run, case%has_state, table, columns)
         call hold_wheelset_doubts(command%arguments(1)%text, run%model, case, table, columns)
         call open_outputs(command, outputs, run%writer)
-        call put_wheelset_header(run%writer(1), run%wear)
-        if (run%wants_strips) call put_strips_header(run%writer(2), run%wear)
+        call put_wheelset_header(run%writer(1), case)
+        if (run%wants_strips) call put_strips_header(run%writer(2), case)
         if (run%wants_profiles) call put_profiles_header(run%writer(3))
         if (run%is_drawn) then
             call open_csv(run%drawn, plot_file('profiles.csv'), status)
@@ -351,7 +347,6 @@ contains
         type(wheelset_result_t), intent(in) :: result
         integer, intent(in) :: solution
 
-        type(wear_figures_t) :: figures(result%wheel(side)%n)
         type(wheel_result_t) :: wheel
         type(status_t) :: status
         logical :: has_forces
@@ -361,31 +356,23 @@ contains
         w = max(1, solution - 1)
         do i = 1, result%wheel(side)%n
             associate (contact => result%wheel(side)%contact(i))
-                if (run%wants_strips .or. run%wear%law%n > 0) then
-                    call find_wheel_strips(run%model, run%workspaces(w), result, side, i, &
-                                           run%strips, status)
-                    call fail_on_error(status)
-                end if
-                if (has_forces) &
-                    call find_wear_figures(run%wear, contact%figures%normal, &
-                                           contact%figures%tangential, contact%creepage, &
-                                           run%strips%strips, run%strips%forces, figures(i))
-                if (allocated(figures(i)%words)) then
-                    if (len(figures(i)%words) > 0) &
-                        call note(name // ', ' // trim(side_names(side)) // ', contact ' &
-                                  // integer_text(i) // ': ' // figures(i)%words)
-                end if
-                if (run%wants_strips .and. solution == 1) &
-                    call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
-                                          contact%radius, run%strips, run%wear)
+                call note_wear(run%workspaces(w)%wheel(side)%contact(i)%wear_status, name // ', ' &
+                               // trim(side_names(side)) // ', contact ' // integer_text(i) &
+                               // ': ')
+                if (.not. run%wants_strips .or. solution /= 1) cycle
+                call find_wheel_strips(run%model, run%workspaces(w), result, side, i, run%strips, &
+                                       status)
+                call fail_on_error(status)
+                call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
+                                      contact%radius, run%strips, run%model%case%wear_law)
             end associate
         end do
         wheel = result%wheel(side)
         do i = 1, wheel%n
-            call name_yield(run%yield_mpa, wheel%contact(i)%figures%normal%pmax, &
+            call name_yield(run%model%case%yield, wheel%contact(i)%figures%normal%pmax, &
                             wheel%contact(i)%status)
         end do
-        call put_wheel(run%writer(1), name, trim(side_names(side)), wheel, figures, &
-                       has_forces, solution, run%workspaces(w)%last_state%y)
+        call put_wheel(run%writer(1), name, trim(side_names(side)), wheel, has_forces, solution, &
+                       run%workspaces(w)%last_state%y)
     end subroutine put_side
 end module faststrip_command_wheelset

@@ -63,13 +63,13 @@ contains
         call hold_width(content, case%left_rail, case%wheelset%radius)
         call read_numerics_group(content, case%case_t)
         call find_group(content, 'numerics', .false., group)
-        if (case%numerics%normal == normal_auto &
-            .or. .not. in_core(normal_table, case%numerics%normal)) &
+        if (case%methods%normal == normal_auto &
+            .or. .not. in_core(normal_table, case%methods%normal)) &
             call refuse(content, group, 'normal', 'must be a method of strips or ellipses for a ' &
-                        // 'wheelset', trim(normal_method_name(case%numerics%normal)))
-        if (.not. in_core(tangential_table, case%numerics%tangential)) &
+                        // 'wheelset', trim(normal_method_name(case%methods%normal)))
+        if (.not. in_core(tangential_table, case%methods%tangential)) &
             call refuse(content, group, 'tangential', 'must be a method of the library for a ' // &
-                        'wheelset', trim(tangential_method_name(case%numerics%tangential)))
+                        'wheelset', trim(tangential_method_name(case%methods%tangential)))
         ! Each gap would be smoothed by a strength of its own, and forces would jump.
         if (sets(content, group, 'smoothing_um')) &
             call refuse(content, group, 'smoothing_um', 'must not be given for a wheelset; ' // &
@@ -78,7 +78,6 @@ contains
             call refuse(content, group, 'gap_step_mm', 'must not be given for a wheelset', '')
         call read_state_group(content, case)
 
-        case%methods = case%numerics%contact_methods_t
         wheels = [case%wheel%profile, case%left_wheel%profile]
         rails = [case%rail%profile, case%left_rail%profile]
         call make_wheelset(wheels, rails, case%wheelset, case%left_wheel%radius, case%track, &

@@ -8,8 +8,9 @@ module faststrip_command_wheelset_csv
     use faststrip_command_console, only: put_origin, tell_held
     use faststrip_command_result_csv, only: put_wear, put_wear_source, wear_columns, &
                                             put_strip, strip_columns
-    use faststrip_command_wear_figures, only: wear_choice_t, wear_figures_t, strip_wear_t, &
-                                              make_strip_wear
+    use faststrip_command_methods, only: settings_t
+    use faststrip_command_wear_figures, only: strip_wear_t, make_strip_wear
+    use faststrip_tangential_wear_law, only: wear_law_t
     implicit none
     private
 
@@ -32,26 +33,25 @@ module faststrip_command_wheelset_csv
 contains
 
     !> Names of the columns.
-    subroutine put_wheelset_header(writer, wear)
+    subroutine put_wheelset_header(writer, case)
         type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(wear_choice_t), intent(in) :: wear     !! wear law, for its source
+        class(settings_t), intent(in) :: case       !! wear law, for its source
 
         call put_origin(writer)
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fs ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
-        call put_wear_source(writer, wear)
+        call put_wear_source(writer, case)
         call tell_held(writer)
         call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
                                  wear_columns, solution_columns])
     end subroutine put_wheelset_header
 
     !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
-    subroutine put_wheel(writer, case, side, wheel, figures, has_forces, solution, y)
+    subroutine put_wheel(writer, case, side, wheel, has_forces, solution, y)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         character(len=*), intent(in) :: case        !! name of the state
         character(len=*), intent(in) :: side        !! left or right
         type(wheel_result_t), intent(in) :: wheel   !! solved
-        type(wear_figures_t), intent(in) :: figures(:) !! of each contact
         logical, intent(in) :: has_forces           !! were creep forces asked for?
         integer, intent(in) :: solution             !! 1: of the state; 2, 3: to its left, right
         real(wp), intent(in) :: y                   !! lateral displacement of the wheelset, mm
@@ -63,7 +63,7 @@ contains
             call put_cell(writer, side)
             call put_cell(writer, i)
             call put_contact(writer, wheel, wheel%contact(i))
-            call put_wear(writer, figures(i), has_forces)
+            call put_wear(writer, wheel%contact(i)%figures%wear, has_forces)
             call put_cell(writer, solution)
             call put_cell(writer, y)
             call end_row(writer)
@@ -148,31 +148,31 @@ contains
     end subroutine put_contact
 
     !> Names of the columns of strips: those of `contact`, and the places.
-    subroutine put_strips_header(writer, wear)
+    subroutine put_strips_header(writer, case)
         type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(wear_choice_t), intent(in) :: wear     !! wear law, for its source
+        class(settings_t), intent(in) :: case       !! wear law, for its source
 
         call put_origin(writer)
-        call put_wear_source(writer, wear)
+        call put_wear_source(writer, case)
         call put_header(writer, [character(len=len(strip_columns)) :: 'case', 'side', 'contact', &
                                  strip_columns, 'y_rail_mm', 'z_rail_mm', 'y_wheel_mm', &
                                  'z_wheel_mm'])
     end subroutine put_strips_header
 
     !> One row a strip of a contact.
-    subroutine put_wheel_strips(writer, case, side, i, radius, found, choice)
+    subroutine put_wheel_strips(writer, case, side, i, radius, found, law)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         character(len=*), intent(in) :: case        !! name of the state
         character(len=*), intent(in) :: side        !! left or right
         integer, intent(in) :: i                    !! contact of the wheel
         real(wp), intent(in) :: radius              !! rolling radius, mm
         type(wheel_strips_t), intent(in) :: found   !! of the contact
-        type(wear_choice_t), intent(in) :: choice   !! wear law
+        type(wear_law_t), intent(in) :: law         !! or none
 
         type(strip_wear_t) :: wear
         integer :: k
 
-        call make_strip_wear(choice, found%strips, found%forces, radius, wear)
+        call make_strip_wear(law, found%strips, found%forces, radius, wear)
         do k = 1, found%strips%n
             call put_cell(writer, case)
             call put_cell(writer, side)

@@ -6,8 +6,8 @@ module faststrip_command_worker
     use faststrip_contact_plausible, only: gap_size_t
     use faststrip_command_doubts, only: tally_t
     use faststrip_command_gap_cache, only: own_gap_t
-    use faststrip_command_methods, only: numerics_t
-    use faststrip_command_solver, only: own_solver_t, outcome_t, new_solver, free_solver
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver
     implicit none
     private
 
@@ -15,11 +15,11 @@ module faststrip_command_worker
 
     !> Who solves rows: one for each thread.
     type :: worker_t
-        type(own_solver_t) :: own       !! its solver
+        type(solver_t), pointer :: solver => null() !! its workspace
         type(csv_table_t) :: table      !! with the names of the columns
         type(csv_writer_t) :: writer    !! collects rows
         type(own_gap_t) :: gap          !! that the cache had no room for
-        type(outcome_t) :: outcome      !! of the last row
+        type(contact_result_t) :: result !! of the last row
         logical :: can_go_on = .false.  !! is there a solution of this chain to start from?
         logical :: tells_times = .false. !! are times written?
         type(tally_t) :: tally          !! what seems wrong in the rows so far
@@ -30,9 +30,8 @@ module faststrip_command_worker
 contains
 
     !> Workers for some threads.
-    subroutine make_workers(n, numerics, table, tells_times, workers, status)
+    subroutine make_workers(n, table, tells_times, workers, status)
         integer, intent(in) :: n                          !! how many
-        type(numerics_t), intent(in) :: numerics          !! methods
         type(csv_table_t), intent(in) :: table            !! with names
         logical, intent(in) :: tells_times                !! are times written?
         type(worker_t), pointer, intent(out) :: workers(:) !! for `release_workers`
@@ -42,10 +41,9 @@ contains
 
         allocate (workers(n))
         do i = 1, n
-            call new_solver(numerics, workers(i)%own, status)
+            call new_solver(workers(i)%solver, status)
             if (is_error(status)) return
             workers(i)%tells_times = tells_times
-            workers(i)%own%solver%tells_times = tells_times
             workers(i)%table = table
             call collect_csv(workers(i)%writer)
         end do
@@ -58,7 +56,7 @@ contains
         integer :: i
 
         do i = 1, size(workers)
-            call free_solver(workers(i)%own)
+            call free_solver(workers(i)%solver)
         end do
         deallocate (workers)
     end subroutine release_workers

@@ -9,9 +9,7 @@ program figures
     implicit none
 
     type(contact_case_t) :: case
-    type(wanted_t) :: wanted
     type(workspace_t) :: workspace, copy
-    type(tangential_field_t) :: field, other
     type(status_t) :: status
     character(len=method_name_length) :: normal, tangential
     real(wp) :: demand(10, 2), row(4)
@@ -24,14 +22,15 @@ program figures
         case = contact_case_t()
         read (*, *) normal, tangential, numbers, case%methods%strips_per_patch, &
             case%methods%points_per_strip, case%methods%fastsim_nx, case%methods%fastsim_ny, &
-            by_load, elements, has_inclination, estimate, case%resolution_limit, wanted%target, &
-            wanted%tolerance, n
+            by_load, elements, has_inclination, estimate, case%resolution_limit, &
+            case%wanted%target, case%wanted%tolerance, n
         read (*, *) demand
         case%force_limit = case%resolution_limit
         case%methods%normal = normal_method(normal)
         case%methods%tangential = tangential_method(tangential)
         case%by_load = by_load == 1
         case%estimate = estimate == 1
+        case%asked%field = elements == 1
         allocate (case%gap%y(n), case%gap%h(n), case%gap%inv2r(n))
         if (has_inclination == 1) allocate (case%gap%inclination(n))
         do k = 1, n
@@ -43,32 +42,29 @@ program figures
         end do
         workspace = workspace_t()
         call reserve_workspace(workspace, case%methods, n, status)
-        if (elements == 1) call reserve_contact_field(field, case%methods, status)
+        if (elements == 1) call reserve_contact_field(workspace, case%methods, status)
         if (is_error(status)) error stop 'no capacity'
         call set_contact_gap(workspace, case%gap%y, case%gap%h, case%gap%inv2r, status, &
                              case%gap%inclination)
         deallocate (case%gap%y, case%gap%h, case%gap%inv2r)
         if (allocated(case%gap%inclination)) deallocate (case%gap%inclination)
         if (is_error(status)) error stop 'no gap'
-        call solve(workspace, field, 1)
+        call solve(workspace, 1)
         copy = workspace
-        other = field
-        call show_arrays(copy, other, 2)
+        call show_arrays(copy, 2)
         case%warm_start = .true.
-        call solve(workspace, field, 3)
-        call solve(copy, other, 4)
+        call solve(workspace, 3)
+        call solve(copy, 4)
     end do
     call without_workspace()
 
 contains
 
-    subroutine solve(workspace, field, step)
+    subroutine solve(workspace, step)
         type(workspace_t), intent(inout) :: workspace
-        type(tangential_field_t), intent(inout) :: field
         integer, intent(in) :: step
 
         type(contact_result_t) :: result
-        type(taken_t) :: taken
 
         associate (d => demand(:, merge(1, 2, step == 1)))
             case%material = material_t(e_wheel=d(1), e_rail=d(2), nu_wheel=d(3), nu_rail=d(4))
@@ -77,17 +73,7 @@ contains
             case%penetration = d(7)
             case%creepage = creepage_t(cksi=d(8), ceta=d(9), cphi=d(10))
         end associate
-        field%n = 0
-        taken = taken_t()
-        if (case%methods%normal == normal_auto .and. elements == 1) then
-            call solve_contact_auto(workspace, case, wanted, result, taken, status, field)
-        else if (case%methods%normal == normal_auto) then
-            call solve_contact_auto(workspace, case, wanted, result, taken, status)
-        else if (elements == 1) then
-            call solve_contact(workspace, case, result, status, field)
-        else
-            call solve_contact(workspace, case, result, status)
-        end if
+        call solve_contact(workspace, case, result, status)
         call put('status', step, 0, real(status%code, wp))
         write (*, '(a, 2(1x, i0), 1x, a)') 'message', contact, step, trim(status%message)
         call put('load', step, 0, result%normal%load)
@@ -104,7 +90,7 @@ contains
         call put('stick_fraction', step, 0, result%tangential%stick_fraction)
         call put('n_patches', step, 0, real(result%normal%n_patches, wp))
         call put('iterations', step, 0, real(result%normal%iterations, wp))
-        call put('n_elements', step, 0, real(field%n, wp))
+        call put('n_elements', step, 0, real(workspace%field%n, wp))
         call put('is_estimated', step, 0, merge(1.0_wp, 0.0_wp, result%is_estimated))
         call put('strips_across', step, 0, real(result%normal%strips_across, wp))
         call put('est_err_penetration', step, 0, result%certificate%est_err_penetration)
@@ -117,14 +103,13 @@ contains
         call put('est_err_fx', step, 0, result%force_errors%fx)
         call put('est_err_fy', step, 0, result%force_errors%fy)
         call put('est_err_mz', step, 0, result%force_errors%mz)
-        if (is_error(status)) taken = taken_t()
-        call show_steps(taken, step)
-        call show_arrays(workspace, field, step)
+        call show_steps(workspace%steps, step)
+        call show_arrays(workspace, step)
     end subroutine solve
 
     !> What auto did; -1 for an estimate that is not known, of all of them 0.
     subroutine show_steps(taken, step)
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
         integer, intent(in) :: step
 
         integer :: i
@@ -148,9 +133,8 @@ contains
         end do
     end subroutine show_steps
 
-    subroutine show_arrays(workspace, field, step)
+    subroutine show_arrays(workspace, step)
         type(workspace_t), intent(in) :: workspace
-        type(tangential_field_t), intent(in) :: field
         integer, intent(in) :: step
 
         integer :: i, n_strips
@@ -164,16 +148,16 @@ contains
             call put('strip_p0', step, i, workspace%strips%p0(i))
             call put('strip_patch', step, i, real(workspace%strips%patch(i), wp))
         end do
-        do i = 1, field%n
-            call put('element_x', step, i, field%x(i))
-            call put('element_y', step, i, field%y(i))
-            call put('element_area', step, i, field%area(i))
-            call put('element_pn', step, i, field%pn(i))
-            call put('element_px', step, i, field%px(i))
-            call put('element_py', step, i, field%py(i))
-            call put('element_sx', step, i, field%sx(i))
-            call put('element_sy', step, i, field%sy(i))
-            call put('element_state', step, i, real(field%state(i), wp))
+        do i = 1, workspace%field%n
+            call put('element_x', step, i, workspace%field%x(i))
+            call put('element_y', step, i, workspace%field%y(i))
+            call put('element_area', step, i, workspace%field%area(i))
+            call put('element_pn', step, i, workspace%field%pn(i))
+            call put('element_px', step, i, workspace%field%px(i))
+            call put('element_py', step, i, workspace%field%py(i))
+            call put('element_sx', step, i, workspace%field%sx(i))
+            call put('element_sy', step, i, workspace%field%sy(i))
+            call put('element_state', step, i, real(workspace%field%state(i), wp))
         end do
     end subroutine show_arrays
 

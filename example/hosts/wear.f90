@@ -33,13 +33,10 @@ contains
         type(workspace_t) :: workspace
         type(contact_case_t) :: here
         type(contact_result_t) :: result
-        type(tangential_result_t) :: again
-        type(strip_forces_t) :: forces
-        type(wear_t) :: worn
-        real(wp), allocatable :: densities(:), mass(:), depth(:)
         integer :: k
 
         here = case
+        here%wear_law = law
         here%mu = friction_at_angle(case%friction, case%mu, angle)
         here%load = 8.0e4_wp
         here%creepage = creepage_t(4.0e-3_wp, -2.0e-3_wp, 2.0e-4_wp)
@@ -50,16 +47,13 @@ contains
         print '(a, 1x, i0)', 'contact', status%code
         if (is_error(status)) return
         call show([result%tangential%fx, result%tangential%fy, result%tangential%mz])
-        call reserve_strip_forces(forces, size(workspace%strips%p0), status)
-        call solve_contact_tangential(workspace, here, again, status, per_strip=forces)
-        allocate (densities(size(forces%fx)), mass(size(forces%fx)), depth(size(forces%fx)))
-        if (forces%n > 0) call find_strip_wear(law, workspace%strips, forces, densities, mass, &
-                                               depth, worn, status)
-        call show_figures(result, here%creepage, worn, forces%n > 0)
-        do k = 1, forces%n
-            call show([forces%fx(k), forces%fy(k), forces%friction_power(k), densities(k), &
-                       mass(k), depth(k)])
-        end do
+        call show_figures(result, here%creepage, result%wear%wear, workspace%strip_forces%n > 0)
+        associate (forces => workspace%strip_forces, worn => workspace%strip_wear)
+            do k = 1, forces%n
+                call show([forces%fx(k), forces%fy(k), forces%friction_power(k), &
+                           worn%t_gamma_per_area(k), worn%mass(k), worn%pass_depth(k)])
+            end do
+        end associate
     end subroutine solve_one_contact
 
     subroutine solve_both_wheels()

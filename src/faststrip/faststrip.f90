@@ -74,7 +74,9 @@ module faststrip
     use faststrip_tangential_paper, only: paper_solve, corrected_solve
     use faststrip_tangential_laws, only: law_solve, law_strips_solve, law_linear, &
                                          law_shen_hedrick_elkins, law_polach
-    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_method, &
+    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, method_t, &
+                                         start_coarse, start_strips, start_last, &
+                                         normal_method, &
                                          tangential_method, normal_method_name, &
                                          tangential_method_name, method_name_length, &
                                          gives_elements, gives_stick, takes_falling
@@ -89,18 +91,19 @@ module faststrip
                                          tangential_linear, tangential_she, tangential_polach, &
                                          tangential_tang, tangential_faststrip_plain
     ! END methods
-    use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: contact_result_t, workspace_t, &
-                                       reserve_workspace, reserve_contact_field, &
-                                       set_contact_gap, solve_contact, solve_contact_normal, &
-                                       solve_contact_tangential, most_gap_points
+    use faststrip_contact_case, only: contact_case_t, asked_t
+    use faststrip_contact_method, only: contact_result_t, workspace_t, times_t, normal_method_t, &
+                                        tangential_method_t, enter_normal_method, &
+                                        enter_tangential_method
+    use faststrip_contact_method_capacity, only: on_gap_t, on_strips_t
+    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field, most_gap_points
+    use faststrip_contact_solve, only: set_contact_gap, set_contact_curve, solve_contact, &
+                                       solve_contact_forces, estimate_contact
     use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
                                            find_doubts, doubt_pressure
-    use faststrip_contact_target, only: unknown_error
     use faststrip_contact_wanted, only: wanted_t, target_number, target_names, target_forces, &
                                         target_pmax, target_penetration, target_area, &
-                                        target_power
-    use faststrip_contact_auto, only: solve_contact_auto, taken_t, auto_step_t
+                                        target_power, unknown_error, auto_step_t, auto_steps_t
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, mirrored_state
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheel_contact_t, &
                                         wheel_result_t, wheelset_result_t, wheelset_workspace_t, &

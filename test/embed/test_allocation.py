@@ -95,7 +95,6 @@ contains
         type(normal_result_t) :: result
         type(contact_case_t) :: case
         type(contact_result_t) :: figures
-        type(taken_t) :: taken
         type(status_t) :: status
         real(wp) :: compliance
         integer :: step, k
@@ -140,9 +139,10 @@ contains
         case%methods%normal = normal_auto
         call set_contact_gap(here%wanted, gap%y, gap%h, gap%inv2r, status)
         do k = 1, size(target_names)
-            call solve_contact_auto(here%wanted, case, wanted_t(target=k), figures, taken, status)
+            case%wanted%target = k
+            call solve_contact(here%wanted, case, figures, status)
             code = max(code, status%code)
-            call add(taken%estimate)
+            call add(here%wanted%steps%estimate)
             call add(figures%normal%pmax)
             call add(figures%tangential%fx)
         end do

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from installed import HostTest
+from installed import HOSTS, ROOT, HostTest
 
 # Bytes of stack a call may need; README and header promise less than 64 kB.
 MOST_STACK = 64 * 1024
@@ -141,15 +141,36 @@ class Threads(HostTest):
 
         The compiler puts tables that are constant among the data (of types, defaults, jumps, and
         arrays `A.n` with their values), and the counters of implied loops it has evaluated itself.
+        So are the methods of the core: objects, for pointers to them, that nobody writes.
         """
         constant = re.compile(r". \w*(___vtab_|___def_init_|_MOD_[a-z]_$)|. jumptable\.|. DW\.ref\."
                               r"|d A\.[\d.]+$"
+                              r"|[dD] __faststrip_contact_method_\w+_MOD_(\w+_method|no_forces)$"
                               r"|[bd] __faststrip_interop_register_MOD_\w+$|b mutex$")
         done = subprocess.run(["nm", self.installed.archive], stdout=subprocess.PIPE,
                               encoding="utf-8", check=True)
         writable = re.findall(r"^[0-9a-f]+ ([bBdDcC] \S+)$", done.stdout, re.MULTILINE)
         self.assertGreater(len(writable), 3)
         self.assertEqual([name for name in writable if not constant.match(name)], [])
+        methods = {name.rsplit("_MOD_")[1] for name in writable if "_contact_method_" in name
+                   and "__vtab_" not in name and "_MOD_" in name}
+        self.assertGreater(len(methods), 15)
+        for path in (ROOT / "src").rglob("*.f90"):
+            text = path.read_text(encoding="utf-8")
+            self.assertNotRegex(text, rf"\b(?:{'|'.join(methods)})(?:%\w+)? = ", path.name)
+
+    def test_a_host_adds_a_method(self):
+        """Types of the library can be extended by who only has it installed; the new method's
+        pressures carry the load, and FASTSTRIP finds forces on them within mu N."""
+        for library in ("-lfaststrip", f"'{self.installed.archive}' -lopenblas"):
+            self.shell(f"gfortran -O1 -J. '{HOSTS}/method.f90' $(pkg-config --cflags faststrip)"
+                       f" -L'{self.installed.library.parent}' {library} -o method")
+            lines = self.shell("./method").splitlines()
+            self.assertEqual([line.split()[1] for line in lines], ["1", "101"])
+            for line in lines:
+                load, _, fx, fy = (float(word) for word in line.split()[3::2])
+                self.assertAlmostEqual(load, 8e4, delta=0.1)
+                self.assertTrue(1e4 < (fx * fx + fy * fy) ** 0.5 < 0.3 * load)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,24 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Fortran type; and which Jacobian is kept.
 OTHERS = {"c_case_t", "newton_workspace_t"}
 
+# The solvers of methods.
+SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"hertz_solve_gap\w*",
+           "kpec_solve", "kpec_strips_solve", "analyn_solve", "replace_by_ellipses",
+           "faststrip_tangential_solve", "paper_solve", "corrected_solve", r"fastsim\w*_solve",
+           "law_solve", "law_strips_solve", r"norm_solve\w*", "tang_solve", "solve_unlike")
+# Who calls one of them besides solve_contact: procedures without a workspace, tables of creep
+# forces, studies of one method, references by Kalker's methods.
+STUDIES = {
+    "src/faststrip/interop/classic.f90",
+    "app/command/lookup_direct.f90",
+    *(f"app/lab/{path}.f90" for path in (
+        "bench/accuracy", "bench/certificate", "bench/certificate_truth", "bench/convergence",
+        "bench/correction", "bench/extremes_noise", "bench/extremes_normal", "bench/kalker",
+        "bench/normal", "bench/reference", "bench/reference_tang", "bench/robust",
+        "bench/rolling", "bench/speed", "bench/steps", "bench/tang", "bench/trade_influence",
+        "errata", "forces/features", "forces/reference", "fuzz/norm_judge", "fuzz/run",
+        "promises/truth", "scenes/reference_scenes"))}
+
 
 def types():
     """Name, what it extends, and the components of every derived type in the sources."""
@@ -33,7 +51,8 @@ class OneContact(unittest.TestCase):
         found = {name: base for _, name, base, _ in types()}
         self.assertGreater(len(found), 60)
         self.assertEqual(found["contact_case_t"], "demand_t")
-        for name in ("case_t", "prepared_case_t", "bench_case_t", "trade_case_t", "fuzz_case_t"):
+        self.assertEqual(found["case_t"], "settings_t")
+        for name in ("settings_t", "prepared_case_t", "bench_case_t", "trade_case_t", "fuzz_case_t"):
             self.assertEqual(found[name], "contact_case_t", name)
 
     def test_one_type_says_what_is_prescribed(self):
@@ -55,6 +74,18 @@ class OneContact(unittest.TestCase):
                     words = set(re.findall(r"\w+", names))
                     self.assertFalse({"by_load", "load"} <= words or {"by_load", "target"} <= words,
                                      f"{path}: {names}")
+
+    def test_nobody_else_calls_a_method(self):
+        """Pressures and forces come from solve_contact. Solvers below it call each other; who calls
+        one besides is a study of that method, a reference by Kalker's, or an interface of its own.
+        """
+        called = re.compile(rf"\bcall ({'|'.join(SOLVERS)})\b")
+        callers = {path.relative_to(ROOT).as_posix()
+                   for folder in ("src", "app") for path in (ROOT / folder).rglob("*.f90")
+                   if called.search(re.sub(r"!.*", "", path.read_text(encoding="utf-8")))}
+        below = ("src/faststrip/contact/method/", "src/faststrip/normal/", "src/kalker/")
+        self.assertGreater(len(callers), len(STUDIES))
+        self.assertEqual({path for path in callers if not path.startswith(below)}, STUDIES)
 
 
 if __name__ == "__main__":

@@ -11,9 +11,8 @@ ROOMS = [path for path in sorted((ROOT / "src").iterdir())
          if path.is_dir() and path.name not in ("build", "netcdf")]
 # What the threads of a batch, of a sweep and of tables run.
 THREADED = [ROOT / "app/command" / f"{name}.f90" for name in (
-    "batch_rows", "batch_friction", "gap_cache", "worker", "solver", "stages", "normal_stage",
-    "tang_stage", "norm_stage", "auto_solver", "auto_stage", "result_csv", "wear_figures",
-    "prepared_case", "lookup_direct", "lookup_fill", "lookup_grid", "lookup_wheel_solver",
+    "batch_rows", "batch_friction", "gap_cache", "worker", "solver", "auto_words", "result_csv",
+    "wear_figures", "prepared_case", "lookup_direct", "lookup_fill", "lookup_grid", "lookup_wheel_solver",
     "lookup_wheel_fill", "lookup_wheel_grid", "lookup_wheel_judge")]
 FUNCTION = re.compile(
     r"^ *(?:(?:pure|elemental|recursive|impure) +)*function +(?P<name>\w+) *\([^)]*\)"

@@ -1,6 +1,7 @@
 # The linker's names that stay visible, found where tools/install.py finds them: what
-# `use faststrip` gives, and the C and F77 faces. Names of types and constants are among them; the
-# linker passes over what is no symbol.
+# `use faststrip` gives, of types the tables of their procedures, what a host's own methods inherit,
+# and the C and F77 faces. Names of types and constants are among them; the linker passes over what
+# is no symbol.
 function(public_names all f77)
     set(names)
     file(READ src/faststrip/faststrip.f90 text)
@@ -10,8 +11,22 @@ function(public_names all f77)
         string(REGEX MATCH "use ([a-z0-9_]+), only: (.*)" match "${use}")
         set(module "${CMAKE_MATCH_1}")
         string(REGEX MATCHALL "[a-z0-9_]+" imported "${CMAKE_MATCH_2}")
-        list(TRANSFORM imported PREPEND "__${module}_MOD_")
-        list(APPEND names ${imported})
+        foreach(name IN LISTS imported)
+            string(SUBSTRING "${name}" 0 1 first)
+            string(TOUPPER "${first}" first)
+            string(SUBSTRING "${name}" 1 -1 rest)
+            list(APPEND names "__${module}_MOD_${name}"
+                 "__${module}_MOD___vtab_${module}_${first}${rest}")
+        endforeach()
+    endforeach()
+    # What a host's own methods inherit.
+    foreach(last method method_capacity)
+        string(REGEX REPLACE "^method_" "" file "${last}")
+        file(READ "src/faststrip/contact/method/${file}.f90" text)
+        string(REGEX MATCHALL "procedure :: [a-z_]+ => [a-z_]+" bound "${text}")
+        list(TRANSFORM bound REPLACE "procedure :: [a-z_]+ => "
+             "__faststrip_contact_${last}_MOD_")
+        list(APPEND names ${bound})
     endforeach()
     file(READ include/faststrip.h text)
     string(REGEX MATCHALL "\nint faststrip_[a-z_]+" c_names "${text}")

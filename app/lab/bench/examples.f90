@@ -7,12 +7,13 @@ module faststrip_lab_bench_examples
     use faststrip_command_case_file, only: case_t
     use faststrip_command_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_bench_example_cases, only: example_names, read_example
-    use faststrip_contact_methods, only: normal_hertz, normal_auto, tangential_linear, &
-                                         tangential_fastsim
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_contact_methods, only: contact_methods_t, normal_hertz, normal_auto, &
+                                         tangential_linear, tangential_fastsim
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_wanted, only: wanted_t
     use faststrip_command_result_csv, only: result_columns, put_result
     use faststrip_command_prepared_case, only: prepared_case_t
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
     private
 
@@ -31,8 +32,8 @@ contains
         type(csv_writer_t) :: writer
         type(case_t) :: case
         type(prepared_case_t) :: prepared
-        type(solver_t) :: solver
-        type(outcome_t) :: outcome
+        type(solver_t), pointer :: solver
+        type(contact_result_t) :: result
         type(status_t) :: status
         integer :: i, m, run
 
@@ -45,11 +46,12 @@ contains
         do i = 1, size(example_names)
             call read_example(folder, i, case, prepared)
             do m = 1, size(labels)
-                call make_solver(methods_of(m), .false., solver, status)
+                call new_solver(solver, status)
                 call fail_on_error(status)
+                call choose(m, prepared)
                 ! The second time nothing has to be allocated or planned.
                 do run = 1, 2
-                    call solve(solver, prepared, outcome, status)
+                    call solve(solver, prepared, result, status)
                 end do
                 call put_cell(writer, trim(example_names(i)))
                 call put_cell(writer, trim(labels(m)))
@@ -58,12 +60,12 @@ contains
                 else if (is_error(status)) then
                     call put_cell(writer, '')
                 else
-                    call put_cell(writer, outcome%normal%load)
+                    call put_cell(writer, result%normal%load)
                 end if
                 call put_cell(writer, case%mu)
-                call put_result(writer, outcome, status)
+                call put_result(writer, result, solver%workspace%steps, status)
                 call end_row(writer)
-                call release_solver(solver)
+                call free_solver(solver)
             end do
             call progress('examples', i, size(example_names))
         end do
@@ -72,23 +74,27 @@ contains
     end subroutine bench_examples
 
     !> The methods behind a label.
-    type(numerics_t) function methods_of(m) result(numerics)
+    subroutine choose(m, case)
         integer, intent(in) :: m
+        type(prepared_case_t), intent(inout) :: case
 
         real(wp), parameter :: never_met = 1.0e-9_wp
 
+        case%methods = contact_methods_t()
+        case%wanted = wanted_t()
+        case%asked%times = .true.
         select case (m)
         case (1)
-            numerics%normal = normal_auto
-            numerics%wanted%tolerance = never_met
+            case%methods%normal = normal_auto
+            case%wanted%tolerance = never_met
         case (2)
-            numerics%normal = normal_hertz
-            numerics%tangential = tangential_linear
+            case%methods%normal = normal_hertz
+            case%methods%tangential = tangential_linear
         case (3)
-            numerics%normal = normal_hertz
-            numerics%tangential = tangential_fastsim
+            case%methods%normal = normal_hertz
+            case%methods%tangential = tangential_fastsim
         case (5)
-            numerics%normal = normal_auto
+            case%methods%normal = normal_auto
         end select
-    end function methods_of
+    end subroutine choose
 end module faststrip_lab_bench_examples

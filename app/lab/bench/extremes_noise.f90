@@ -33,9 +33,10 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_command_case_file, only: case_t
     use faststrip_lab_bench_example_cases, only: example_names, read_example
     use faststrip_command_console, only: fail_on_error, progress
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_methods, only: contact_methods_t
     use faststrip_command_prepared_case, only: prepared_case_t
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
     private
 
@@ -68,17 +69,18 @@ contains
         type(named_case_t), intent(in) :: contacts(:)  !! from `find_contacts`
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        type(solver_t) :: solver
+        type(solver_t), pointer :: solver
         type(status_t) :: status
         integer :: i
 
-        call make_solver(numerics_t(), .false., solver, status)
+        call new_solver(solver, status)
         call fail_on_error(status)
         do i = 1, size(contacts), merge(quick_step, 1, quick)
             call progress('contacts with noise', i, size(contacts))
             call disturb(solver, contacts(i), quick, writer)
             call step_load(solver, contacts(i), quick, writer)
         end do
+        call free_solver(solver)
     end subroutine noise_extremes
 
     !> Measure and write what the rounding mode changes.
@@ -87,17 +89,18 @@ contains
         type(named_case_t), intent(in) :: contacts(:)  !! from `find_contacts`
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        type(solver_t) :: solver
+        type(solver_t), pointer :: solver
         type(status_t) :: status
         integer :: i
 
-        call make_solver(numerics_t(), .false., solver, status)
+        call new_solver(solver, status)
         call fail_on_error(status)
         call round_influence(writer)
         do i = 1, size(contacts), merge(quick_step, 1, quick)
             call round_contact(solver, .true., contacts(i), writer)
             call round_contact(solver, .false., contacts(i), writer)
         end do
+        call free_solver(solver)
     end subroutine rounding_extremes
 
     !> The paper's contacts and the examples; ends the program if one cannot be read.
@@ -124,6 +127,7 @@ contains
             associate (contact => contacts(size(cases) + i))
                 contact%name = example_names(i)
                 contact%contact_case_t = prepared%contact_case_t
+                contact%methods = contact_methods_t()
             end associate
         end do
     end subroutine find_contacts
@@ -136,17 +140,17 @@ contains
         real(wp), dimension(size(figure_names)), intent(out) :: figures, units
         type(status_t), intent(out) :: status
 
-        type(outcome_t) :: outcome
+        type(contact_result_t) :: result
 
-        call solve(solver, contact, outcome, status)
+        call solve(solver, contact, result, status)
         figures = 0.0_wp
         units = 1.0_wp
         if (is_error(status)) return
-        figures = [outcome%normal%penetration, outcome%normal%pmax, outcome%normal%area, &
-                   outcome%tangential%fx, outcome%tangential%fy, outcome%tangential%mz]
+        figures = [result%normal%penetration, result%normal%pmax, result%normal%area, &
+                   result%tangential%fx, result%tangential%fy, result%tangential%mz]
         units(:3) = figures(:3)
-        units(4:5) = outcome%normal%load
-        if (contact%mu > 0.0_wp) units(4:5) = contact%mu*outcome%normal%load
+        units(4:5) = result%normal%load
+        if (contact%mu > 0.0_wp) units(4:5) = contact%mu*result%normal%load
         units(6) = units(4)*sqrt(figures(3)/pi)
     end subroutine figures_of
 

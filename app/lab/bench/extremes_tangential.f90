@@ -16,11 +16,11 @@ module faststrip_lab_bench_extremes_tangential
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_console, only: fail_on_error, progress
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: method_t, normal_strip
-    use faststrip_contact_solve, only: solve_contact_tangential
-    use faststrip_command_force_laws, only: force_laws
-    use faststrip_command_methods, only: numerics_t
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_methods, only: method_t
+    use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_lab_force_laws, only: force_laws
+    use faststrip_lab_pressures, only: solve_pressures
     implicit none
     private
 
@@ -58,8 +58,8 @@ contains
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
-        type(solver_t) :: solver
-        type(outcome_t) :: outcome
+        type(workspace_t) :: workspace
+        type(contact_result_t) :: result
         type(contact_case_t) :: contact
         type(normal_result_t) :: truth
         type(status_t) :: status
@@ -71,10 +71,9 @@ contains
         end associate
         contact%load = load
         call make_ellipse(ratio, points, contact, truth)
-        call make_solver(numerics_t(normal=normal_strip, tangential=method%number), .false., &
-                         solver, status)
-        call fail_on_error(status)
-        call solve(solver, contact, outcome, status)
+        contact%methods%tangential = method%number
+        call solve_pressures(workspace, contact, result, status)
+        contact%estimate = .false.
         do m = 1, size(motions)
             do c = 1, size(sizes), merge(2, 1, quick)
                 do k = 1, size(frictions), merge(3, 1, quick)
@@ -87,15 +86,16 @@ contains
                         call put_row(writer, row)
                         cycle
                     end if
-                    call one_motion(solver, trim(motions(m)), row, writer)
+                    call one_motion(workspace, contact, trim(motions(m)), row, writer)
                 end do
             end do
         end do
     end subroutine one_method
 
     !> The rows of one creepage and friction, which are the row's x and y.
-    subroutine one_motion(solver, motion, row, writer)
-        type(solver_t), intent(in) :: solver
+    subroutine one_motion(workspace, solved, motion, row, writer)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: solved
         character(len=*), intent(in) :: motion
         type(row_t), intent(inout) :: row
         type(csv_writer_t), intent(inout) :: writer
@@ -107,24 +107,33 @@ contains
 
         unit = load
         if (row%y > 0.0_wp) unit = row%y*load
-        contact = solver%case
+        contact = solved
         contact%mu = row%y
         contact%creepage = creepage_of(motion, row%x)
-        call solve_contact_tangential(solver%workspace, contact, here, status)
+        call find(here)
         call status_of(status, row)
         call put('force', hypot(here%fx, here%fy)/unit)
         call put('negative_power', max(0.0_wp, -here%friction_power)/unit)
         if (.not. row%has_value) return
         contact%creepage = creepage_of(motion, -row%x)
-        call solve_contact_tangential(solver%workspace, contact, opposite, status)
+        call find(opposite)
         call status_of(status, row)
         call put('oddness', hypot(here%fx + opposite%fx, here%fy + opposite%fy)/unit)
         contact%creepage = creepage_of(motion, (1.0_wp + small)*max(row%x, small**2))
-        call solve_contact_tangential(solver%workspace, contact, next, status)
+        call find(next)
         call status_of(status, row)
         call put('step', hypot(here%fx - next%fx, here%fy - next%fy)/unit)
 
     contains
+
+        subroutine find(forces)
+            type(tangential_result_t), intent(out) :: forces
+
+            type(contact_result_t) :: result
+
+            call solve_contact_forces(workspace, contact, result, status)
+            forces = result%tangential
+        end subroutine find
 
         subroutine put(quantity, value)
             character(len=*), intent(in) :: quantity

@@ -16,17 +16,17 @@ module faststrip_lab_bench_forces
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_normal_hertz, only: hertz_strips
-    use faststrip_normal_strips, only: reserve_strips
     use faststrip_files_gap, only: read_gap_file
-    use faststrip_normal_types, only: normal_result_t
-    use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_bench_cases, only: read_columns
     use faststrip_command_console, only: fail_on_error, note, put_origin
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
-    use faststrip_contact_solve, only: workspace_t, solve_contact_normal, solve_contact_tangential
-    use faststrip_command_force_laws, only: tangential_methods => force_laws
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_reserve, only: reserve_workspace
+    use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_geometry_gap, only: min_gap_points
+    use faststrip_lab_force_laws, only: tangential_methods => force_laws
+    use faststrip_lab_pressures, only: solve_pressures
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
@@ -114,9 +114,11 @@ contains
         call read_columns(table, names, v, status)
         call fail_on_error(status)
         contact%methods%normal = normal_hertz
-        call reserve_strips(workspace%strips, contact%methods%strips_per_patch, status)
+        contact%estimate = .false.
+        call reserve_workspace(workspace, contact%methods, min_gap_points, status)
         call fail_on_error(status)
         workspace%solved_by = normal_hertz
+        workspace%is_ellipse = .true.
         do i = 1, table%n_rows
             associate (hertz => workspace%hertz)
                 hertz%a = v(i, 1)
@@ -155,7 +157,7 @@ contains
         type(csv_table_t) :: table
         type(contact_case_t) :: contact
         type(workspace_t) :: workspace
-        type(normal_result_t) :: figures
+        type(contact_result_t) :: figures
         type(reference_t) :: reference
         type(status_t) :: status
         real(wp), allocatable :: v(:, :)
@@ -177,9 +179,7 @@ contains
             call fail_on_error(status)
             contact%load = v(i, 1)
             contact%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
-            call reserve_for_case(workspace, contact, status)
-            call fail_on_error(status)
-            call solve_contact_normal(workspace, contact, figures, status)
+            call solve_pressures(workspace, contact, figures, status)
             if (is_error(status)) call fail_on_error(status)
             reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), &
                                     v(i, 9)/v(i, 10))
@@ -198,7 +198,7 @@ contains
             'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
             'stick_fraction']
         type(workspace_t) :: workspace
-        type(normal_result_t) :: figures
+        type(contact_result_t) :: figures
         type(reference_t) :: reference
         type(reference_scene_t) :: scene
         type(status_t) :: status
@@ -212,9 +212,7 @@ contains
             call make_reference_scene(nint(v(i, 1)), scene)
             scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
             scene%estimate = .false.
-            call reserve_for_case(workspace, scene, status)
-            call fail_on_error(status)
-            call solve_contact_normal(workspace, scene%contact_case_t, figures, status)
+            call solve_pressures(workspace, scene, figures, status)
             if (is_error(status)) call fail_on_error(status)
             reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), v(i, 9))
             call compare(workspace, scene%contact_case_t, reference, 'scenes', &
@@ -226,7 +224,7 @@ contains
 
     !> All methods on one contact.
     subroutine compare(workspace, contact, reference, set, group, number, writer, tally)
-        type(workspace_t), intent(in) :: workspace  ! with a normal solution
+        type(workspace_t), intent(inout) :: workspace ! with a normal solution
         type(contact_case_t), intent(in) :: contact ! what was solved
         type(reference_t), intent(in) :: reference
         character(len=*), intent(in) :: set, group
@@ -235,7 +233,7 @@ contains
         type(tally_t), intent(inout) :: tally
 
         type(contact_case_t) :: case
-        type(tangential_result_t) :: result
+        type(contact_result_t) :: found
         type(status_t) :: status
         real(wp) :: error(n_errors), force, power
         logical :: counts(n_errors)
@@ -247,14 +245,16 @@ contains
                   + reference%mz*contact%creepage%cphi)
         do m = 1, size(tangential_methods)
             case%methods%tangential = tangential_methods(m)%number
-            call solve_contact_tangential(workspace, case, result, status)
+            call solve_contact_forces(workspace, case, found, status)
             if (is_error(status)) call fail_on_error(status)
-            error(1) = (result%fx - reference%fx)/force
-            error(2) = (result%fy - reference%fy)/force
-            error(3) = hypot(error(1), error(2))
-            error(4) = (result%mz - reference%mz)/(force*reference%size)
-            error(5) = result%friction_power/power - 1.0_wp
-            error(6) = result%stick_fraction - reference%stick
+            associate (result => found%tangential)
+                error(1) = (result%fx - reference%fx)/force
+                error(2) = (result%fy - reference%fy)/force
+                error(3) = hypot(error(1), error(2))
+                error(4) = (result%mz - reference%mz)/(force*reference%size)
+                error(5) = result%friction_power/power - 1.0_wp
+                error(6) = result%stick_fraction - reference%stick
+            end associate
             error = 100.0_wp*error
             counts = .true.
             counts(5) = hypot(reference%fx, reference%fy) > smallest_share*force

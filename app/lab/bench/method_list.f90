@@ -1,13 +1,14 @@
 !> Lists of methods and resolutions, CSV files of the reference folder: what benches compare.
 module faststrip_lab_bench_method_list
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, read_csv, require_column, column_index, cell_text, &
                                    cell_integer, cell_number
     use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
     use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_methods, only: numerics_t, check_numerics, one_of
-    use faststrip_contact_methods, only: normal_method, tangential_method, normal_table, &
+    use faststrip_command_methods, only: settings_t, check_settings, settle_wanted, one_of
+    use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, normal_table, &
                                          tangential_table
     implicit none
     private
@@ -20,8 +21,8 @@ module faststrip_lab_bench_method_list
         character(len=:), allocatable :: name  !! what the CSV calls it
         character(len=:), allocatable :: when  !! always, or full: not in the quick bench
         integer :: across = 0                  !! elements across the patch, norm, tang; 0: elements
-                                               !! of the sides in `numerics`
-        type(numerics_t) :: numerics           !! what the program would be asked for
+                                               !! of the sides in `settings`
+        type(settings_t) :: settings           !! what the program would be asked for
     end type method_entry_t
 
     character(len=*), parameter :: stages(3) = [character(len=10) :: 'normal', 'tangential', 'both']
@@ -47,20 +48,21 @@ contains
             entries(row)%when = text('when')
             if (all(stages /= entries(row)%stage)) &
                 call refuse('stage', one_of(stages), entries(row)%stage)
-            entries(row)%numerics%normal = normal_method(text('normal'))
-            if (entries(row)%numerics%normal < 0) &
+            entries(row)%settings%methods%normal = normal_method(text('normal'))
+            if (entries(row)%settings%methods%normal < 0) &
                 call refuse('normal', one_of(normal_table%name), text('normal'))
-            entries(row)%numerics%tangential = tangential_method(text('tangential'))
-            if (entries(row)%numerics%tangential < 0) &
+            entries(row)%settings%methods%tangential = tangential_method(text('tangential'))
+            if (entries(row)%settings%methods%tangential < 0) &
                 call refuse('tangential', one_of(tangential_table%name), text('tangential'))
-            call take_number('strips_per_patch', entries(row)%numerics%strips_per_patch)
-            call take_number('points_per_strip', entries(row)%numerics%points_per_strip)
-            call take_number('fastsim_nx', entries(row)%numerics%fastsim_nx)
-            call take_number('fastsim_ny', entries(row)%numerics%fastsim_ny)
-            call take_side(entries(row)%numerics)
+            call take_number('strips_per_patch', entries(row)%settings%methods%strips_per_patch)
+            call take_number('points_per_strip', entries(row)%settings%methods%points_per_strip)
+            call take_number('fastsim_nx', entries(row)%settings%methods%fastsim_nx)
+            call take_number('fastsim_ny', entries(row)%settings%methods%fastsim_ny)
+            call take_side(entries(row)%settings%methods)
             call take_wanted(entries(row))
-            call check_numerics(entries(row)%numerics, what, range, value)
+            call check_settings(entries(row)%settings, 0.0_wp, what, range, value)
             if (len(what) > 0) call refuse(what, range, value)
+            call settle_wanted(entries(row)%settings)
         end do
 
     contains
@@ -111,30 +113,30 @@ contains
                     call refuse('across', 'a whole number from 2 on', further('across'))
             end if
             if (further('target') /= '') then
-                entry%numerics%wanted%target = target_number(further('target'))
-                entry%numerics%target_is_given = .true.
+                entry%settings%wanted%target = target_number(further('target'))
+                entry%settings%target_is_given = .true.
             end if
-            if (entry%numerics%wanted%target == 0) &
+            if (entry%settings%wanted%target == 0) &
                 call refuse('target', one_of(target_names), further('target'))
             if (further('tolerance') == '') return
             column = column_index(table, 'tolerance')
-            call cell_number(table, row, column, entry%numerics%wanted%tolerance, status)
+            call cell_number(table, row, column, entry%settings%wanted%tolerance, status)
             call fail_on_error(status)
         end subroutine take_wanted
 
         !> Elements are squares.
-        subroutine take_side(numerics)
-            type(numerics_t), intent(inout) :: numerics
+        subroutine take_side(methods)
+            type(contact_methods_t), intent(inout) :: methods
 
             integer :: column
 
             if (further('element_mm') == '') return
             column = column_index(table, 'element_mm')
-            call cell_number(table, row, column, numerics%element_dx, status)
+            call cell_number(table, row, column, methods%element_dx, status)
             call fail_on_error(status)
-            numerics%element_dy = numerics%element_dx
-            numerics%dx_is_given = .true.
-            numerics%dy_is_given = .true.
+            methods%element_dy = methods%element_dx
+            methods%dx_is_given = .true.
+            methods%dy_is_given = .true.
         end subroutine take_side
 
         subroutine refuse(name, must, wrong)

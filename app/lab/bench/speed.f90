@@ -10,7 +10,7 @@ module faststrip_lab_bench_speed
     use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
-    use faststrip_contact_methods, only: normal_auto
+    use faststrip_contact_methods, only: tangential_none
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
@@ -24,8 +24,11 @@ module faststrip_lab_bench_speed
     use faststrip_command_clock, only: cpu_microseconds
     use faststrip_command_console, only: fail_on_error, put_origin, progress
     use faststrip_command_machine, only: cpu_name
-    use faststrip_command_solver, only: solver_t, own_solver_t, outcome_t, new_solver, solve
-    use faststrip_command_stages, only: solve_pressures, solve_forces
+    use faststrip_command_solver, only: solver_t, ready_gap_t, new_solver, make_ready, solve
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: contact_result_t, times_t
+    use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_geometry_gap, only: gap_t
     implicit none
     private
 
@@ -69,7 +72,7 @@ contains
         type(method_entry_t), allocatable :: entries(:)
         type(bench_case_t), allocatable :: cases(:)
         type(timing_t), allocatable :: timings(:)
-        type(own_solver_t), allocatable :: solvers(:)
+        type(solver_t), pointer :: solver
         type(states_t) :: states
         real(wp), allocatable :: ns(:, :), gap_us(:)
         type(csv_writer_t) :: writer
@@ -87,10 +90,10 @@ contains
             cases(i)%mu = mu
         end do
         call read_states(quick, states)
-        allocate (timings(size(entries)), solvers(size(entries)))
+        allocate (timings(size(entries)))
+        call new_solver(solver, status)
+        call fail_on_error(status)
         do k = 1, size(entries)
-            call new_solver(entries(k)%numerics, solvers(k), status)
-            call fail_on_error(status)
             allocate (timings(k)%us(size(cases)), source=huge(1.0_wp))
             allocate (timings(k)%spent(size(cases)), source=0.0_wp)
             allocate (timings(k)%status(size(cases)))
@@ -106,8 +109,7 @@ contains
             call progress('rounds', round, rounds)
             do i = 1, size(cases)
                 do k = 1, size(entries)
-                    call time_method(entries(k)%stage, solvers(k)%solver, cases(i), i, &
-                                     timings(k))
+                    call time_method(entries(k), solver, cases(i), i, timings(k))
                 end do
                 call time_gap(cases(i), gap_us(i))
                 call time_columns(cases(i), ns(:, i))
@@ -141,34 +143,43 @@ contains
     end subroutine bench_speed
 
     !> Time one contact by one method, its own stage only.
-    subroutine time_method(stage, solver, case, i, timing)
-        character(len=*), intent(in) :: stage
+    subroutine time_method(entry, solver, bench_case, i, timing)
+        type(method_entry_t), intent(in) :: entry
         type(solver_t), intent(inout) :: solver
-        type(bench_case_t), intent(in) :: case
+        type(bench_case_t), intent(in) :: bench_case
         integer, intent(in) :: i !! its number
         type(timing_t), intent(inout) :: timing
 
-        type(outcome_t) :: outcome
+        type(contact_case_t) :: case
+        type(contact_result_t) :: result
+        type(ready_gap_t) :: ready
         type(status_t) :: status
         real(wp) :: us
         integer :: n
 
         if (timing%spent(i) > enough_us) return
-        call solve(solver, case, outcome, timing%status(i))
-        if (is_error(timing%status(i))) return
+        case = bench_case%contact_case_t
+        case%methods = entry%settings%methods
+        case%wanted = entry%settings%wanted
+        case%asked%times = .true.
         ! Neither what makes the gap a curve nor what estimates errors counts.
-        solver%case%estimate = .false.
-        outcome%normal_cpu_us = 0.0_wp
-        outcome%tangential_cpu_us = 0.0_wp
+        case%estimate = .false.
+        call make_ready(0.0_wp, case%gap, ready, timing%status(i))
+        ready%id = i
+        case%gap = gap_t()
+        if (.not. is_error(timing%status(i))) &
+            call solve(solver, case, result, timing%status(i), ready)
+        if (is_error(timing%status(i))) return
+        result%times = times_t()
         us = 0.0_wp
         do n = 1, most_repetitions
-            if (solver%numerics%normal == normal_auto) then
-                call solve(solver, case, outcome, status)
-                us = us + outcome%normal_cpu_us + outcome%tangential_cpu_us
+            if (entry%stage == 'tangential') then
+                call solve_contact_forces(solver%workspace, case, result, status)
+                us = result%times%tangential_cpu_us
             else
-                if (stage /= 'tangential') call solve_pressures(solver, outcome, status)
-                if (stage /= 'normal') call solve_forces(solver, outcome, status)
-                us = outcome%normal_cpu_us + outcome%tangential_cpu_us
+                if (entry%stage == 'normal') case%methods%tangential = tangential_none
+                call solve(solver, case, result, status, ready)
+                us = us + result%times%normal_cpu_us + result%times%tangential_cpu_us
             end if
             if (us > shortest_us) exit
         end do

@@ -7,8 +7,6 @@ module faststrip_lab_bench_tangential
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
-    use faststrip_normal_types, only: normal_result_t
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_command_clock, only: cpu_microseconds, median, spread_of, spread_text, &
                                        spread_names, cpu_columns
@@ -16,10 +14,11 @@ module faststrip_lab_bench_tangential
     use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_name_length
-    use faststrip_contact_solve, only: workspace_t, reserve_contact_field, solve_contact_normal, &
-                                       solve_contact_tangential
-    use faststrip_command_force_laws, only: tangential_methods => force_laws
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_reserve, only: reserve_contact_field
+    use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_lab_force_laws, only: tangential_methods => force_laws
+    use faststrip_lab_pressures, only: solve_pressures
     implicit none
     private
 
@@ -83,9 +82,7 @@ contains
         real(wp), parameter :: shortest_us = 50.0_wp
         type(contact_case_t) :: contact
         type(workspace_t) :: workspace
-        type(normal_result_t) :: figures
-        type(tangential_field_t) :: field
-        type(tangential_result_t) :: result
+        type(contact_result_t) :: result
         type(status_t) :: status
         real(wp), dimension(rounds, size(tangential_methods)) :: forces, with_field
         integer, dimension(size(tangential_methods)) :: repetitions
@@ -96,15 +93,13 @@ contains
         contact%estimate = .false.
         contact%methods%strips_per_patch = n
         contact%methods%points_per_strip = n
-        call reserve_for_case(workspace, contact, status)
-        call fail_on_error(status)
-        call solve_contact_normal(workspace, contact, figures, status)
+        call solve_pressures(workspace, contact, result, status)
         call fail_on_error(status)
         ! The same number of elements for FASTSIM on one patch.
         contact%methods%fastsim_nx = n
         contact%methods%fastsim_ny = workspace%strips%n
         times%elements = n*workspace%strips%n
-        call reserve_contact_field(field, contact%methods, status)
+        call reserve_contact_field(workspace, contact%methods, status)
         call fail_on_error(status)
         repetitions = 1
         do m = 1, size(tangential_methods)
@@ -136,12 +131,9 @@ contains
 
             contact%methods%tangential = tangential_methods(method)%number
             from = cpu_microseconds()
+            contact%asked%field = wants_field
             do i = 1, repetitions(method)
-                if (wants_field) then
-                    call solve_contact_tangential(workspace, contact, result, status, field)
-                else
-                    call solve_contact_tangential(workspace, contact, result, status)
-                end if
+                call solve_contact_forces(workspace, contact, result, status)
             end do
             us = (cpu_microseconds() - from)/repetitions(method)
             if (is_error(status)) call fail_on_error(status)

@@ -20,7 +20,9 @@ module faststrip_lab_bench_trade
     use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
                                          normal_table, &
                                          normal_norm, tangential_tang
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: contact_result_t, times_t
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_wheelset_cases, &
                                                read_hertz_cases, read_scene_cases, n_figures, &
@@ -89,9 +91,9 @@ contains
             integer, intent(in) :: in_quick
 
             thinning = 1
-            associate (numerics => entry%numerics)
-                if (numerics%normal == normal_norm .or. numerics%tangential == tangential_tang &
-                    .or. numerics%strips_per_patch > many_strips) thinning = 7
+            associate (methods => entry%settings%methods)
+                if (methods%normal == normal_norm .or. methods%tangential == tangential_tang &
+                    .or. methods%strips_per_patch > many_strips) thinning = 7
             end associate
             if (in_quick == 20 .and. entry%stage == 'normal') thinning = 20
             if (quick) thinning = in_quick
@@ -104,34 +106,39 @@ contains
         type(method_entry_t), intent(in) :: entry
         type(trade_case_t), intent(in) :: cases(:)
 
-        type(solver_t) :: solver
-        type(outcome_t) :: outcome
+        type(solver_t), pointer :: solver
+        type(contact_case_t) :: contact
+        type(contact_result_t) :: result
         type(status_t) :: status
         real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names)), &
                     solution(size(solution_columns))
         integer :: i, run, runs, figure
         logical :: counts, is_timed
 
-        call make_solver(entry%numerics, .false., solver, status)
+        call new_solver(solver, status)
         call fail_on_error(status)
         do i = 1, size(cases)
             associate (case => cases(i))
+                contact = case%contact_case_t
+                contact%methods = entry%settings%methods
+                contact%wanted = entry%settings%wanted
+                contact%asked%times = .true.
                 runs = 0
                 spent = 0.0_wp
                 do run = 1, most_repeats
-                    call solve(solver, case, outcome, status)
+                    call solve(solver, contact, result, status)
                     if (is_error(status)) exit
                     runs = run
-                    us(run) = stage_time(entry%stage, outcome)
-                    spent = spent + outcome%normal_cpu_us + outcome%tangential_cpu_us
+                    us(run) = stage_time(entry%stage, result%times)
+                    spent = spent + result%times%normal_cpu_us + result%times%tangential_cpu_us
                     if (spent > merge(1.0_wp, 10.0_wp, run >= 3)*enough_us) exit
                 end do
                 call put_cell(writer, case%set)
                 call put_cell(writer, case%name)
                 call put_cell(writer, entry%stage)
                 call put_cell(writer, entry%name)
-                call put_cell(writer, trim(normal_method_name(entry%numerics%normal)))
-                call put_cell(writer, trim(tangential_method_name(entry%numerics%tangential)))
+                call put_cell(writer, trim(normal_method_name(entry%settings%methods%normal)))
+                call put_cell(writer, trim(tangential_method_name(entry%settings%methods%tangential)))
                 call put_cell(writer, trim(status_word(status%code)))
                 if (runs == 0) then
                     call put_cell(writer, '')
@@ -139,7 +146,7 @@ contains
                     times = spread_of(us(:runs))
                     call put_cell(writer, times(1))
                 end if
-                errors = relative_errors(case, outcome)
+                errors = relative_errors(case, result)
                 do figure = 1, n_figures
                     counts = (figure > 3 .neqv. entry%stage == 'normal') .and. &
                              (case%area_counts .or. figure_names(figure) /= 'area')
@@ -157,8 +164,8 @@ contains
                     end if
                 end do
                 is_timed = runs > 0 .and. entry%stage == 'normal' &
-                           .and. in_core(normal_table, entry%numerics%normal)
-                if (is_timed) call time_solution(solver, solution, is_timed)
+                           .and. in_core(normal_table, entry%settings%methods%normal)
+                if (is_timed) call time_solution(solver%workspace, contact, solution, is_timed)
                 do figure = 1, size(solution)
                     if (is_timed) then
                         call put_cell(writer, solution(figure))
@@ -169,29 +176,30 @@ contains
                 call end_row(writer)
             end associate
         end do
+        call free_solver(solver)
     end subroutine run_entry
 
-    pure real(wp) function stage_time(stage, outcome)
+    pure real(wp) function stage_time(stage, times)
         character(len=*), intent(in) :: stage
-        type(outcome_t), intent(in) :: outcome
+        type(times_t), intent(in) :: times
 
-        stage_time = outcome%normal_cpu_us + outcome%tangential_cpu_us
-        if (stage == 'normal') stage_time = outcome%normal_cpu_us
-        if (stage == 'tangential') stage_time = outcome%tangential_cpu_us
+        stage_time = times%normal_cpu_us + times%tangential_cpu_us
+        if (stage == 'normal') stage_time = times%normal_cpu_us
+        if (stage == 'tangential') stage_time = times%tangential_cpu_us
     end function stage_time
 
     !> Errors in the order of `figure_names`.
-    pure function relative_errors(case, outcome) result(errors)
+    pure function relative_errors(case, solution) result(errors)
         type(trade_case_t), intent(in) :: case
-        type(outcome_t), intent(in) :: outcome
+        type(contact_result_t), intent(in) :: solution
         real(wp) :: errors(n_figures)
 
         real(wp) :: bound
 
-        errors(1:3) = [outcome%normal%penetration, outcome%normal%pmax, outcome%normal%area] &
+        errors(1:3) = [solution%normal%penetration, solution%normal%pmax, solution%normal%area] &
                       /case%truth(1:3) - 1.0_wp
         bound = case%mu*case%load
-        errors(4:6) = ([outcome%tangential%fx, outcome%tangential%fy, outcome%tangential%mz] &
+        errors(4:6) = ([solution%tangential%fx, solution%tangential%fy, solution%tangential%mz] &
                        - case%truth(4:6))/bound
         errors(6) = errors(6)/sqrt(case%truth(3)/pi)
     end function relative_errors

@@ -4,10 +4,11 @@ module faststrip_lab_bench_trade_times
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_command_clock, only: cpu_microseconds, spread_of, spread_names
-    use faststrip_command_solver, only: solver_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: solve_contact_normal
-    use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_methods, only: tangential_none
+    use faststrip_contact_solve, only: solve_contact
+    use faststrip_geometry_gap, only: gap_t
     implicit none
     private
 
@@ -22,21 +23,24 @@ module faststrip_lab_bench_trade_times
 
 contains
 
-    !> Solve the last contact of a solver again and again, from nothing.
-    subroutine time_solution(solver, times, is_known)
-        type(solver_t), intent(inout) :: solver !! has solved a contact by a normal method
+    !> Solve the last contact of a workspace again and again, from nothing, without forces.
+    subroutine time_solution(workspace, solved, times, is_known)
+        type(workspace_t), intent(inout) :: workspace !! has solved a contact by a normal method
+        type(contact_case_t), intent(in) :: solved    !! that contact
         real(wp), intent(out) :: times(3)       !! of one solution, us
         logical, intent(out) :: is_known        !! does it solve?
 
         type(contact_case_t) :: case
-        type(normal_result_t) :: normal
+        type(contact_result_t) :: result
         type(status_t) :: status
         real(wp) :: groups(n_groups), before, spent
         integer :: group, i, repeats
 
-        case = solver%case
+        case = solved
+        case%methods%tangential = tangential_none
+        case%asked%times = .false.
         ! The workspace has its curve.
-        if (allocated(case%gap%y)) deallocate (case%gap%y)
+        case%gap = gap_t()
         case%estimate = .false.
         case%warm_start = .false.
         times = 0.0_wp
@@ -45,7 +49,7 @@ contains
         do while (group < n_groups)
             before = cpu_microseconds()
             do i = 1, repeats
-                call solve_contact_normal(solver%workspace, case, normal, status)
+                call solve_contact(workspace, case, result, status)
             end do
             spent = cpu_microseconds() - before
             is_known = .not. is_error(status)

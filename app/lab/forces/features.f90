@@ -6,11 +6,11 @@ module faststrip_lab_forces_features
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, read_csv, open_csv, put_comment, &
                                    put_header, put_cell, end_row, close_csv
     use faststrip_command_console, only: fail_on_error, progress, put_origin
-    use faststrip_command_normal_stage, only: reserve_for_case
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_contact_methods, only: most_strips
-    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_lab_pressures, only: solve_pressures
     use faststrip_normal_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
@@ -130,8 +130,7 @@ contains
         integer, intent(in) :: strips, points         ! across and along
 
         type(force_contact_t) :: contact
-        type(normal_result_t) :: normal
-        type(certificate_t) :: certificate
+        type(contact_result_t) :: result
         type(status_t) :: status
 
         call draw_force_contact(record%seed, record%number, contact, &
@@ -139,12 +138,10 @@ contains
         contact%methods%strips_per_patch = strips
         contact%estimate = .true.
         contact%resolution_limit = huge(1.0_wp)
-        call reserve_for_case(workspace, contact, status)
+        call solve_pressures(workspace, contact, result, status)
         call fail_on_error(status, 'contact ' // integer_text(record%number))
-        call solve_contact_normal(workspace, contact%contact_case_t, normal, status, certificate)
-        call fail_on_error(status, 'contact ' // integer_text(record%number))
-        if (status%code /= st_ok .or. normal%n_patches > 1) return
-        call put_states(writer, workspace%strips, certificate, record, points)
+        if (status%code /= st_ok .or. result%normal%n_patches > 1) return
+        call put_states(writer, workspace%strips, result%certificate, record, points)
     end subroutine put_contact
 
     !> The rows of one contact with its strips.

@@ -5,14 +5,14 @@ module faststrip_lab_forces_reference
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: normal_compliance
-    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
+    use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        set_norm_gap, norm_solve
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_lab_pressures, only: solve_pressures
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_creepages
     use faststrip_lab_forces_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, most_states
@@ -48,7 +48,7 @@ contains
         integer, intent(in) :: across                       !! finer elements across, each way
         type(force_record_t), intent(out) :: record
 
-        type(normal_result_t) :: strips
+        type(contact_result_t) :: result
         type(creepage_t) :: creepages(most_states)
         real(wp) :: sides(2)
         type(status_t) :: status
@@ -59,14 +59,14 @@ contains
         record%load = contact%load
         record%mu = contact%mu
         record%material = contact%material
-        call reserve_for_case(work%strips, contact, status)
-        if (.not. is_error(status)) &
-            call solve_contact_normal(work%strips, contact%contact_case_t, strips, status)
-        if (is_left_out(status, strips, record)) return
+        call solve_pressures(work%strips, contact, result, status)
+        if (is_left_out(status, result%normal, record)) return
         call draw_force_creepages(contact, work%strips%strips, creepages, status)
-        if (is_left_out(status, strips, record)) return
+        if (is_left_out(status, result%normal, record)) return
 
-        sides = [2.0_wp*strips%x_max, strips%y_max - strips%y_min]/across
+        associate (strips => result%normal)
+            sides = [2.0_wp*strips%x_max, strips%y_max - strips%y_min]/across
+        end associate
         if (has_no_pressures(work, contact, 2.0_wp*sides, work%coarse, record)) return
         if (has_no_pressures(work, contact, sides, work%fine, record)) return
         call solve_states(work, contact, creepages, record)

@@ -11,7 +11,9 @@ module faststrip_lab_fuzz_force_judges
     use faststrip_contact_methods, only: tangential_faststrip, tangential_fastsim, &
                                          tangential_fastsim_elliptic, &
                                          tangential_fastsim_weighted
-    use faststrip_contact_solve, only: contact_case_t, workspace_t, solve_contact_tangential
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_solve, only: solve_contact_forces
     use faststrip_lab_fuzz_gaps, only: fuzz_case_t, random_t, start_random, log_uniform, &
                                        chance
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_bound, &
@@ -62,6 +64,7 @@ contains
         scales = scales_of(case, workspace%strips)
         asked = case%contact_case_t
         asked%mu = mu
+        asked%estimate = .false.
         asked%methods%tangential = methods(1 + modulo(case%number/2, size(methods)))
         asked%methods%fastsim_nx = 20
         asked%methods%fastsim_ny = 20
@@ -100,9 +103,11 @@ contains
             type(contact_case_t), intent(in) :: asked
             type(tangential_result_t), intent(out) :: answer
 
+            type(contact_result_t) :: result
             type(status_t) :: status
 
-            call solve_contact_tangential(workspace, asked, answer, status)
+            call solve_contact_forces(workspace, asked, result, status)
+            answer = result%tangential
             found = .not. is_error(status)
             if (.not. found) call report_badness(verdict, judge_answer, huge(1.0_wp))
             call plant_force_fault(fault, answer)

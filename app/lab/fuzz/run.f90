@@ -15,9 +15,11 @@ module faststrip_lab_fuzz_run
                                       estimate_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_patch_curves, only: curve_integral, curve_peak
-    use faststrip_contact_methods, only: normal_strip
-    use faststrip_contact_solve, only: contact_case_t, workspace_t, reserve_workspace, &
-                                       solve_contact_normal
+    use faststrip_contact_methods, only: normal_strip, tangential_none
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_reserve, only: reserve_workspace
+    use faststrip_contact_solve, only: solve_contact
     use faststrip_lab_fuzz_cases, only: fuzz_case_t
     use faststrip_lab_fuzz_faults, only: plant_fault
     use faststrip_lab_fuzz_force_judges, only: judge_forces
@@ -119,11 +121,13 @@ contains
         type(verdict_t), intent(inout) :: verdict
 
         type(contact_case_t) :: contact
+        type(contact_result_t) :: result
         integer(int64) :: before, after, rate
         integer :: max_strips
 
         contact = case%contact_case_t
         contact%estimate = .false. ! `estimate` does
+        contact%methods%tangential = tangential_none
         call reserve_workspace(work%workspace, case%methods, size(case%gap%y), verdict%status)
         if (work%solver == 'lattice') then
             max_strips = 3*case%methods%strips_per_patch + 150
@@ -135,7 +139,8 @@ contains
         if (work%solver == 'lattice') then
             call solve_by_lattice(case, work, verdict)
         else if (embedded) then
-            call solve_contact_normal(work%workspace, contact, verdict%result, verdict%status)
+            call solve_contact(work%workspace, contact, result, verdict%status)
+            verdict%result = result%normal
         else
             call set_strip_gap(work%workspace%solver, case%gap, verdict%status)
             if (.not. is_error(verdict%status)) &

@@ -13,12 +13,15 @@ module faststrip_lab_promises
     use faststrip_command_clock, only: cpu_microseconds, median
     use faststrip_command_console, only: fail_on_error, progress, put_origin
     use faststrip_command_files, only: take_input, take_output, take_beside
-    use faststrip_command_methods, only: numerics_t
+    use faststrip_command_auto_words, only: words_of_steps
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_command_batch, only: case_columns
     use faststrip_command_prepared_case, only: put_gap
-    use faststrip_command_solver, only: solver_t, outcome_t, make_solver, release_solver, solve
+    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
@@ -146,6 +149,7 @@ contains
         type(judged_t), intent(in) :: contacts(:)
 
         type(csv_writer_t) :: writer, gap
+        type(gap_curve_t) :: curve
         type(status_t) :: status
         character(len=:), allocatable :: name
         integer :: i, k
@@ -170,7 +174,12 @@ contains
             end associate
             call open_csv(gap, folder // '/' // name // '.csv', status)
             call fail_on_error(status)
-            call put_gap(gap, contacts(i)%contact%gap, 0.0_wp)
+            associate (points => contacts(i)%contact%gap)
+                call reserve_gap_curve(curve, size(points%y), status)
+                if (.not. is_error(status)) call set_gap_curve(curve, points, status)
+            end associate
+            call fail_on_error(status)
+            call put_gap(gap, curve, 0.0_wp)
             call close_csv(gap, status)
             call fail_on_error(status)
         end do
@@ -184,60 +193,70 @@ contains
         type(method_entry_t), intent(in) :: entry
         type(judged_t), intent(in) :: contacts(:)
 
-        type(solver_t) :: solver
-        type(outcome_t), allocatable :: outcomes(:)
+        type(solver_t), pointer :: solver
+        type(contact_result_t), allocatable :: results(:)
+        character(len=1000), allocatable :: choices(:)
+        character(len=:), allocatable :: choice
         type(status_t), allocatable :: statuses(:)
+        type(status_t) :: status
         real(wp), allocatable :: us(:, :, :) ! normal, tangential, whole; round, contact
         real(wp) :: spent, before
         integer :: i, k, round, rounds
 
-        allocate (outcomes(size(contacts)), statuses(size(contacts)))
+        call new_solver(solver, status)
+        call fail_on_error(status)
+        allocate (results(size(contacts)), choices(size(contacts)), statuses(size(contacts)))
         allocate (us(3, most_rounds, size(contacts)), source=0.0_wp)
         spent = 0.0_wp
         do round = 1, most_rounds
             rounds = round
             do i = 1, size(contacts)
                 before = cpu_microseconds()
-                call judge_contact(solver, entry, contacts(i), outcomes(i), statuses(i))
-                us(:, round, i) = [outcomes(i)%normal_cpu_us, outcomes(i)%tangential_cpu_us, &
-                                   cpu_microseconds() - before]
+                call judge_contact(solver, entry, contacts(i), results(i), statuses(i))
+                us(:, round, i) = [results(i)%times%normal_cpu_us, &
+                                   results(i)%times%tangential_cpu_us, cpu_microseconds() - before]
+                call words_of_steps(solver%workspace%steps, .true., choice)
+                choices(i) = choice
                 spent = spent + us(3, round, i)
             end do
             if (spent*(round + 1)/round > enough_us) exit
         end do
         do i = 1, size(contacts)
-            call put_row(writer, entry%name, contacts(i)%truth, outcomes(i), statuses(i), &
-                         [(median(us(k, :rounds, i)), k=1, size(us, 1))])
+            call put_row(writer, entry%name, contacts(i)%truth, results(i), trim(choices(i)), &
+                         statuses(i), [(median(us(k, :rounds, i)), k=1, size(us, 1))])
         end do
-        call release_solver(solver)
+        call free_solver(solver)
     end subroutine judge_method
 
-    subroutine judge_contact(solver, entry, contact, outcome, status)
+    subroutine judge_contact(solver, entry, contact, result, status)
         type(solver_t), intent(inout) :: solver
         type(method_entry_t), intent(in) :: entry
         type(judged_t), intent(in) :: contact
-        type(outcome_t), intent(out) :: outcome
+        type(contact_result_t), intent(out) :: result
         type(status_t), intent(out) :: status
 
-        type(numerics_t) :: numerics
+        type(contact_case_t) :: case
 
-        numerics = entry%numerics
+        case = contact%contact%contact_case_t
+        case%methods = entry%settings%methods
+        case%wanted = entry%settings%wanted
+        case%asked%times = .true.
         if (entry%across > 0) then
-            numerics%element_dx = contact%truth%extents(1)/entry%across
-            numerics%element_dy = contact%truth%extents(2)/entry%across
-            numerics%dx_is_given = .true.
-            numerics%dy_is_given = .true.
+            case%methods%element_dx = contact%truth%extents(1)/entry%across
+            case%methods%element_dy = contact%truth%extents(2)/entry%across
+            case%methods%dx_is_given = .true.
+            case%methods%dy_is_given = .true.
         end if
-        call make_solver(numerics, .false., solver, status)
-        if (.not. is_error(status)) call solve(solver, contact%contact, outcome, status)
+        call solve(solver, case, result, status)
     end subroutine judge_contact
 
     !> One contact by one method; without a result its figures are empty.
-    subroutine put_row(writer, method, truth, outcome, status, us)
+    subroutine put_row(writer, method, truth, result, choice, status, us)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: method
         type(truth_record_t), intent(in) :: truth
-        type(outcome_t), intent(in) :: outcome
+        type(contact_result_t), intent(in) :: result
+        character(len=*), intent(in) :: choice ! steps of auto
         type(status_t), intent(in) :: status
         real(wp), intent(in) :: us(:) ! normal, tangential, whole
 
@@ -253,17 +272,17 @@ contains
         if (is_error(status)) then
             errors = 0.0_wp
         else
-            errors = errors_of(truth, outcome)
+            errors = errors_of(truth, result)
         end if
         counts(:3) = .true.
-        counts(4:7) = outcome%has_forces
-        counts(8) = outcome%knows_stick
-        associate (certificate => outcome%certificate, forces => outcome%force_errors)
+        counts(4:7) = result%has_forces
+        counts(8) = result%knows_stick
+        associate (certificate => result%certificate, forces => result%force_errors)
             estimates = [certificate%est_err_penetration, certificate%est_err_pmax, &
                          certificate%est_err_area, forces%fx, forces%fy, forces%mz]
         end associate
-        is_estimated(:3) = outcome%is_estimated
-        is_estimated(4:) = outcome%forces_are_estimated
+        is_estimated(:3) = result%is_estimated
+        is_estimated(4:) = result%forces_are_estimated
         do i = 1, size(us)
             call put_known(.true., us(i))
         end do
@@ -273,7 +292,7 @@ contains
         do i = 1, n_estimates
             call put_known(is_estimated(i), estimates(i))
         end do
-        call put_cell(writer, outcome%choice)
+        call put_cell(writer, choice)
         call end_row(writer)
 
     contains
@@ -291,14 +310,14 @@ contains
     end subroutine put_row
 
     !> Errors in the order of `figure_names`.
-    pure function errors_of(truth, outcome) result(errors)
+    pure function errors_of(truth, solution) result(errors)
         type(truth_record_t), intent(in) :: truth
-        type(outcome_t), intent(in) :: outcome
+        type(contact_result_t), intent(in) :: solution
         real(wp) :: errors(n_figures)
 
         real(wp) :: found(n_figures)
 
-        associate (normal => outcome%normal, forces => outcome%tangential)
+        associate (normal => solution%normal, forces => solution%tangential)
             found = [normal%penetration, normal%pmax, normal%area, forces%fx, forces%fy, &
                      forces%mz, forces%friction_power, forces%stick_fraction]
         end associate

@@ -14,8 +14,8 @@ module faststrip_lab_scenes_reference_scenes
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
     use faststrip_command_console, only: fail_on_error, note, put_origin
-    use faststrip_contact_solve, only: workspace_t, solve_contact_normal
-    use faststrip_command_normal_stage, only: reserve_for_case
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_lab_pressures, only: solve_pressures
     use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
                                          option_integer
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
@@ -78,20 +78,18 @@ contains
 
         type(reference_scene_t) :: scene
         type(workspace_t) :: workspace
-        type(normal_result_t) :: strips
+        type(contact_result_t) :: result
         type(status_t) :: status
         type(figures_t) :: coarse, fine
         real(wp) :: dx, dy
 
         call make_reference_scene(number, scene)
         scene%estimate = .false.
-        call reserve_for_case(workspace, scene, status)
-        if (.not. is_error(status)) &
-            call solve_contact_normal(workspace, scene%contact_case_t, strips, status)
+        call solve_pressures(workspace, scene, result, status)
         if (.not. is_error(status)) call draw_creepage(scene, workspace%strips, status)
         if (.not. is_error(status)) then
-            dx = 2.0_wp*strips%x_max/elements
-            dy = (strips%y_max - strips%y_min)/elements
+            dx = 2.0_wp*result%normal%x_max/elements
+            dy = (result%normal%y_max - result%normal%y_min)/elements
             call solve_grid(scene, workspace%strips, 2.0_wp*dx, 2.0_wp*dy, coarse, status)
             if (.not. is_error(status)) &
                 call solve_grid(scene, workspace%strips, dx, dy, fine, status)

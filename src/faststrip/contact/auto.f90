@@ -4,10 +4,12 @@
 !> Hertz is taken where the gap is near enough to a parabola for its error to be estimated; else a
 !> few strips find the patches and more start from them. The estimate says how many: it falls with a
 !> power of their number, to what the method itself is wrong by, which more strips do not help. What
-!> strips cannot meet ends in `st_target_missed`, as near as they come, or is left to who follows.
-!> Methods whose errors are not estimated are never taken.
+!> strips cannot meet ends in `st_target_missed`, as near as they come, or is left to Kalker's
+!> methods, on finer and finer grids, if they were entered. Methods whose errors are not estimated
+!> are never taken.
 !>
-!> A workspace that was reserved for `normal_auto` is enough; nothing is allocated.
+!> A workspace that was reserved for `normal_auto` is enough; without Kalker's methods nothing is
+!> allocated.
 module faststrip_contact_auto
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
@@ -15,33 +17,32 @@ module faststrip_contact_auto
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument, st_workspace_too_small, st_more_strips, &
                                      st_fewer_strips
-    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_geometry_gap_curve, only: gap_curve_t, set_gap_curve, copy_gap_curve
     use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_limitations, only: check_resolution
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
-    use faststrip_tangential_types, only: tangential_field_t
+    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: contact_methods_t, check_contact_methods, normal_strip, &
-                                         normal_hertz, tangential_none, tangential_faststrip
-    use faststrip_contact_solve, only: workspace_t, contact_result_t, solve_contact_normal, &
-                                       solve_contact_tangential, estimate_contact_forces, &
-                                       check_contact_friction
-    use faststrip_contact_target, only: target_error, name_target, unknown_error
+    use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
+    use faststrip_contact_grids, only: grid_step_t, plan_of_finer, first_grid, next_grid
+    use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
+                                        tangential_method_t, tangential_method_of
+    use faststrip_contact_methods, only: contact_methods_t, normal_strip, normal_hertz, &
+                                         normal_norm, tangential_none, tangential_faststrip, &
+                                         tangential_tang, start_last
+    use faststrip_contact_parts, only: check_contact_friction, find_pressures, find_forces
+    use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, check_wanted, needs_forces, margin, &
-                                        others_across, others_time
+                                        others_across, others_time, auto_step_t, auto_steps_t, &
+                                        unknown_error, most_steps, target_pmax, target_area
     implicit none
     private
 
-    public :: auto_step_t, taken_t, solve_contact_auto
-    public :: most_steps
+    public :: solve_auto
 
-    !> Most steps of one contact.
-    !> Tuned [steps]. Origin: safeguard: the estimate leads there in three.
-    integer, parameter :: most_steps = 8
-
+    ! Tuned [steps]: Most steps by the core. Origin: safeguard: the estimate leads there in three.
+    integer, parameter :: most_own_steps = 8
     ! Tuned [strips]: Strips that find the patches. Origin: time: fewer are no cheaper.
     integer, parameter :: first_strips = 5
     ! Tuned [strips]: Strips of a Hertz ellipse, which cost next to nothing. Origin: as
@@ -75,28 +76,6 @@ module faststrip_contact_auto
                            pair_us = 0.36_wp
     ! Tuned [1]: Time of the first strips over that of an ellipse. Origin: measured.
     real(wp), parameter :: strips_over_ellipse = 8.0_wp
-    ! Given: microseconds of a second.
-    real(wp), parameter :: us_per_second = 1.0e6_wp
-
-    !> One solution on the way.
-    type :: auto_step_t
-        type(contact_methods_t) :: methods        !! with the resolutions that were used
-        real(wp) :: estimate = unknown_error      !! of the target's error; `unknown_error`
-        real(wp) :: normal_us = 0.0_wp            !! time of the normal problem and its estimates
-        real(wp) :: tangential_us = 0.0_wp        !! of the tangential problem and its estimates
-    end type auto_step_t
-
-    !> What was tried, and what came of it.
-    type :: taken_t
-        integer :: n = 0                         !! steps
-        integer :: first = 0                     !! the first of them by strips, 0: none
-        real(wp) :: first_across = 0.0_wp
-            !! strips across the widest patch of it, if all were as narrow as those of the narrowest
-        type(auto_step_t) :: steps(most_steps)   !! the first `n`, in their order
-        integer :: best = 0                      !! the step whose solution is the result
-        real(wp) :: estimate = unknown_error     !! of the target's error, of that step
-        logical :: is_met = .false.              !! is it within the tolerance?
-    end type taken_t
 
     !> How the estimate falls with the number of strips: to `least`, and the rest with a power.
     type :: fall_t
@@ -116,6 +95,7 @@ module faststrip_contact_auto
         type(status_t) :: last_status, best_status
         integer :: best_solved_by = 0
         logical :: is_best = .false.             ! is the best in the workspace?
+        logical :: has_finer = .false.           ! are Kalker's methods there?
         type(fall_t) :: before                   ! of the step before, if by the same normal method
         real(wp) :: idle_us = 0.0_wp             ! of what gave no step
         integer(int64) :: began = 0
@@ -123,71 +103,72 @@ module faststrip_contact_auto
 
 contains
 
-    !> Solve a contact as well as is wanted.
+    !> Solve a contact as well as is wanted, on the gap in the workspace.
     !>
     !> Of the case's methods only the tangential one counts, where the target does not need forces:
-    !> they are computed by it on the solution that is taken; else the march takes its place.
-    !> `case%force_limit`, or `case%resolution_limit` where the target is no force, counts where no
-    !> tolerance is given. With an error there is no result.
-    subroutine solve_contact_auto(workspace, case, wanted, result, taken, status, field, curve)
-        type(workspace_t), intent(inout) :: workspace !! reserved for `normal_auto`
-        type(contact_case_t), intent(in) :: case      !! what to solve
-        type(wanted_t), intent(in) :: wanted          !! and how well
-        type(contact_result_t), intent(out) :: result !! figures
-        type(taken_t), intent(out) :: taken           !! the steps
+    !> they are computed by it on the solution that is taken; else the march takes its place, or
+    !> TANG. `case%force_limit`, or `case%resolution_limit` where the target is no force, counts
+    !> where no tolerance is given. With an error there is no result.
+    subroutine solve_auto(workspace, case, method, result, status)
+        type(workspace_t), intent(inout) :: workspace   !! reserved for `normal_auto`
+        type(contact_case_t), intent(in) :: case        !! what to solve, and how well
+        class(tangential_method_t), intent(in) :: method !! that of the case
+        type(contact_result_t), intent(inout) :: result !! empty; gets the figures
         type(status_t), intent(out) :: status
             !! those of `check_wanted` and `solve_contact`; `st_workspace_too_small`: not reserved
             !! for `normal_auto`; limitation `st_target_missed`
-        type(tangential_field_t), intent(inout), optional :: field
-            !! elements, if wanted; see `reserve_contact_field`
-        type(gap_curve_t), intent(in), optional :: curve !! its gap, set already; not set again
 
-        type(environment_t) :: environment
         type(search_t) :: search
+        type(auto_steps_t) :: taken
+        type(lap_t) :: lap
+        real(wp) :: us, cpu
 
         search%began = now()
-        workspace%solved_by = 0
-        if (present(field)) field%n = 0
-        call hold_environment(environment)
-        call check_case(workspace, case, wanted, status)
-        if (.not. is_error(status)) then
-            if (present(curve)) then
-                call copy_gap_curve(curve, workspace%solver%curve, status)
-            else if (allocated(case%gap%y)) then
-                call set_gap_curve(workspace%solver%curve, case%gap, status)
-            end if
-        end if
-        if (.not. is_error(status)) then
-            call begin_search(case, wanted, search)
-            call climb(search, workspace, case%warm_start, taken, status)
-        end if
-        if (.not. is_error(status)) call finish(search, workspace, case, taken, status, field)
+        call start_lap(case%asked%times, lap)
+        search%wanted = case%wanted
+        if (associated(tangential_method_of(workspace, tangential_tang))) &
+            call plan_of_finer(normal_method_of(workspace, normal_norm), search%wanted, &
+                               search%has_finer)
+        call check_case(workspace, case, search%wanted, method, status)
+        if (is_error(status)) return
+        call begin_search(case, search)
+        call climb(search, workspace, case%warm_start, taken, status)
+        if (.not. is_error(status)) call finish(search, workspace, case, taken, status)
         if (is_error(status)) then
             workspace%solved_by = 0
-            if (present(field)) field%n = 0
-        else
-            result = search%best
+            return
         end if
-        call restore_environment(environment)
-    end subroutine solve_contact_auto
+        search%best%gap_change = result%gap_change
+        search%best%times = result%times
+        result = search%best
+        workspace%steps = taken
+        workspace%methods = taken%steps(taken%best)%methods
+        if (.not. case%asked%times) return
+        us = 0.0_wp
+        cpu = 0.0_wp
+        call add_lap(.true., lap, us, cpu)
+        associate (times => result%times, steps => taken%steps(:taken%n))
+            us = sum(steps%normal_us)/max(sum(steps%normal_us + steps%tangential_us), &
+                                          tiny(us))
+            times%normal_us = times%normal_us + sum(steps%normal_us)
+            times%tangential_us = times%tangential_us + sum(steps%tangential_us)
+            times%normal_cpu_us = times%normal_cpu_us + us*cpu
+            times%tangential_cpu_us = times%tangential_cpu_us + (1.0_wp - us)*cpu
+        end associate
+    end subroutine solve_auto
 
     !> Refuse what cannot be solved.
-    subroutine check_case(workspace, case, wanted, status)
+    subroutine check_case(workspace, case, wanted, method, status)
         type(workspace_t), intent(in) :: workspace
         type(contact_case_t), intent(in) :: case
         type(wanted_t), intent(in) :: wanted
+        class(tangential_method_t), intent(in) :: method
         type(status_t), intent(out) :: status
 
         logical :: is_reserved
 
         call check_wanted(wanted, case%methods%tangential, status)
-        if (.not. is_error(status)) call check_contact_methods(case%methods, status)
-        if (.not. is_error(status)) &
-            call check_resolution(case%resolution_limit, 'the resolution limit', status)
-        if (.not. is_error(status)) &
-            call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
-        if (.not. is_error(status)) &
-            call check_contact_friction(case, case%methods%tangential, status)
+        if (.not. is_error(status)) call check_contact_friction(case, method%about, status)
         if (is_error(status)) return
         if (falls(case%friction) .and. needs_forces(wanted%target)) then
             call set_status(status, st_bad_argument, 'normal method auto estimates no errors ' // &
@@ -202,28 +183,34 @@ contains
     end subroutine check_case
 
     !> A case for the steps.
-    subroutine begin_search(case, wanted, search)
+    subroutine begin_search(case, search)
         type(contact_case_t), intent(in) :: case
-        type(wanted_t), intent(in) :: wanted
         type(search_t), intent(inout) :: search
 
-        search%wanted = wanted
         search%case%demand_t = case%demand_t
         search%case%material = case%material
         search%case%mu = case%mu
         search%case%friction = case%friction
         search%case%creepage = case%creepage
+        search%case%asked%strip_forces = wants_strip_forces(case)
         ! What is under resolved for the target is told in the end.
         search%case%resolution_limit = huge(1.0_wp)
         search%case%force_limit = huge(1.0_wp)
     end subroutine begin_search
+
+    !> Are sums over strips wanted, for themselves or for wear?
+    pure logical function wants_strip_forces(case)
+        type(contact_case_t), intent(in) :: case
+
+        wants_strip_forces = case%asked%strip_forces .or. case%wear_law%n > 0
+    end function wants_strip_forces
 
     !> Take steps until the estimate is met or nothing more would help.
     subroutine climb(search, workspace, warm_start, taken, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         logical, intent(in) :: warm_start
-        type(taken_t), intent(inout) :: taken
+        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(inout) :: status
 
         integer :: n
@@ -242,7 +229,7 @@ contains
                 call clear_status(status)
                 return
             end if
-            if (is_error(status) .or. taken%is_met .or. taken%n == most_steps) return
+            if (is_error(status) .or. taken%is_met .or. taken%n == most_own_steps) return
             search%case%warm_start = .true.
             n = next_strips(search, workspace, taken)
             if (n == 0) return
@@ -254,7 +241,7 @@ contains
     subroutine try_ellipse(search, workspace, taken)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
-        type(taken_t), intent(inout) :: taken
+        type(auto_steps_t), intent(inout) :: taken
 
         type(status_t) :: status
         integer :: n
@@ -271,7 +258,7 @@ contains
     logical function is_left(search, workspace, taken)
         type(search_t), intent(in) :: search
         type(workspace_t), intent(in) :: workspace
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
 
         is_left = .false.
         if (taken%n == 0 .or. search%wanted%others%one_us <= 0.0_wp) return
@@ -284,7 +271,7 @@ contains
     !> Is there an answer by an ellipse, and no time for strips?
     logical function is_spent(search, taken)
         type(search_t), intent(in) :: search
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
 
         is_spent = .false.
         if (taken%n == 0 .or. search%wanted%budget_us <= 0.0_wp) return
@@ -309,11 +296,10 @@ contains
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         integer, intent(in) :: normal, strips ! method, and how many
-        type(taken_t), intent(inout) :: taken
+        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(out) :: status
 
         type(auto_step_t) :: step
-        type(status_t) :: forces
         integer(int64) :: before
 
         before = now()
@@ -322,8 +308,8 @@ contains
         search%last = contact_result_t()
         search%is_best = .false.
         associate (last => search%last)
-            call solve_contact_normal(workspace, search%case, last%normal, status, &
-                                      last%certificate, last%is_estimated)
+            call find_pressures(workspace, search%case, normal_method_of(workspace, normal), &
+                                last, status)
             step%normal_us = search%idle_us + since(before)
             if (is_error(status) .or. &
                 (normal == normal_hertz .and. .not. last%is_estimated)) then
@@ -333,21 +319,17 @@ contains
             search%idle_us = 0.0_wp
             before = now()
             if (needs_forces(search%wanted%target)) then
-                call solve_contact_tangential(workspace, search%case, last%tangential, forces)
-                if (is_error(forces)) then
-                    status = forces
+                call add_forces_to(search, workspace, last, status)
+                if (is_error(status)) then
                     search%idle_us = step%normal_us + since(before)
                     return
                 end if
-                if (last%is_estimated) &
-                    call estimate_contact_forces(workspace, search%case, last%certificate, &
-                                                 last%force_errors, last%forces_are_estimated, &
-                                                 status)
             end if
             step%estimate = target_error(search%wanted%target, search%case, last)
             step%tangential_us = since(before)
             if (last%normal%strips_across > 0) &
                 step%methods%strips_per_patch = last%normal%strips_across
+            step%across = step%methods%strips_per_patch
         end associate
         search%last_status = status
         call add_step(search, workspace, step, taken)
@@ -358,7 +340,7 @@ contains
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         type(auto_step_t), intent(in) :: step
-        type(taken_t), intent(inout) :: taken
+        type(auto_steps_t), intent(inout) :: taken
 
         taken%n = taken%n + 1
         taken%steps(taken%n) = step
@@ -381,7 +363,7 @@ contains
     integer function next_strips(search, workspace, taken) result(n)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(in) :: workspace
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
 
         type(fall_t) :: fall
         real(wp) :: growth, most, aim
@@ -417,7 +399,7 @@ contains
     !> Times as many strips as there may be: they fit the budget, and take no longer than others.
     real(wp) function most_growth(search, taken, fall) result(growth)
         type(search_t), intent(in) :: search
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
         type(fall_t), intent(in) :: fall
 
         real(wp) :: left, others
@@ -491,6 +473,7 @@ contains
         type(workspace_t), intent(in) :: workspace
         type(fall_t), intent(in) :: fall
 
+        class(tangential_method_t), pointer :: method
         type(contact_case_t) :: case
         type(contact_result_t) :: asked
         type(status_t) :: status
@@ -508,8 +491,8 @@ contains
         case = search%case
         case%methods%points_per_strip = max(search%wanted%most_strips, least_points)
         call clear_status(status)
-        call estimate_contact_forces(workspace, case, asked%certificate, asked%force_errors, &
-                                     asked%forces_are_estimated, status, finer)
+        method => tangential_method_of(workspace, case%methods%tangential)
+        call method%estimate(workspace, case, asked, status, finer)
         least = min(target_error(search%wanted%target, case, asked), fall%estimate)
     end function least_estimate
 
@@ -560,50 +543,191 @@ contains
         odd_number = 2*(ceiling(number)/2) + 1
     end function odd_number
 
-    !> Take the best solution, and what else the case asks for on it; say what is missing.
-    subroutine finish(search, workspace, case, taken, status, field)
+    !> Take the best solution, or a better one by Kalker's methods, and what else the case asks for
+    !> on it; say what is missing.
+    subroutine finish(search, workspace, case, taken, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
-        type(taken_t), intent(inout) :: taken
+        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(out) :: status
-        type(tangential_field_t), intent(inout), optional :: field
 
         integer(int64) :: before
+        logical :: is_finer
 
-        before = now()
         if (.not. search%is_best) call copy_strips(workspace%best_strips, workspace%strips)
         workspace%solved_by = search%best_solved_by
+        workspace%is_ellipse = search%best_solved_by == normal_hertz
+        if (taken%steps(taken%best)%methods%normal == normal_strip) &
+            workspace%first_strips = strips_next_time(search, taken)
+        is_finer = .false.
+        if (search%has_finer .and. .not. taken%is_met) &
+            call follow_on(search, workspace, case, taken, status, is_finer)
+        if (is_finer) return
+        before = now()
         status = search%best_status
         ! Nobody asked for a number of strips.
         if (status%code == st_more_strips .or. status%code == st_fewer_strips) &
             call clear_status(status)
         search%case%methods = taken%steps(taken%best)%methods
+        search%case%asked%field = case%asked%field
         if (.not. needs_forces(search%wanted%target)) then
             search%case%methods%tangential = case%methods%tangential
             search%case%methods%points_per_strip = case%methods%points_per_strip
             search%case%methods%fastsim_nx = case%methods%fastsim_nx
             search%case%methods%fastsim_ny = case%methods%fastsim_ny
-            call add_forces(search, workspace, status, field)
-        else if (present(field)) then
-            call add_forces(search, workspace, status, field)
+            search%case%methods%element_dx = case%methods%element_dx
+            search%case%methods%element_dy = case%methods%element_dy
+            search%case%methods%dx_is_given = case%methods%dx_is_given
+            search%case%methods%dy_is_given = case%methods%dy_is_given
+            search%case%methods%max_elements = case%methods%max_elements
+            call add_forces(search, workspace, status)
+        else if (case%asked%field .or. wants_strip_forces(case) .and. .not. search%is_best) then
+            call add_forces(search, workspace, status)
         end if
         if (is_error(status)) return
         associate (step => taken%steps(taken%best))
             step%methods = search%case%methods
             step%tangential_us = step%tangential_us + since(before)
         end associate
-        if (taken%steps(taken%best)%methods%normal == normal_strip) &
-            workspace%first_strips = strips_next_time(search, taken)
-        call name_target(search%wanted, taken%estimate, &
-                         merge(case%force_limit, case%resolution_limit, &
-                               needs_forces(search%wanted%target)), status)
+        call name_target(search%wanted, taken%estimate, limit_of(search, case), status)
     end subroutine finish
+
+    !> Largest error that is called resolved, of what the target is of.
+    pure real(wp) function limit_of(search, case) result(limit)
+        type(search_t), intent(in) :: search
+        type(contact_case_t), intent(in) :: case
+
+        limit = merge(case%force_limit, case%resolution_limit, needs_forces(search%wanted%target))
+    end function limit_of
+
+    !> Solve by Kalker's methods, on finer grids if their own estimates ask for it, and take what is
+    !> better than the core's solution.
+    subroutine follow_on(search, workspace, case, taken, status, is_taken)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(auto_steps_t), intent(inout) :: taken
+        type(status_t), intent(out) :: status
+        logical, intent(out) :: is_taken ! was a solution taken?
+
+        type(contact_result_t) :: trial
+        type(status_t) :: tried
+        type(contact_strips_t) :: strips
+        type(strip_forces_t) :: strip_forces
+        type(tangential_field_t) :: field
+        type(grid_step_t) :: grid
+        type(auto_step_t) :: step
+
+        is_taken = .false.
+        strips = workspace%strips
+        grid = first_grid(search%wanted, taken, case%methods%max_elements, search%best%normal, &
+                          strips, time_of(taken))
+        do while (grid%across > 0.0_wp .and. taken%n < most_steps)
+            trial = contact_result_t()
+            workspace%strips = strips
+            call solve_on_grid(search, workspace, case, grid, trial, step, tried)
+            if (.not. is_error(tried)) step%estimate = max(step%estimate, &
+                contradiction(search%wanted%target, search%best%normal, taken%estimate, &
+                              trial%normal))
+            taken%n = taken%n + 1
+            taken%steps(taken%n) = step
+            if (.not. is_error(tried) .and. step%estimate < taken%estimate) then
+                is_taken = .true.
+                search%best = trial
+                taken%best = taken%n
+                taken%estimate = step%estimate
+                taken%is_met = step%estimate <= search%wanted%tolerance
+                strips = workspace%strips
+                if (case%asked%field) field = workspace%field
+                if (wants_strip_forces(case)) strip_forces = workspace%strip_forces
+                status = tried
+                call name_target(search%wanted, taken%estimate, limit_of(search, case), status)
+            end if
+            if (is_error(tried) .or. taken%is_met) exit
+            grid = next_grid(search%wanted, grid, step, time_of(taken))
+        end do
+        workspace%strips = strips
+        workspace%solved_by = merge(normal_norm, search%best_solved_by, is_taken)
+        workspace%is_ellipse = workspace%solved_by == normal_hertz
+        if (.not. is_taken) return
+        if (case%asked%field) workspace%field = field
+        if (wants_strip_forces(case)) workspace%strip_forces = strip_forces
+    end subroutine follow_on
+
+    !> Time of all steps so far, us.
+    pure real(wp) function time_of(taken) result(us)
+        type(auto_steps_t), intent(in) :: taken
+
+        us = sum(taken%steps(:taken%n)%normal_us + taken%steps(:taken%n)%tangential_us)
+    end function time_of
+
+    !> By how much more two solutions differ than the error that is told of the first: an error of
+    !> one of them that nobody told.
+    pure real(wp) function contradiction(target, first, error, second)
+        integer, intent(in) :: target
+        type(normal_result_t), intent(in) :: first, second
+        real(wp), intent(in) :: error ! relative
+
+        contradiction = 0.0_wp
+        if (target == target_pmax) contradiction = difference(first%pmax, second%pmax) - error
+        if (target == target_area) contradiction = difference(first%area, second%area) - error
+    end function contradiction
+
+    !> Difference of two figures over the larger.
+    pure real(wp) function difference(a, b)
+        real(wp), intent(in) :: a, b
+
+        difference = abs(a - b)/max(a, b)
+    end function difference
+
+    !> Both problems on one grid, and how wrong the target is.
+    subroutine solve_on_grid(search, workspace, case, grid, trial, step, status)
+        type(search_t), intent(inout) :: search
+        type(workspace_t), intent(inout) :: workspace ! with strips to start from
+        type(contact_case_t), intent(in) :: case
+        type(grid_step_t), intent(in) :: grid
+        type(contact_result_t), intent(inout) :: trial
+        type(auto_step_t), intent(out) :: step
+        type(status_t), intent(out) :: status
+
+        integer(int64) :: before
+
+        associate (methods => search%case%methods)
+            methods = case%methods
+            methods%normal = normal_norm
+            if (needs_forces(search%wanted%target)) methods%tangential = tangential_tang
+            methods%element_dx = grid%dx
+            methods%element_dy = grid%dy
+            methods%dx_is_given = .true.
+            methods%dy_is_given = .true.
+            methods%error_target = 0.0_wp
+            methods%norm_start = start_last
+            step%methods = methods
+        end associate
+        step%across = nint(grid%across)
+        search%case%asked%field = case%asked%field
+        before = now()
+        call find_pressures(workspace, search%case, normal_method_of(workspace, normal_norm), &
+                            trial, status)
+        step%normal_us = since(before)
+        before = now()
+        if (.not. is_error(status)) then
+            if (step%methods%tangential /= tangential_none) &
+                call add_forces_to(search, workspace, trial, status)
+        end if
+        step%tangential_us = since(before)
+        if (is_error(status)) then
+            step%code = status%code
+        else
+            step%estimate = target_error(search%wanted%target, search%case, trial)
+        end if
+    end subroutine solve_on_grid
 
     !> Strips that a contact like this one begins with in a warm start.
     pure integer function strips_next_time(search, taken) result(n)
         type(search_t), intent(in) :: search
-        type(taken_t), intent(in) :: taken
+        type(auto_steps_t), intent(in) :: taken
 
         n = taken%steps(taken%best)%methods%strips_per_patch
         if (taken%is_met) &
@@ -613,37 +737,31 @@ contains
     end function strips_next_time
 
     !> Forces on the solution that is taken.
-    subroutine add_forces(search, workspace, status, field)
+    subroutine add_forces(search, workspace, status)
         type(search_t), intent(inout) :: search
-        type(workspace_t), intent(in) :: workspace
+        type(workspace_t), intent(inout) :: workspace
         type(status_t), intent(inout) :: status ! changed by an error
-        type(tangential_field_t), intent(inout), optional :: field
-
-        type(status_t) :: forces
 
         if (search%case%methods%tangential == tangential_none) return
-        associate (best => search%best)
-            call solve_contact_tangential(workspace, search%case, best%tangential, forces, field)
-            if (is_error(forces)) then
-                status = forces
-            else if (best%is_estimated) then
-                call estimate_contact_forces(workspace, search%case, best%certificate, &
-                                             best%force_errors, best%forces_are_estimated, status)
-            end if
-        end associate
+        call add_forces_to(search, workspace, search%best, status)
     end subroutine add_forces
 
-    integer(int64) function now()
-        call system_clock(now)
-    end function now
+    !> Forces, and how wrong they are.
+    subroutine add_forces_to(search, workspace, result, status)
+        type(search_t), intent(in) :: search
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_result_t), intent(inout) :: result
+        type(status_t), intent(inout) :: status
 
-    !> Microseconds since a reading of the clock.
-    real(wp) function since(before)
-        integer(int64), intent(in) :: before
+        class(tangential_method_t), pointer :: method
+        type(status_t) :: forces
 
-        integer(int64) :: after, rate
-
-        call system_clock(after, rate)
-        since = us_per_second*real(after - before, wp)/real(rate, wp)
-    end function since
+        method => tangential_method_of(workspace, search%case%methods%tangential)
+        call find_forces(workspace, search%case, method, result, forces)
+        if (is_error(forces)) then
+            status = forces
+        else if (result%is_estimated) then
+            call method%estimate(workspace, search%case, result, status)
+        end if
+    end subroutine add_forces_to
 end module faststrip_contact_auto

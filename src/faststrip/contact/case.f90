@@ -8,11 +8,22 @@ module faststrip_contact_case
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_limitations, only: default_resolution
     use faststrip_normal_types, only: demand_t
+    use faststrip_tangential_wear_law, only: wear_law_t
     use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_wanted, only: wanted_t
     implicit none
     private
 
-    public :: contact_case_t
+    public :: contact_case_t, asked_t
+
+    !> What a solution shall hold besides its figures.
+    type :: asked_t
+        logical :: field = .false.        !! pressure, tractions, slip of each element, in the
+                                          !! workspace's `field`; see `reserve_contact_field`
+        logical :: strip_forces = .false. !! sums over each strip, in the workspace's
+                                          !! `strip_forces`; only the march along strips has them
+        logical :: times = .false.        !! time of either problem, in the result's `times`
+    end type asked_t
 
     !> One contact to be solved. What is prescribed, `by_load`, `load` or `penetration`, is its
     !> `demand_t`.
@@ -24,6 +35,16 @@ module faststrip_contact_case
         type(friction_t) :: friction       !! how it falls with slip, factor of the initial slope
         type(creepage_t) :: creepage       !! about y = 0
         type(contact_methods_t) :: methods !! methods and resolutions
+        type(wanted_t) :: wanted           !! of normal method auto: target, tolerance, budget
+        type(asked_t) :: asked             !! what the solution shall hold besides its figures
+        real(wp) :: smoothing = 0.0_wp
+            !! noise that the gap is smoothed for, mm; 0: not at all. Allocates; not of the gap of
+            !! `set_contact_gap`
+        type(wear_law_t) :: wear_law       !! no regimes: none
+        real(wp) :: yield_shear = 0.0_wp
+            !! yield stress in cyclic shear, for the fatigue index, MPa; 0: not known
+        real(wp) :: yield = 0.0_wp
+            !! `st_beyond_yield` names a largest pressure above this, MPa; 0: no limit
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
         ! Tuned [1]. Origin: as that of strip_options_t.
         real(wp) :: strip_tolerance = 1.0e-6_wp !! relative size of the strips' last step

@@ -1,5 +1,6 @@
 !> Which methods a contact is solved by, and how finely: numbers for programs, names for people.
 module faststrip_contact_methods
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument
     use faststrip_normal_strip, only: strips_auto
@@ -12,6 +13,8 @@ module faststrip_contact_methods
     public :: method_t, normal_table, tangential_table
     public :: gives_elements, gives_stick, takes_falling
     public :: most_strips, most_rows
+    public :: check_normal_method, check_tangential_method, check_resolutions
+    public :: start_coarse, start_strips, start_last
 
     !> Length of a method's name, characters.
     !> Given: the longest name fits.
@@ -138,6 +141,16 @@ module faststrip_contact_methods
     !> Tuned [rows]. Origin: capacity.
     integer, parameter :: most_rows = 10000
 
+    !> Most elements of a grid of norm or tang, unless the user says otherwise.
+    !> Tuned [elements]. Origin: capacity: solved within about five seconds on one core; the time
+    !> grows with their number.
+    integer, parameter :: standard_max_elements = 1000000
+
+    !> What norm starts from: a coarser grid, which gives errors too; strips; the strips that are in
+    !> the workspace.
+    !> Given: numbers of kinds.
+    integer, parameter :: start_coarse = 1, start_strips = 2, start_last = 3
+
     !> Methods and resolutions.
     type :: contact_methods_t
         integer :: normal = normal_strip             !! one of the `normal_` numbers
@@ -150,6 +163,16 @@ module faststrip_contact_methods
         integer :: fastsim_nx = 50       !! points along a row, fastsim...
         ! Tuned [rows]. Origin: as fastsim_nx.
         integer :: fastsim_ny = 50       !! rows, fastsim...
+        ! Tuned [mm]. Origin: chosen: errors of some tenths of a percent on usual contacts.
+        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
+        ! Tuned [mm]. Origin: as element_dx.
+        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
+        logical :: dx_is_given = .false. !! else it is shorter where the contact is small
+        logical :: dy_is_given = .false. !! the same along y
+        real(wp) :: error_target = 0.0_wp
+            !! of penetration and pmax, norm; sets the sides if positive
+        integer :: max_elements = standard_max_elements !! of a grid, norm, tang
+        integer :: norm_start = start_coarse !! what norm starts from: one of the `start_` numbers
     end type contact_methods_t
 
 contains
@@ -159,12 +182,34 @@ contains
         type(contact_methods_t), intent(in) :: methods !! as the caller set them
         type(status_t), intent(out) :: status          !! `st_bad_argument`
 
+        call check_normal_method(methods%normal, status)
+        if (.not. is_error(status)) call check_tangential_method(methods%tangential, status)
+        if (.not. is_error(status)) call check_resolutions(methods, status)
+    end subroutine check_contact_methods
+
+    !> Refuse a number that is no normal method of the core.
+    pure subroutine check_normal_method(number, status)
+        integer, intent(in) :: number         !! as the caller set it
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
         call clear_status(status)
-        call check_method('normal', row_of(normal_table, methods%normal), methods%normal, status)
-        if (is_error(status)) return
-        call check_method('tangential', row_of(tangential_table, methods%tangential), &
-                          methods%tangential, status)
-        if (is_error(status)) return
+        call check_method('normal', row_of(normal_table, number), number, status)
+    end subroutine check_normal_method
+
+    !> Refuse a number that is no tangential method of the core.
+    pure subroutine check_tangential_method(number, status)
+        integer, intent(in) :: number         !! as the caller set it
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
+        call clear_status(status)
+        call check_method('tangential', row_of(tangential_table, number), number, status)
+    end subroutine check_tangential_method
+
+    !> Refuse resolutions out of range.
+    pure subroutine check_resolutions(methods, status)
+        type(contact_methods_t), intent(in) :: methods !! as the caller set them
+        type(status_t), intent(inout) :: status        !! changed by an error, `st_bad_argument`
+
         if ((methods%strips_per_patch < 1 .and. &
              methods%strips_per_patch /= strips_auto) .or. &
             methods%strips_per_patch > most_strips) then
@@ -181,7 +226,7 @@ contains
                             trim(count_text(methods%fastsim_nx)) // ' and ' // &
                             count_text(methods%fastsim_ny))
         end if
-    end subroutine check_contact_methods
+    end subroutine check_resolutions
 
     !> Refuse a number that the table has no method of the core for.
     pure subroutine check_method(part, method, number, status)

@@ -6,18 +6,14 @@ module faststrip_contact_target
                                      message_length, st_ok, st_target_missed, st_under_resolved
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: contact_result_t
-    use faststrip_contact_wanted, only: target_forces, target_pmax, target_penetration, &
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_wanted, only: unknown_error, target_forces, target_pmax, target_penetration, &
                                         target_area, target_power, target_names, wanted_t, &
                                         needs_forces
     implicit none
     private
 
     public :: target_error, name_target
-    public :: unknown_error
-
-    !> What counts as the error of a figure that has no estimate.
-    real(wp), parameter :: unknown_error = huge(1.0_wp)
 
 contains
 

@@ -1,17 +1,19 @@
-!> What is wanted of an automatic solution: which figure, how good, in which time.
+!> What is wanted of an automatic solution: which figure, how good, in which time; and the steps
+!> that were taken for it.
 module faststrip_contact_wanted
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
-                                     st_bad_argument
+                                     st_ok, st_bad_argument
     use faststrip_normal_strip, only: strips_auto_most, fewest_strips
-    use faststrip_contact_methods, only: tangential_none
+    use faststrip_contact_methods, only: contact_methods_t, tangential_none
     implicit none
     private
 
     public :: wanted_t, others_t, check_wanted, needs_forces, target_number, target_names
     public :: others_across, others_time
-    public :: margin
+    public :: auto_step_t, auto_steps_t
+    public :: margin, unknown_error, most_steps
 
     ! Given: numbers of kinds, in the order of `target_names`; they stay for ever.
     integer, parameter, public :: target_forces = 1
@@ -20,6 +22,12 @@ module faststrip_contact_wanted
     integer, parameter, public :: target_penetration = 3 !! of the depth below the lowest point
     integer, parameter, public :: target_area = 4        !! relative
     integer, parameter, public :: target_power = 5       !! friction power, relative
+
+    !> What counts as the error of a figure that has no estimate.
+    real(wp), parameter :: unknown_error = huge(1.0_wp)
+    !> Most steps of one contact.
+    !> Tuned [steps]. Origin: safeguard: the estimate leads there in three; grids of others follow.
+    integer, parameter :: most_steps = 11
 
     !> Part of the tolerance that is aimed at.
     !> Tuned [1]. Origin: chosen for the time.
@@ -55,6 +63,28 @@ module faststrip_contact_wanted
             !! finer methods of the caller: what strips are not expected to meet, or not sooner, is
             !! left to them at once, instead of coming as near as strips can
     end type wanted_t
+
+    !> One solution on the way.
+    type :: auto_step_t
+        type(contact_methods_t) :: methods        !! with the resolutions that were used
+        integer :: across = 0                     !! strips or elements across the widest patch
+        real(wp) :: estimate = unknown_error      !! of the target's error; `unknown_error`
+        real(wp) :: normal_us = 0.0_wp            !! time of the normal problem and its estimates
+        real(wp) :: tangential_us = 0.0_wp        !! of the tangential problem and its estimates
+        integer :: code = st_ok                   !! of its status, if it is an error
+    end type auto_step_t
+
+    !> What was tried, and what came of it.
+    type :: auto_steps_t
+        integer :: n = 0                         !! steps
+        integer :: first = 0                     !! the first of them by strips, 0: none
+        real(wp) :: first_across = 0.0_wp
+            !! strips across the widest patch of it, if all were as narrow as those of the narrowest
+        type(auto_step_t) :: steps(most_steps)   !! the first `n`, in their order
+        integer :: best = 0                      !! the step whose solution is the result
+        real(wp) :: estimate = unknown_error     !! of the target's error, of that step
+        logical :: is_met = .false.              !! is it within the tolerance?
+    end type auto_steps_t
 
 contains
 

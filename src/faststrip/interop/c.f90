@@ -230,7 +230,7 @@ contains
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        count = handle%field%n
+        count = handle%workspace%field%n
         call check_capacity(handle, capacity, count, n, [x, y, area, pn, px, py, sx, sy, state])
         code = handle%status%code
         if (is_error(handle%status) .or. count == 0) return
@@ -262,7 +262,7 @@ contains
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        count = handle%taken%n
+        count = handle%workspace%steps%n
         call check_capacity(handle, capacity, count, n, &
                             [normal, tangential, strips, points, estimate, normal_us, &
                              tangential_us])

@@ -9,7 +9,7 @@ module faststrip_interop_c_many
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: most_gap_points
+    use faststrip_contact_reserve, only: most_gap_points
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_interop_c, only: put_text
     use faststrip_interop_c_solve, only: take_gap, solve_fields

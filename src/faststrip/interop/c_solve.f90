@@ -51,7 +51,7 @@ contains
         handle%case%force_limit = fields%force_limit
         call fill_friction(fields%friction_kind, fields%friction, handle%case%friction, &
                            handle%contact_angle)
-        handle%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
+        handle%case%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
                                  budget_us=fields%budget_us)
         call handle_solve(handle, wants_elements(fields%choices))
         call read_result(handle, figures%figures, figures%counts, figures%errors)

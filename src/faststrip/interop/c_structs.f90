@@ -10,7 +10,7 @@ module faststrip_interop_c_structs
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_loc, c_associated, &
                                            c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
-    use faststrip_contact_solve, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_wanted, only: wanted_t
     use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
                                       n_forces, n_taken, n_friction, flat_default, &

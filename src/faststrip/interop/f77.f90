@@ -344,7 +344,7 @@ contains
         n = 0
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        n = handle%field%n
+        n = handle%workspace%field%n
         if (capacity < n) info = st_workspace_too_small
         if (n == 0 .or. capacity < n) return
         call read_elements(handle, x(:n), y(:n), area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), &
@@ -433,7 +433,7 @@ contains
         ! FSSOLV has the tangential method and says whether it serves the target.
         call check_wanted(wanted, tangential_faststrip, handle%status)
         info = handle%status%code
-        if (.not. is_error(handle%status)) handle%wanted = wanted
+        if (.not. is_error(handle%status)) handle%case%wanted = wanted
     end subroutine fswant
 
     !> CALL FSTAKN(IWORK, TAKN, INFO)
@@ -478,7 +478,7 @@ contains
         n = 0
         call find(iwork, handle, info)
         if (.not. associated(handle)) return
-        n = handle%taken%n
+        n = handle%workspace%steps%n
         if (capacity < n) then
             info = st_workspace_too_small
             return

@@ -19,7 +19,7 @@ module faststrip_interop_f77_wear
     use, intrinsic :: iso_c_binding, only: c_int, c_double
     use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument, &
                                      st_workspace_too_small
-    use faststrip_contact_solve, only: contact_result_t
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_interop_f77, only: n_iwork, number_of
     use faststrip_interop_flat, only: n_friction, fill_friction, strip_count
     use faststrip_interop_handle, only: handle_t, find_handle

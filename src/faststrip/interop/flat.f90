@@ -34,8 +34,8 @@ module faststrip_interop_flat
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_solve, only: contact_case_t
-    use faststrip_contact_target, only: unknown_error
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_wanted, only: unknown_error
     use faststrip_interop_handle, only: handle_t
     implicit none
     private
@@ -154,7 +154,7 @@ contains
                        tangential%friction_power, tangential%stick_fraction]
             counts = [normal%n_patches, &
                       merge(handle%workspace%strips%n, 0, normal%n_patches > 0), &
-                      handle%field%n, normal%iterations, merge(1, 0, handle%result%is_estimated), &
+                      handle%workspace%field%n, normal%iterations, merge(1, 0, handle%result%is_estimated), &
                       normal%strips_across]
             errors = [certificate%est_err_penetration, certificate%est_err_pmax, &
                       certificate%est_err_area, certificate%residual_inside, &
@@ -180,7 +180,7 @@ contains
         integer(c_int), intent(out) :: taken(n_taken) !! steps, best, is it known, is it met
         real(c_double), intent(out) :: estimate       !! of the target's error; zero if not known
 
-        associate (last => handle%taken)
+        associate (last => handle%workspace%steps)
             taken = [last%n, last%best, merge(1, 0, last%estimate < unknown_error), &
                      merge(1, 0, last%is_met)]
             estimate = merge(last%estimate, 0.0_c_double, last%estimate < unknown_error)
@@ -202,7 +202,7 @@ contains
         integer :: i
 
         do i = 1, size(normal)
-            associate (step => handle%taken%steps(i))
+            associate (step => handle%workspace%steps%steps(i))
                 normal(i) = step%methods%normal
                 tangential(i) = step%methods%tangential
                 strips(i) = step%methods%strips_per_patch
@@ -248,7 +248,7 @@ contains
         real(c_double), intent(inout) :: sx(:), sy(:) !! slip over rolling speed
         integer(c_int), intent(inout) :: state(:)    !! 1 adhesion, 2 slip
 
-        associate (field => handle%field, n => size(state))
+        associate (field => handle%workspace%field, n => size(state))
             x = field%x(:n)
             y = field%y(:n)
             area = field%area(:n)

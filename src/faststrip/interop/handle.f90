@@ -7,15 +7,13 @@ module faststrip_interop_handle
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_not_finite, st_workspace_too_small
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, reserve_strip_forces
-    use faststrip_contact_auto, only: taken_t, solve_contact_auto
-    use faststrip_contact_methods, only: contact_methods_t, normal_auto
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
                                            find_doubts, doubt_pressure
-    use faststrip_contact_solve, only: workspace_t, contact_case_t, contact_result_t, &
-                                       reserve_workspace, reserve_contact_field, solve_contact, &
-                                       set_contact_gap
-    use faststrip_contact_wanted, only: wanted_t
+    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
+    use faststrip_contact_solve, only: solve_contact, set_contact_gap
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
                                           kind_contact
     use faststrip_base_kinds, only: wp
@@ -32,15 +30,11 @@ module faststrip_interop_handle
     type :: handle_t
         type(workspace_t) :: workspace
         type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
-                                          !! the F77 face sets friction and how errors are
-                                          !! estimated once
+                                          !! the F77 face sets friction, how errors are estimated
+                                          !! and what is wanted of auto once
         real(wp) :: contact_angle = 0.0_wp !! for friction of tread and flange, rad
-        type(wanted_t) :: wanted          !! of `normal_auto`; the F77 face sets it once
-        type(tangential_field_t) :: field !! elements of the last contact, if capacity was made
         type(contact_result_t) :: result  !! figures of the last contact
-        type(taken_t) :: taken            !! steps of the last contact, if by `normal_auto`
-        type(strip_forces_t) :: strip_forces !! of the strips whose wear was asked for
-        type(wear_room_t) :: wear         !! the same
+        type(wear_room_t) :: wear         !! of the strips whose wear was asked for
         type(status_t) :: status          !! of the last call
         type(gap_size_t) :: gap_size      !! of the gap
         type(doubts_t) :: doubts          !! what was outside of practice in the last contact
@@ -69,7 +63,7 @@ contains
         end if
         call reserve_workspace(handle%workspace, methods, max_points, status)
         if (with_field .and. .not. is_error(status)) &
-            call reserve_contact_field(handle%field, methods, status)
+            call reserve_contact_field(handle%workspace, methods, status)
         if (.not. is_error(status)) call reserve_wear(handle, status)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_contact, number, status)
@@ -83,6 +77,7 @@ contains
         real(wp), allocatable :: trial(:)
         integer :: failure
 
+        call clear_status(status)
         associate (capacity => size(handle%workspace%strips%p0))
             ! Tried as a whole first: what the parts find missing would stop the program.
             allocate (trial(per_strip*capacity), stat=failure)
@@ -91,8 +86,7 @@ contains
                 return
             end if
             deallocate (trial)
-            call reserve_strip_forces(handle%strip_forces, capacity, status)
-            if (.not. is_error(status)) call reserve_wear_room(handle%wear, capacity)
+            call reserve_wear_room(handle%wear, capacity)
         end associate
     end subroutine reserve_wear
 
@@ -132,7 +126,6 @@ contains
         type(environment_t) :: environment
 
         handle%result = contact_result_t()
-        handle%taken = taken_t()
         handle%doubts%n = 0
         handle%gap_size = gap_size_t()
         call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, inclination)
@@ -149,22 +142,16 @@ contains
 
         type(environment_t) :: environment
 
-        handle%field%n = 0
-        handle%taken = taken_t()
+        handle%workspace%field%n = 0
         handle%doubts%n = 0
         call hold_environment(environment)
         call find_doubts(handle%case, handle%gap_size, case_names_t(), handle%doubts)
         call restore_environment(environment)
         call take_angle(handle)
         if (is_error(handle%status)) return
-        if (handle%case%methods%normal == normal_auto) then
-            call solve_wanted(handle, with_field)
-        else if (with_field) then
-            call solve_contact(handle%workspace, handle%case, handle%result, handle%status, &
-                               handle%field)
-        else
-            call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
-        end if
+        handle%case%asked%field = with_field
+        handle%case%asked%strip_forces = .true.
+        call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         if (is_error(handle%status)) return
         call hold_environment(environment)
         call doubt_pressure('pmax', handle%result%normal%pmax, handle%doubts)
@@ -195,21 +182,6 @@ contains
         handle%workspace%solved_by = 0
     end subroutine take_angle
 
-    !> The same by `normal_auto`; with an error no step is told.
-    subroutine solve_wanted(handle, with_field)
-        type(handle_t), intent(inout) :: handle
-        logical, intent(in) :: with_field
-
-        if (with_field) then
-            call solve_contact_auto(handle%workspace, handle%case, handle%wanted, handle%result, &
-                                    handle%taken, handle%status, handle%field)
-        else
-            call solve_contact_auto(handle%workspace, handle%case, handle%wanted, handle%result, &
-                                    handle%taken, handle%status)
-        end if
-        if (is_error(handle%status)) handle%taken = taken_t()
-    end subroutine solve_wanted
-
     !> Copy gap, solution and elements of one handle into another; the other's capacity becomes the
     !> same.
     subroutine copy_handle(from, to)
@@ -219,12 +191,8 @@ contains
         to%workspace = from%workspace
         to%case = from%case
         to%contact_angle = from%contact_angle
-        to%wanted = from%wanted
-        to%field = from%field
-        to%strip_forces = from%strip_forces
         to%wear = from%wear
         to%result = from%result
-        to%taken = from%taken
         to%gap_size = from%gap_size
         to%doubts = from%doubts
         call clear_status(to%status)

@@ -1,19 +1,16 @@
 !> T gamma, wear and fatigue of the last solution behind a handle of the C and F77 faces.
 !>
 !> They are figures of what was solved, with its creepages and its friction; a law of wear and the
-!> yield stress come with each question. Forces of strips are found anew for it.
+!> yield stress come with each question.
 module faststrip_interop_wear
     use, intrinsic :: iso_c_binding, only: c_double
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument
-    use faststrip_contact_methods, only: contact_methods_t, normal_auto
-    use faststrip_contact_solve, only: solve_contact_tangential
     use faststrip_interop_handle, only: handle_t
     use faststrip_interop_wear_room, only: fill_law, check_forces, check_strip_forces, &
                                            contact_figures, n_regime, n_wear
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, contact_count, contact_place
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_wear_law, only: wear_t, find_strip_wear
     use faststrip_tangential_wear_numbers, only: strip_power_densities
     use faststrip_wheelset_strips, only: find_wheel_strips
@@ -37,13 +34,14 @@ contains
 
         call hold_environment(environment)
         figures = 0.0_c_double
-        call check_forces(handle%result, tangential_of(handle), handle%status)
+        call check_forces(handle%result, handle%workspace%methods%tangential, handle%status)
         if (.not. is_error(handle%status)) &
             call fill_law(regimes, density, handle%wear%law, handle%status)
-        if (.not. is_error(handle%status) .and. handle%wear%law%n > 0) call sum_strips(handle)
+        if (.not. is_error(handle%status) .and. handle%wear%law%n > 0) &
+            call check_strip_forces(handle%workspace%methods%tangential, handle%status)
         if (.not. is_error(handle%status)) &
             call contact_figures(handle%result, handle%case%creepage, yield_shear, &
-                                 handle%workspace%strips, handle%strip_forces, handle%wear, &
+                                 handle%workspace%strips, handle%workspace%strip_forces, handle%wear, &
                                  figures, handle%status)
         call restore_environment(environment)
     end subroutine contact_wear
@@ -58,11 +56,12 @@ contains
         type(wear_t) :: ignored
 
         call hold_environment(environment)
-        call check_forces(handle%result, tangential_of(handle), handle%status)
+        call check_forces(handle%result, handle%workspace%methods%tangential, handle%status)
         if (.not. is_error(handle%status)) &
             call fill_law(regimes, density, handle%wear%law, handle%status)
-        if (.not. is_error(handle%status)) call sum_strips(handle)
-        associate (strips => handle%workspace%strips, forces => handle%strip_forces, &
+        if (.not. is_error(handle%status)) &
+            call check_strip_forces(handle%workspace%methods%tangential, handle%status)
+        associate (strips => handle%workspace%strips, forces => handle%workspace%strip_forces, &
                    room => handle%wear)
             if (is_error(handle%status)) then
                 continue
@@ -87,7 +86,7 @@ contains
         real(c_double), intent(inout) :: mass(:)       !! ug per metre rolled
         real(c_double), intent(inout) :: pass_depth(:) !! depth when rolled over once, mm
 
-        associate (forces => handle%strip_forces, room => handle%wear, n => size(fx))
+        associate (forces => handle%workspace%strip_forces, room => handle%wear, n => size(fx))
             fx = forces%fx(:n)
             fy = forces%fy(:n)
             power = forces%friction_power(:n)
@@ -134,31 +133,4 @@ contains
         end associate
         call restore_environment(environment)
     end subroutine wheelset_wear
-
-    ! The tangential method of the last solution; that of a step by auto may be another one than was
-    ! asked for.
-    pure integer function tangential_of(handle) result(tangential)
-        type(handle_t), intent(in) :: handle
-
-        tangential = handle%case%methods%tangential
-        if (handle%case%methods%normal == normal_auto .and. handle%taken%best > 0) &
-            tangential = handle%taken%steps(handle%taken%best)%methods%tangential
-    end function tangential_of
-
-    ! Forces of the strips.
-    subroutine sum_strips(handle)
-        type(handle_t), intent(inout) :: handle
-
-        type(contact_methods_t) :: asked
-        type(tangential_result_t) :: again
-
-        call check_strip_forces(tangential_of(handle), handle%status)
-        if (is_error(handle%status)) return
-        asked = handle%case%methods
-        if (asked%normal == normal_auto) &
-            handle%case%methods = handle%taken%steps(handle%taken%best)%methods
-        call solve_contact_tangential(handle%workspace, handle%case, again, handle%status, &
-                                      per_strip=handle%strip_forces)
-        handle%case%methods = asked
-    end subroutine sum_strips
 end module faststrip_interop_wear

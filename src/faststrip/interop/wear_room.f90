@@ -9,7 +9,7 @@ module faststrip_interop_wear_room
                                      st_bad_argument
     use faststrip_contact_methods, only: tangential_none, tangential_faststrip, &
                                          tangential_faststrip_plain, tangential_method_name
-    use faststrip_contact_solve, only: contact_result_t
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_types, only: strip_forces_t
     use faststrip_tangential_wear_law, only: wear_law_t, wear_t, check_wear_law, most_regimes, &

@@ -6,7 +6,7 @@ module faststrip_tangential_types
     implicit none
     private
 
-    public :: strip_forces_t, reserve_strip_forces
+    public :: strip_forces_t, reserve_strip_forces, copy_strip_forces
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
               put_element, field_power, stick_share
     public :: state_adhesion, state_slip, most_points
@@ -77,6 +77,20 @@ contains
         allocate (forces%fx(capacity), forces%fy(capacity), forces%friction_power(capacity), &
                   source=0.0_wp)
     end subroutine reserve_strip_forces
+
+    !> Copy sums over strips into others that have the capacity.
+    pure subroutine copy_strip_forces(from, to)
+        type(strip_forces_t), intent(in) :: from  !! of a solution, or none
+        type(strip_forces_t), intent(inout) :: to !! reserved for as many strips
+
+        associate (n => from%n)
+            to%n = n
+            if (n == 0) return
+            to%fx(:n) = from%fx(:n)
+            to%fy(:n) = from%fy(:n)
+            to%friction_power(:n) = from%friction_power(:n)
+        end associate
+    end subroutine copy_strip_forces
 
     !> Allocate for a field; the only allocation, to be done before the first solution.
     subroutine reserve_field(field, capacity, status)

@@ -10,7 +10,7 @@ module faststrip_wheelset_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: reserve_workspace
+    use faststrip_contact_reserve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
     use faststrip_geometry_gap, only: gap_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment

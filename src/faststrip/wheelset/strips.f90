@@ -8,10 +8,6 @@ module faststrip_wheelset_strips
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument
-    use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: contact_methods_t, tangential_faststrip, &
-                                         tangential_faststrip_plain
-    use faststrip_contact_solve, only: solve_contact_tangential
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
     use faststrip_geometry_profile, only: profile_at
     use faststrip_geometry_sheared_gap, only: turn_sheared_gap
@@ -19,10 +15,9 @@ module faststrip_wheelset_strips
     use faststrip_geometry_wheelset_state, only: rail_state_t
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, copy_strips, mirror_strips
     use faststrip_numerics_reversal, only: reverse, reverse_negated
-    use faststrip_tangential_types, only: tangential_result_t, strip_forces_t, reserve_strip_forces
+    use faststrip_tangential_types, only: strip_forces_t, reserve_strip_forces, copy_strip_forces
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_result_t, wheel_workspace_t, side_left
-    use faststrip_wheelset_wheel, only: take_motion
     implicit none
     private
 
@@ -53,10 +48,7 @@ contains
         integer, intent(in) :: i                               !! contact of that wheel
         type(wheel_strips_t), intent(inout) :: found           !! as they are, not in a mirror
         type(status_t), intent(out) :: status
-            !! `st_bad_argument`: no such contact; those of `solve_contact_tangential`
-
-        type(contact_case_t) :: case
-        type(tangential_result_t) :: again
+            !! `st_bad_argument`: no such contact; those of `sample_gap`
 
         call clear_status(status)
         if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last) then
@@ -65,36 +57,15 @@ contains
         end if
         call reserve_wheel_strips(found, size(workspace%wheel(side)%contact(i)%strips%p0), status)
         if (is_error(status)) return
-        call copy_strips(workspace%wheel(side)%contact(i)%strips, found%strips)
-        if (has_strip_forces(model%case%methods)) then
-            case = model%case
-            case%by_load = .false.
-            call take_motion(model, result%wheel(side)%contact(i), case)
-            if (workspace%is_reversed) then
-                case%creepage%cksi = -case%creepage%cksi
-                case%creepage%cphi = -case%creepage%cphi
-            end if
-            if (side == side_left) then
-                case%creepage%ceta = -case%creepage%ceta
-                case%creepage%cphi = -case%creepage%cphi
-            end if
-            call solve_contact_tangential(workspace%wheel(side)%contact(i), case, again, status, &
-                                          per_strip=found%forces)
-            if (is_error(status)) return
-            if (workspace%is_reversed) found%forces%fx = -found%forces%fx
-        end if
+        associate (contact => workspace%wheel(side)%contact(i))
+            call copy_strips(contact%strips, found%strips)
+            call copy_strip_forces(contact%strip_forces, found%forces)
+        end associate
+        if (workspace%is_reversed) found%forces%fx = -found%forces%fx
         call find_places(model, model%pair(side), workspace%wheel(side), i, &
                          result%wheel(side)%z, found, status)
         if (side == side_left) call mirror(found)
     end subroutine find_wheel_strips
-
-    ! Only the march along strips sums over them.
-    pure logical function has_strip_forces(methods)
-        type(contact_methods_t), intent(in) :: methods
-
-        has_strip_forces = any(methods%tangential == [tangential_faststrip, &
-                                                      tangential_faststrip_plain])
-    end function has_strip_forces
 
     !> Allocate for strips of a contact.
     subroutine reserve_wheel_strips(found, capacity, status)

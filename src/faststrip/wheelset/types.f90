@@ -4,7 +4,7 @@ module faststrip_wheelset_types
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: contact_result_t, workspace_t
+    use faststrip_contact_method, only: contact_result_t, workspace_t
     use faststrip_geometry_contact_frame, only: frame_gap_t
     use faststrip_geometry_overlap, only: region_t, most_regions
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t

@@ -4,9 +4,8 @@ module faststrip_wheelset_wheel
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact_errors, &
-                                       estimate_contact_forces
-    use faststrip_contact_methods, only: normal_strip, normal_hertz, tangential_linear
+    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact
+    use faststrip_contact_methods, only: tangential_linear
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
                                                 in_track, along_normal
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
@@ -55,6 +54,9 @@ contains
         case = model%case
         case%by_load = .false.
         case%estimate = .false.
+        case%asked%strip_forces = .true.
+        ! Named where the wheelset came to rest.
+        case%yield = 0.0_wp
         case%strip_tolerance = min(case%strip_tolerance, strip_tolerance)
         case%warm_start = workspace%n == n
         workspace%n = n
@@ -85,20 +87,13 @@ contains
         type(contact_case_t) :: case
         integer :: i
 
-        if (all(model%case%methods%normal /= [normal_strip, normal_hertz])) return
         case = model%case
         case%by_load = .false.
         do i = 1, wheel%n
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
-                call estimate_contact_errors(workspace%contact(i), case, figures%normal, &
-                                             figures%certificate, figures%is_estimated, &
-                                             contact%status)
-                if (figures%is_estimated) &
-                    call estimate_contact_forces(workspace%contact(i), case, figures%certificate, &
-                                                 figures%force_errors, &
-                                                 figures%forces_are_estimated, contact%status)
+                call estimate_contact(workspace%contact(i), case, figures, contact%status)
                 if (worse(contact%status, wheel%status)) wheel%status = contact%status
             end associate
         end do

@@ -1,0 +1,118 @@
+!> How wrong forces of the core's methods are: what those with a march in a patch share, and what all
+!> of them leave out.
+module faststrip_contact_method_march_errors
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: falls, softened
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_material, only: material_t
+    use faststrip_base_status, only: status_t, is_error, st_under_resolved
+    use faststrip_influence_rectangle, only: coupling_constant
+    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_limitations, only: name_force_resolution, add_limitation
+    use faststrip_tangential_force_errors, only: estimate_force_errors
+    use faststrip_tangential_motion, only: cut_creepage
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: tangential_method_t, workspace_t, contact_result_t
+    use faststrip_contact_method_hertz, only: add_shape_errors
+    implicit none
+    private
+
+    public :: left_out_t, estimate_march, name_falling_friction
+
+    ! Tuned [1]: Force by the coupling of unlike materials, over K N; at most over mu N. Origin: a
+    ! line contact in free rolling (Bentall and Johnson 1967), linear.
+    real(wp), parameter :: force_of_coupling = 3.0_wp, most_left_out = 2.0_wp
+
+    !> A tangential method of the core: no error is known, unless it says so; what it leaves out is
+    !> named.
+    type, abstract, extends(tangential_method_t) :: left_out_t
+    contains
+        procedure :: estimate => name_limits
+    end type left_out_t
+
+contains
+
+    !> Name what is left out.
+    subroutine name_limits(self, workspace, case, result, status, finer)
+        class(left_out_t), intent(in) :: self           !! a method without march
+        type(workspace_t), intent(in) :: workspace      !! with its solution
+        type(contact_case_t), intent(in) :: case        !! what was solved
+        type(contact_result_t), intent(inout) :: result !! stays as it is
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+        real(wp), intent(in), optional :: finer         !! see `estimate_force_errors`
+
+        call name_left_out(case, status)
+    end subroutine name_limits
+
+    !> How wrong the forces of a march are.
+    subroutine estimate_march(workspace, case, march, points, result, status, finer)
+        type(workspace_t), intent(in) :: workspace      !! with a normal solution
+        type(contact_case_t), intent(in) :: case        !! what was solved
+        integer, intent(in) :: march                    !! one of the `errors_of_` numbers
+        integer, intent(in) :: points                   !! along a strip or row
+        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+        real(wp), intent(in), optional :: finer         !! see `estimate_force_errors`
+
+        type(status_t) :: estimate
+        type(material_t) :: material
+        type(creepage_t) :: creepage
+        real(wp) :: share
+
+        call name_left_out(case, status)
+        if (falls(case%friction)) return
+        material = softened(case%material, case%friction)
+        call cut_creepage(case%creepage, creepage, share)
+        associate (errors => result%force_errors)
+            if (workspace%is_ellipse) then
+                ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
+                call estimate_force_errors(workspace%strips, material, case%mu, creepage, march, &
+                                           points, certificate_t(), errors, estimate, finer)
+                if (.not. is_error(estimate)) &
+                    call add_shape_errors(workspace, case, errors, estimate)
+            else
+                call estimate_force_errors(workspace%strips, material, case%mu, creepage, march, &
+                                           points, result%certificate, errors, estimate, finer)
+            end if
+            result%forces_are_estimated = .not. is_error(estimate)
+            if (.not. result%forces_are_estimated) return
+            errors%fx = errors%fx + left_out(case)
+            errors%fy = errors%fy + left_out(case)
+            errors%mz = errors%mz + left_out(case)
+            call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
+                                       case%force_limit, status)
+        end associate
+    end subroutine estimate_march
+
+    !> Name what methods of the core know nothing of: friction that falls with slip has no estimate,
+    !> pressures of unlike materials do not count.
+    pure subroutine name_left_out(case, status)
+        type(contact_case_t), intent(in) :: case !! what was solved
+        type(status_t), intent(inout) :: status  !! limitations so far; `st_under_resolved`
+
+        if (falls(case%friction)) then
+            call name_falling_friction(status)
+        else if (left_out(case) > case%force_limit) then
+            call add_limitation(status, st_under_resolved, 'between unlike materials pressures ' &
+                                // 'cause slip, with which only tang reckons')
+        end if
+    end subroutine name_left_out
+
+    !> What methods of the core leave out of forces over mu N where materials are unlike: pressures
+    !> cause slip of a creepage of about 1.25 K p0/G, which makes three times K N of force.
+    pure real(wp) function left_out(case) result(error)
+        type(contact_case_t), intent(in) :: case
+
+        error = min(force_of_coupling*abs(coupling_constant(case%material)), &
+                    most_left_out*case%mu)/max(case%mu, tiny(error))
+    end function left_out
+
+    !> Name that no error of forces is estimated where friction falls with slip: what the estimates
+    !> were calibrated on has constant friction.
+    pure subroutine name_falling_friction(status)
+        type(status_t), intent(inout) :: status !! limitations so far; `st_under_resolved`
+
+        call add_limitation(status, st_under_resolved, 'no error of the forces can be ' // &
+                            'estimated: friction falls with slip')
+    end subroutine name_falling_friction
+end module faststrip_contact_method_march_errors

@@ -1,0 +1,116 @@
+!> Strips as a method of a contact, with their own error estimate, and ellipses in their place.
+module faststrip_contact_method_strip
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_base_status, only: status_t, clear_status, is_error, message_length, &
+                                     st_under_resolved
+    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_limitations, only: name_resolution, add_limitation
+    use faststrip_normal_strip, only: strip_options_t, strip_solve_demand, estimate_strips
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_method_capacity, only: on_strips_t, check_capacity
+    use faststrip_contact_methods, only: normal_table, normal_strip, normal_equal_area, &
+                                         normal_equal_moments
+    implicit none
+    private
+
+    public :: strip_method, equal_area_method, equal_moments_method
+
+    !> Strips.
+    type, extends(on_strips_t) :: strip_method_t
+    contains
+        procedure :: solve => solve_by_strips
+        procedure :: estimate => estimate_by_strips
+    end type strip_method_t
+
+    !> Ellipses in the place of the strips of each patch: strips are solved with an estimate, whose
+    !> limitations are named, but of the ellipses none is known.
+    type, extends(on_strips_t) :: equal_ellipse_t
+        integer :: kind = equal_area
+    contains
+        procedure :: solve => solve_by_ellipses
+    end type equal_ellipse_t
+
+    type(strip_method_t), target, save :: strip_method = strip_method_t( &
+        about=normal_table(findloc(normal_table%number, normal_strip, dim=1)))
+        !! strips
+    type(equal_ellipse_t), target, save :: equal_area_method = equal_ellipse_t( &
+        about=normal_table(findloc(normal_table%number, normal_equal_area, dim=1)), &
+        kind=equal_area)
+        !! ellipses of equal area
+    type(equal_ellipse_t), target, save :: equal_moments_method = equal_ellipse_t( &
+        about=normal_table(findloc(normal_table%number, normal_equal_moments, dim=1)), &
+        kind=equal_moments)
+        !! ellipses of equal moments
+
+contains
+
+    !> Solve by strips.
+    subroutine solve_by_strips(self, workspace, case, normal, status)
+        class(strip_method_t), intent(in) :: self     !! strips
+        type(workspace_t), intent(inout) :: workspace !! its strips are filled
+        type(contact_case_t), intent(in) :: case      !! what to solve
+        type(normal_result_t), intent(out) :: normal  !! figures
+        type(status_t), intent(out) :: status         !! of `strip_solve_demand`
+
+        type(strip_options_t) :: options
+
+        call clear_status(status)
+        call check_capacity(workspace, case%methods, status)
+        if (is_error(status)) return
+        options%strips_per_patch = case%methods%strips_per_patch
+        options%tolerance = case%strip_tolerance
+        options%warm_start = case%warm_start
+        options%resolution_limit = case%resolution_limit
+        call strip_solve_demand(workspace%solver, normal_compliance(case%material), case%demand_t, &
+                                options, workspace%strips, normal, status)
+    end subroutine solve_by_strips
+
+    !> How wrong the strips are; more than the limit is named in the status.
+    subroutine estimate_by_strips(self, workspace, case, result, status)
+        class(strip_method_t), intent(in) :: self       !! strips
+        type(workspace_t), intent(in) :: workspace      !! with their solution
+        type(contact_case_t), intent(in) :: case        !! what was solved
+        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+
+        character(len=message_length) :: words
+        type(status_t) :: estimate
+
+        call estimate_strips(workspace%solver, normal_compliance(case%material), &
+                             workspace%strips, result%normal, result%certificate, estimate)
+        result%is_estimated = .not. is_error(estimate)
+        result%has_residuals = result%is_estimated
+        if (result%is_estimated) then
+            call name_resolution(result%certificate%est_err_penetration, &
+                                 result%certificate%est_err_pmax, &
+                                 result%certificate%est_err_area, case%resolution_limit, status)
+        else
+            words = 'no error can be estimated:'
+            words(len_trim(words) + 2:) = estimate%message
+            call add_limitation(status, st_under_resolved, words)
+        end if
+    end subroutine estimate_by_strips
+
+    !> Solve by strips and put ellipses in their place.
+    subroutine solve_by_ellipses(self, workspace, case, normal, status)
+        class(equal_ellipse_t), intent(in) :: self    !! which ellipses
+        type(workspace_t), intent(inout) :: workspace !! its strips are filled
+        type(contact_case_t), intent(in) :: case      !! what to solve
+        type(normal_result_t), intent(out) :: normal  !! figures
+        type(status_t), intent(out) :: status
+            !! of `strip_solve_demand`, `replace_by_ellipses`; `st_under_resolved` of the strips
+
+        type(contact_result_t) :: strips
+        type(status_t) :: ellipses
+
+        call solve_by_strips(strip_method, workspace, case, normal, status)
+        if (is_error(status)) return
+        strips%normal = normal
+        if (case%estimate) call estimate_by_strips(strip_method, workspace, case, strips, status)
+        call replace_by_ellipses(self%kind, workspace%solver%curve, workspace%strips, normal, &
+                                 ellipses)
+        if (is_error(ellipses)) status = ellipses
+    end subroutine solve_by_ellipses
+end module faststrip_contact_method_strip
