@@ -38,9 +38,9 @@ ROOMS = ("src/faststrip/numerics", "src/faststrip/influence", "src/faststrip/geo
 GIVEN_FILES = {
     "influence/angle_rules.f90": "quadrature rules by their errors",
     "influence/closed_coefficients.f90": "fits, made by tools/influence_coefficients.py",
-    "geometry/wheel_s1002.f90": "the profile of EN 13715",
+    "geometry/wheel/s1002.f90": "the profile of EN 13715",
     "tangential/kalker_table.f90": "Kalker's table, written by tools/kalker_table.py",
-    "tangential/force_weights.f90": "a fit, written by tools/force_weights.py",
+    "tangential/force/weights.f90": "a fit, written by tools/force_weights.py",
 }
 PAGE = "docs/constants.md"
 MEASURED = "reference/constants.csv"
@@ -62,6 +62,7 @@ INTRINSIC = re.compile(r"^(?:abs|ceiling|exp|floor|int|log|log10|max|merge|min|m
                        r"|sign|spread|sqrt|if|while|case|elseif|parameter|call)$", re.IGNORECASE)
 TAG = re.compile(r"Tuned \[([^\]]+)\](?::\s*|\.\s*)(.*?)\s*Origin:\s*(.+)", re.DOTALL)
 GIVEN = re.compile(r"\bGiven: \w")
+ROW = re.compile(r"\babout=")
 
 
 class Constant:
@@ -92,7 +93,7 @@ class Statement:
 
 
 def short_name(file):
-    return "/".join(pathlib.PurePosixPath(file).parts[-2:])
+    return file.removeprefix("src/").removeprefix("faststrip/")
 
 
 def without_strings(line):
@@ -177,7 +178,8 @@ def take_subscripts(found):
 
 def needs_a_tag(value, is_parameter):
     """Is it a number, or made from more than other constants and plain numbers?"""
-    if not REAL.search(value) and not WHOLE.search(value):
+    # The object of a method has its row of the list, no number of its own.
+    if not REAL.search(value) and not WHOLE.search(value) or ROW.search(value):
         return False
     if not is_parameter:
         return not re.fullmatch(r"[-+]?[01](?:\.0*)?(?:_\w+)?", value)
@@ -241,7 +243,7 @@ def read_file(file, text):
 def read_rooms(root):
     constants, wrong = [], []
     for room in ROOMS:
-        for path in sorted((root / room).glob("*.f90")):
+        for path in sorted((root / room).rglob("*.f90")):
             found, bad = read_file(path.relative_to(root).as_posix(),
                                    path.read_text(encoding="utf-8"))
             constants += found

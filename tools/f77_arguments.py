@@ -69,10 +69,15 @@ class Constants:
             return None
 
 
+def source(name):
+    """The file of a module of the face."""
+    return ROOT / "src/faststrip/interop/f77" / f"{name.removeprefix('f77_')}.f90"
+
+
 def calls(name, constants):
     """Name, words and arguments of the subroutines of a module of the face; an argument is its
     F77 name with its size, in, out or inout, and what it is."""
-    text = (ROOT / "src" / "faststrip" / "interop" / f"{name}.f90").read_text(encoding="utf-8")
+    text = source(name).read_text(encoding="utf-8")
     for match in CALL.finditer(text):
         shown = match[2].split(", ")
         rest = text[match.end():]
@@ -111,8 +116,7 @@ def call_rows(constants):
 
 def place_rows():
     for name, about in FACE.items():
-        path = ROOT / "src" / "faststrip" / "interop" / f"{name}.f90"
-        head = path.read_text(encoding="utf-8").split("\nmodule ")[0]
+        head = source(name).read_text(encoding="utf-8").split("\nmodule ")[0]
         found = []
         for block in re.findall(r"(?s)!> ```\n(.*?)!> ```", head):
             for line in block.splitlines():

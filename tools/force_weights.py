@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write src/faststrip/tangential/force_weights.f90 from reference/force_correction.json.
+"""Write src/faststrip/tangential/force/weights.f90 from reference/force_correction.json.
 
     tools/force_weights.py            write the module
     tools/force_weights.py --check    exit 1 if the module is not what would be written

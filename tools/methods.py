@@ -145,13 +145,13 @@ def tables(methods):
 
 # The lines written stand between these, unless the file has marks of its own.
 MARKS = r"^.*BEGIN methods.*\n", r"^.*END methods.*\n"
-OWN_MARKS = {"src/faststrip/interop/f77.f90": (r"(?=^!> IOPT\(1\))", r"(?=^!> IOPT\(3\))")}
+OWN_MARKS = {"src/faststrip/interop/f77/f77.f90": (r"(?=^!> IOPT\(1\))", r"(?=^!> IOPT\(3\))")}
 # Where, and what.
 TARGETS = {
     LIST: numbers,
     "src/faststrip/faststrip.f90": umbrella,
     "include/faststrip.h": header,
-    "src/faststrip/interop/f77.f90": comment,
+    "src/faststrip/interop/f77/f77.f90": comment,
     "python/faststrip/_contact.py": dictionaries,
     "docs/usage.md": tables,
 }

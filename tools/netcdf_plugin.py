@@ -28,9 +28,14 @@ USE = re.compile(r"^\s*use\s+(faststrip_\w+)", re.MULTILINE)
 
 
 def path_of(module):
-    """The source of a module, which is named as its path."""
+    """The source of a module, which is named as its path; folder/folder.f90 says the word once."""
     room, _, name = module.removeprefix("faststrip_").partition("_")
-    return ROOT / PACKAGES.get(room, f"src/faststrip/{room}") / f"{name}.f90"
+    folder = ROOT / PACKAGES.get(room, f"src/faststrip/{room}")
+    words = name.split("_")
+    nested = [folder / "_".join(words[:i]) / f"{'_'.join(words[i:])}.f90"
+              for i in range(1, len(words))]
+    found = [path for path in (*nested, folder / name / f"{name}.f90") if path.exists()]
+    return found[0] if found else folder / f"{name}.f90"
 
 
 def sources(module, found):

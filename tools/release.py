@@ -32,7 +32,7 @@ FOLDER = ROOT / "out" / "release"
 # Where the version stands besides fpm.toml, for those who cannot read it there.
 VERSIONS = (
     ("include/faststrip.h", r'^#define FASTSTRIP_VERSION "(.*)"$'),
-    ("src/faststrip/interop/c.f90", r"^ *character\(len=\*\), parameter :: version = '(.*)'$"),
+    ("src/faststrip/interop/c/c.f90", r"^ *character\(len=\*\), parameter :: version = '(.*)'$"),
     ("python/faststrip/__init__.py", r'^__version__ = "(.*)"$'),
     ("CITATION.cff", r"^version: (.*)$"),
 )

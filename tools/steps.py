@@ -631,7 +631,7 @@ def corrections():
     do(sys.executable, "tools/fit_forces.py", *features,
        *(word for families in LEFT_OUT for word in ("--leave-out", families)))
     do(sys.executable, "tools/force_weights.py")
-    heading("done: src/faststrip/tangential/force_weights.f90")
+    heading("done: src/faststrip/tangential/force/weights.f90")
 
 
 def demo():

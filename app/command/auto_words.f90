@@ -13,8 +13,8 @@ module faststrip_command_auto_words
 
 contains
 
-    !> All steps: methods, estimated error of the target, time; empty if there was none. No function,
-    !> for the length of whose result gfortran keeps a variable that all threads share.
+    !> All steps: methods, estimated error of the target, time; empty if there was none. It is no
+    !> function, for the length of whose result gfortran keeps a variable that all threads share.
     subroutine words_of_steps(steps, tells_times, text)
         type(auto_steps_t), intent(in) :: steps !! of a contact
         logical, intent(in) :: tells_times      !! else the words are those of any other run

@@ -20,7 +20,8 @@ module faststrip_command_case_file
                                          tangential_method, normal_method_name, &
                                          tangential_method_name
     use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_methods, only: settings_t, check_settings, one_of, word_length, norm_starts
+    use faststrip_command_methods, only: settings_t, check_settings, one_of, word_length, &
+                                         norm_starts
     use faststrip_command_wear_figures, only: take_wear_law
     use faststrip_command_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                           find_group, sets, refuse

@@ -12,8 +12,8 @@ module faststrip_command_lookup_direct
     use faststrip_kalker_tangential_pressures, only: sample_ellipse, sample_strips
     use faststrip_lookup_faces, only: n_forces
     use faststrip_lookup_hertz, only: n_lookup_state
-    use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_strips
+    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve

@@ -97,8 +97,8 @@ contains
                                             least=1, most=most_points)
         case%methods%fastsim_ny = option_integer(command, '--fastsim-ny', case%methods%fastsim_ny, &
                                             least=1, most=most_points)
-        case%methods%max_elements = option_integer(command, '--max-elements', case%methods%max_elements, &
-                                              least=1, most=most_elements)
+        case%methods%max_elements = option_integer(command, '--max-elements', &
+            case%methods%max_elements, least=1, most=most_elements)
         if (given(command, '--smooth')) &
             case%smoothing = 1.0e-3_wp*option_number(command, '--smooth', 0.0_wp, least=0)
         case%wanted%tolerance = option_number(command, '--tolerance', &
@@ -115,8 +115,8 @@ contains
                                            above=0)
         if (given(command, '--element-dx')) case%methods%dx_is_given = .true.
         if (given(command, '--element-dy')) case%methods%dy_is_given = .true.
-        case%methods%error_target = option_number(command, '--error-target', case%methods%error_target, &
-                                             least=0)
+        case%methods%error_target = option_number(command, '--error-target', &
+            case%methods%error_target, least=0)
         case%resolution_limit = option_number(command, '--resolution-limit', &
                                                  case%resolution_limit, above=0)
         case%force_limit = option_number(command, '--force-limit', case%force_limit, above=0)

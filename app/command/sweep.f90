@@ -107,8 +107,8 @@ contains
                 if (.not. is_error(status)) &
                     call count_pressure(pressures, result%normal%pmax, 0)
                 if (.not. is_error(status)) &
-                    call note_wear(solver%workspace%wear_status, 'shift ' // trim(number_text(case%shifts(i))) &
-                                   // ' mm: ')
+                    call note_wear(solver%workspace%wear_status, 'shift ' &
+                                   // trim(number_text(case%shifts(i))) // ' mm: ')
                 if (.not. is_error(status)) cycle
                 n_failed = n_failed + 1
                 call note('shift ' // trim(number_text(case%shifts(i))) // ' mm, ' &

@@ -19,7 +19,7 @@ module faststrip_lab_errata
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contacts
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_strips
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve

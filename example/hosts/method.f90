@@ -1,7 +1,7 @@
 !> A normal method of one's own: springs side by side (Winkler), on any gap, under a load.
 !>
-!> A type that extends `on_gap_t`, its `solve`, a number that the list does not have, and a line that
-!> enters it: after that `solve_contact` takes it like its own, with any tangential method.
+!> A type that extends `on_gap_t`, its `solve`, a number that the list does not have, and a line
+!> that enters it: after that `solve_contact` takes it like its own, with any tangential method.
 module springs
     use faststrip
     implicit none
@@ -117,7 +117,8 @@ program method
         if (i == 1) case%methods%strips_per_patch = 15
         if (i == 2) case%methods%strips_per_patch = 200
         call reserve_workspace(workspace, case%methods, points, status)
-        call set_contact_gap(workspace, y, 2.0e-3_wp*y*y, spread(1.0_wp/920.0_wp, 1, points), status)
+        call set_contact_gap(workspace, y, 2.0e-3_wp*y*y, spread(1.0_wp/920.0_wp, 1, points), &
+                             status)
         call solve_contact(workspace, case, result, status)
         if (is_error(status)) error stop 'no solution'
         print '(a, i4, 4(a, f0.3))', 'method', workspace%solved_by, '  N ', result%normal%load, &

@@ -46,11 +46,11 @@ module faststrip
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
-                                      hertz_solve_gap_penetration, hertz_solve_gap_demand, &
-                                      hertz_strips
-    use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve, hertz_solve_gap, &
+                                             hertz_solve_gap_penetration, hertz_solve_gap_demand, &
+                                             hertz_strips
+    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_simple_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
     use faststrip_normal_strip, only: strip_options_t, strip_solve, strip_solve_penetration, &
                                       strip_solve_demand, strips_auto

@@ -181,7 +181,7 @@ contains
     end subroutine reserve_norm_method
 
     !> Solve by NORM, from a coarser grid or from strips; if these fail, from the coarser grid. Its
-    !> rows become the strips of the contact, for the tangential methods and for who asks for strips.
+    !> rows become the strips of the contact, for the tangential methods and who asks for strips.
     subroutine solve_by_norm(self, workspace, case, normal, status)
         class(norm_method_t), intent(in) :: self      !! NORM
         type(workspace_t), intent(inout) :: workspace !! its strips are filled, and grow

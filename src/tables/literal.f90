@@ -10,7 +10,7 @@ module faststrip_tables_literal
     use faststrip_influence_polynomial, only: published_coefficients, table_last_distance
     use faststrip_numerics_lapack, only: dgetrf, dgetrs
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_patch_ellipse, only: check_strips
+    use faststrip_normal_simple_patch_ellipse, only: check_strips
     implicit none
     private
 

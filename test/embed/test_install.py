@@ -155,7 +155,7 @@ class Installed(HostTest):
         version = re.escape(self.version)
         texts = {
             "include/faststrip.h": rf'FASTSTRIP_VERSION "{version}"',
-            "src/faststrip/interop/c.f90": rf"version = '{version}'",
+            "src/faststrip/interop/c/c.f90": rf"version = '{version}'",
             "python/faststrip/__init__.py": rf'(?m)^__version__ = "{version}"$',
             "CITATION.cff": rf"(?m)^version: {version}$",
         }
@@ -183,7 +183,7 @@ class Installed(HostTest):
                     and named.search(path.read_text(encoding="utf-8"))):
                 found.add(name)
         self.assertEqual(found, {
-            "fpm.toml", "include/faststrip.h", "src/faststrip/interop/c.f90",
+            "fpm.toml", "include/faststrip.h", "src/faststrip/interop/c/c.f90",
             "python/faststrip/__init__.py", "CITATION.cff"})
 
     def test_pkg_config_knows_the_flags(self):
@@ -225,7 +225,7 @@ class Installed(HostTest):
         source = path.read_text(encoding="utf-8")
         header = self.installed.header.read_text(encoding="utf-8")
         package = (ROOT / "python" / "faststrip" / "_contact.py").read_text(encoding="utf-8")
-        f77 = (ROOT / "src" / "faststrip" / "interop" / "f77.f90").read_text(encoding="utf-8")
+        f77 = (ROOT / "src/faststrip/interop/f77/f77.f90").read_text(encoding="utf-8")
         for kind, option in (("normal", 1), ("tangential", 2)):
             core = {name: int(number) for name, number in
                     re.findall(rf"integer, parameter :: {kind}_(\w+) = (\d+)", source)}

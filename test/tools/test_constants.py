@@ -15,7 +15,7 @@ import sensitivity  # noqa: E402
 TAG = "! What it is. Tuned [mm]. Origin: chosen.\n"
 
 
-def read(text, file="src/faststrip/normal/strip.f90"):
+def read(text, file="src/faststrip/normal/strip/strip.f90"):
     return constants.read_file(file, text)
 
 
@@ -46,7 +46,7 @@ class OfTheProject(unittest.TestCase):
             copy = pathlib.Path(folder)
             for room in constants.ROOMS:
                 shutil.copytree(ROOT / room, copy / room)
-            path = copy / "src/faststrip/normal/strip_newton.f90"
+            path = copy / "src/faststrip/normal/strip/newton.f90"
             text = path.read_text(encoding="utf-8")
             path.write_text(text.replace("p_scale = 1.0_wp", "p_scale = 1.7_wp"), encoding="utf-8")
             done = subprocess.run([sys.executable, ROOT / "tools" / "constants.py", "--bare",

@@ -58,7 +58,7 @@ class Methods(unittest.TestCase):
             (methods.LIST, "parameter :: tangential_new_one = 12"),
             ("src/faststrip/faststrip.f90", " tangential_new_one"),
             ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 12"),
-            ("src/faststrip/interop/f77.f90", "12 new-one"),
+            ("src/faststrip/interop/f77/f77.f90", "12 new-one"),
             ("python/faststrip/_contact.py", '"new-one": 12,'),
             ("docs/usage.md", "| `new-one` | what's new (12); no elements | strips |"),
         ):

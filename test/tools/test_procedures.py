@@ -6,8 +6,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOM = ROOT / "src/faststrip/normal"
-FILES = sorted([*ROOM.glob("strip*.f90"), *ROOM.glob("certificate*.f90"),
-                *(ROOT / "src/faststrip/influence").glob("*.f90")])
+FILES = sorted([*ROOM.glob("strip/*.f90"), *ROOM.glob("estimate/certificate*.f90"),
+                *(ROOT / "src/faststrip/influence").rglob("*.f90")])
 MOST_LINES = 500       # of a file
 MOST_PROCEDURE = 80    # lines of a procedure, from its first line to its `end`
 MOST_ARGUMENTS = 11

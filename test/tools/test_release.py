@@ -95,8 +95,8 @@ class Release(unittest.TestCase):
         for name, old, new, says in (
             ("include/faststrip.h", f'VERSION "{version}"', 'VERSION "9.9.9"',
              rf"include/faststrip\.h:\d+: the version must be {version} as .*, got 9\.9\.9"),
-            ("src/faststrip/interop/c.f90", f"version = '{version}'", "version = '9.9.9'",
-             r"src/faststrip/interop/c\.f90:\d+: the version must be .* got 9\.9\.9"),
+            ("src/faststrip/interop/c/c.f90", f"version = '{version}'", "version = '9.9.9'",
+             r"src/faststrip/interop/c/c\.f90:\d+: the version must be .* got 9\.9\.9"),
             ("python/faststrip/__init__.py", f'__version__ = "{version}"', '__version__ = "9"',
              r"python/faststrip/__init__\.py:\d+: the version must be .* got 9"),
             ("python/faststrip/__init__.py", "__version__ = ", "_version = ",

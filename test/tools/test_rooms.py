@@ -66,6 +66,15 @@ class Rooms(unittest.TestCase):
         parts = path.relative_to(ROOT / CORE).parts
         return ROOMS.index(parts[0]) if len(parts) > 1 else len(ROOMS)
 
+    def test_no_folder_is_too_full(self):
+        for paths in self.files.values():
+            folders = {}
+            for path in paths:
+                folders.setdefault(path.parent.relative_to(ROOT).as_posix(), []).append(path.name)
+            for folder, names in folders.items():
+                with self.subTest(folder):
+                    self.assertLessEqual(len(names), 17, sorted(names))
+
     def test_every_source_is_in_a_room(self):
         found = {path for place in ("src", "app") for path in (ROOT / place).rglob("*.f90")
                  if "build" not in path.relative_to(ROOT).parts}

@@ -11,7 +11,7 @@ program kernels
     use faststrip_influence_row, only: influence_column_gradient
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips

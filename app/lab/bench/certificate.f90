@@ -22,11 +22,12 @@ module faststrip_lab_bench_certificate
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_strip, only: strip_workspace_t, strip_options_t, strips_auto, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve_demand
-    use faststrip_normal_certificate, only: certificate_t, certify_strips, richardson_estimate
+    use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips, &
+                                                     richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
     use faststrip_contact_case, only: contact_case_t

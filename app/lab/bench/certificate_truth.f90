@@ -9,7 +9,7 @@ module faststrip_lab_bench_certificate_truth
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &

@@ -11,7 +11,7 @@ module faststrip_lab_bench_correction
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_ellipse
-    use faststrip_normal_hertz, only: hertz_t, hertz_strips
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients

@@ -74,27 +74,27 @@ contains
     end subroutine bench_examples
 
     !> The methods behind a label.
-    subroutine choose(m, case)
+    subroutine choose(m, contact)
         integer, intent(in) :: m
-        type(prepared_case_t), intent(inout) :: case
+        type(prepared_case_t), intent(inout) :: contact
 
         real(wp), parameter :: never_met = 1.0e-9_wp
 
-        case%methods = contact_methods_t()
-        case%wanted = wanted_t()
-        case%asked%times = .true.
+        contact%methods = contact_methods_t()
+        contact%wanted = wanted_t()
+        contact%asked%times = .true.
         select case (m)
         case (1)
-            case%methods%normal = normal_auto
-            case%wanted%tolerance = never_met
+            contact%methods%normal = normal_auto
+            contact%wanted%tolerance = never_met
         case (2)
-            case%methods%normal = normal_hertz
-            case%methods%tangential = tangential_linear
+            contact%methods%normal = normal_hertz
+            contact%methods%tangential = tangential_linear
         case (3)
-            case%methods%normal = normal_hertz
-            case%methods%tangential = tangential_fastsim
+            contact%methods%normal = normal_hertz
+            contact%methods%tangential = tangential_fastsim
         case (5)
-            case%methods%normal = normal_auto
+            contact%methods%normal = normal_auto
         end select
     end subroutine choose
 end module faststrip_lab_bench_examples

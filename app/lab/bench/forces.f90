@@ -15,7 +15,7 @@ module faststrip_lab_bench_forces
                                    end_row, close_csv
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
-    use faststrip_normal_hertz, only: hertz_strips
+    use faststrip_normal_simple_hertz, only: hertz_strips
     use faststrip_files_gap, only: read_gap_file
     use faststrip_lab_bench_cases, only: read_columns
     use faststrip_command_console, only: fail_on_error, note, put_origin

@@ -8,8 +8,8 @@ module faststrip_lab_bench_method_list
     use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
     use faststrip_contact_wanted, only: target_number, target_names
     use faststrip_command_methods, only: settings_t, check_settings, settle_wanted, one_of
-    use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, normal_table, &
-                                         tangential_table
+    use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
+                                         normal_table, tangential_table
     implicit none
     private
 

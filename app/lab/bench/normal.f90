@@ -22,7 +22,7 @@ module faststrip_lab_bench_normal
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve_gap
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve_gap
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips

@@ -12,8 +12,8 @@ module faststrip_lab_bench_robust
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
-    use faststrip_normal_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, strips_auto, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve_demand
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips

@@ -137,8 +137,10 @@ contains
                 call put_cell(writer, case%name)
                 call put_cell(writer, entry%stage)
                 call put_cell(writer, entry%name)
-                call put_cell(writer, trim(normal_method_name(entry%settings%methods%normal)))
-                call put_cell(writer, trim(tangential_method_name(entry%settings%methods%tangential)))
+                associate (methods => entry%settings%methods)
+                    call put_cell(writer, trim(normal_method_name(methods%normal)))
+                    call put_cell(writer, trim(tangential_method_name(methods%tangential)))
+                end associate
                 call put_cell(writer, trim(status_word(status%code)))
                 if (runs == 0) then
                     call put_cell(writer, '')

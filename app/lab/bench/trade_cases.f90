@@ -143,7 +143,7 @@ contains
     end subroutine read_scene_cases
 
     !> The curvatures under which a load makes a given ellipse, and the penetration
-    !> (`faststrip_normal_hertz`, read backwards).
+    !> (`faststrip_normal_simple_hertz`, read backwards).
     pure subroutine ellipse_gap(a, b, load_compliance, inv2r_x, inv2r_y, penetration)
         real(wp), intent(in) :: a, b            ! semi-axes, mm
         real(wp), intent(in) :: load_compliance ! Q H, mm2

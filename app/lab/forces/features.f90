@@ -11,9 +11,9 @@ module faststrip_lab_forces_features
     use faststrip_contact_methods, only: most_strips
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_lab_pressures, only: solve_pressures
-    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_sub_patches, only: has_neck
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_fastsim, only: fastsim_strips_solve

@@ -6,7 +6,7 @@ module faststrip_lab_forces_gaps
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
     use faststrip_lab_fuzz_gaps, only: random_t, uniform, log_uniform, chance, pick
     implicit none

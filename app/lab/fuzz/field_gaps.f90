@@ -8,7 +8,7 @@ module faststrip_lab_fuzz_field_gaps
     use faststrip_base_status, only: status_t
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_lab_fuzz_gaps, only: fuzz_case_t, random_t, start_random, uniform, &
                                        log_uniform, chance, pick, normal
     implicit none

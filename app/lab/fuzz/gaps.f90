@@ -10,7 +10,7 @@ module faststrip_lab_fuzz_gaps
     use faststrip_base_status, only: status_t
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_contact_case, only: contact_case_t
     implicit none
     private

@@ -12,7 +12,7 @@ module faststrip_lab_promises_contacts
     use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_hertz_cases

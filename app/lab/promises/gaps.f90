@@ -9,7 +9,7 @@ module faststrip_lab_promises_gaps
     use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_smoothing, only: smooth_gap
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_lab_forces_gaps, only: curvature_ratio
     use faststrip_lab_fuzz_gaps, only: random_t, uniform, log_uniform, chance, normal, &
                                        draw_family_gap, family_names

@@ -23,7 +23,7 @@ module faststrip_lab_promises_truth
     use faststrip_kalker_normal_rows, only: rows_as_strips, count_rows
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
-    use faststrip_normal_patch_ellipse, only: patch_end
+    use faststrip_normal_simple_patch_ellipse, only: patch_end
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t

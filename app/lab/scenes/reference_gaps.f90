@@ -4,7 +4,7 @@ module faststrip_lab_scenes_reference_gaps
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_contact_case, only: contact_case_t

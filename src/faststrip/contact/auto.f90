@@ -17,7 +17,7 @@ module faststrip_contact_auto
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument, st_workspace_too_small, st_more_strips, &
                                      st_fewer_strips
-    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: estimate_force_errors, &

@@ -7,9 +7,9 @@ module faststrip_contact_target
     use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t
-    use faststrip_contact_wanted, only: unknown_error, target_forces, target_pmax, target_penetration, &
-                                        target_area, target_power, target_names, wanted_t, &
-                                        needs_forces
+    use faststrip_contact_wanted, only: unknown_error, target_forces, target_pmax, &
+                                        target_penetration, target_area, target_power, &
+                                        target_names, wanted_t, needs_forces
     implicit none
     private
 

@@ -6,7 +6,7 @@ module faststrip_interop_classic
     use faststrip_base_material, only: material_t, check_material, normal_compliance
     use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_normal_hertz, only: hertz_t, hertz_solve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_tangential_fastsim, only: fastsim_coefficients_solve
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t

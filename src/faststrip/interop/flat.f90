@@ -154,8 +154,8 @@ contains
                        tangential%friction_power, tangential%stick_fraction]
             counts = [normal%n_patches, &
                       merge(handle%workspace%strips%n, 0, normal%n_patches > 0), &
-                      handle%workspace%field%n, normal%iterations, merge(1, 0, handle%result%is_estimated), &
-                      normal%strips_across]
+                      handle%workspace%field%n, normal%iterations, &
+                      merge(1, 0, handle%result%is_estimated), normal%strips_across]
             errors = [certificate%est_err_penetration, certificate%est_err_pmax, &
                       certificate%est_err_area, certificate%residual_inside, &
                       certificate%overlap_outside]

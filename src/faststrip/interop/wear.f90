@@ -41,8 +41,8 @@ contains
             call check_strip_forces(handle%workspace%methods%tangential, handle%status)
         if (.not. is_error(handle%status)) &
             call contact_figures(handle%result, handle%case%creepage, yield_shear, &
-                                 handle%workspace%strips, handle%workspace%strip_forces, handle%wear, &
-                                 figures, handle%status)
+                                 handle%workspace%strips, handle%workspace%strip_forces, &
+                                 handle%wear, figures, handle%status)
         call restore_environment(environment)
     end subroutine contact_wear
 

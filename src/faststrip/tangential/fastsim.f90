@@ -46,12 +46,12 @@ module faststrip_tangential_fastsim
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
-    use faststrip_normal_hertz, only: hertz_t
+    use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_motion, only: check_motion, check_ellipse
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
-                                              check_strips
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                                     check_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, stick_share, state_adhesion, &
                                           state_slip

@@ -78,8 +78,8 @@ module faststrip_tangential_faststrip
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls
     use faststrip_normal_strips, only: contact_strips_t, strip_load
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
-                                              check_strips
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                                     check_strips
     use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
                                             next_sub_patch, all_parted, all_joined
     use faststrip_tangential_motion, only: check_motion

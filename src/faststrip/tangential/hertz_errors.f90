@@ -2,7 +2,7 @@
 !>
 !> A method's own estimate (`faststrip_tangential_force_errors`) knows the ellipse it was given.
 !> What Hertz does not see of the contact's shape comes on top, from what the gap differs from
-!> Hertz's parabola by (`faststrip_normal_misfit`; e its rise): with
+!> Hertz's parabola by (`faststrip_normal_estimate_misfit`; e its rise): with
 !>
 !>     g = (|mean| + magnitude)/e + overlap,  o = |odd|/e,  q = aside,  s(u) = u/(u + 1/4)
 !>
@@ -15,15 +15,15 @@
 !> A patch that lies beside its ellipse (o), or a second one beside it (q), turns spin into
 !> longitudinal creepage, the more the wider it is. The factors bound 95 % of the differences of
 !> FASTSTRIP's forces on the ellipse and on 31 strips, of the gaps of
-!> `faststrip_normal_hertz_certificate` with six creepages each.
+!> `faststrip_normal_estimate_hertz_certificate` with six creepages each.
 module faststrip_tangential_hertz_errors
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
-    use faststrip_normal_hertz, only: hertz_t
-    use faststrip_normal_misfit, only: misfit_t
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t
+    use faststrip_normal_simple_hertz, only: hertz_t
+    use faststrip_normal_estimate_misfit, only: misfit_t
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_patch_law, only: patch_law_t, find_law
     implicit none

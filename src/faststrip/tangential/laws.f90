@@ -47,9 +47,9 @@ module faststrip_tangential_laws
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_hertz, only: hertz_t
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
-                                              check_strips
+    use faststrip_normal_simple_hertz, only: hertz_t
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
+                                                     check_strips
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, check_ellipse, over_force

@@ -5,7 +5,7 @@ module faststrip_tangential_motion
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_hertz, only: hertz_t
+    use faststrip_normal_simple_hertz, only: hertz_t
     implicit none
     private
 

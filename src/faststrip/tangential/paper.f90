@@ -37,7 +37,8 @@ module faststrip_tangential_paper
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_patch_ellipse, only: patch_end, check_strips, most_slender, least_carried
+    use faststrip_normal_simple_patch_ellipse, only: patch_end, check_strips, most_slender, &
+                                                     least_carried
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion

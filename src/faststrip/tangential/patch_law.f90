@@ -7,7 +7,7 @@ module faststrip_tangential_patch_law
     use faststrip_base_creepage, only: creepage_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: over_force
-    use faststrip_normal_patch_ellipse, only: patch_ellipse_t
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t
     implicit none
     private
 

@@ -2,9 +2,9 @@
 module faststrip_contact_method_approximate
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, clear_status, is_error
-    use faststrip_normal_analyn, only: analyn_solve
-    use faststrip_normal_kpec, only: kpec_solve
-    use faststrip_normal_kpec_strips, only: kpec_strips_solve
+    use faststrip_normal_simple_analyn, only: analyn_solve
+    use faststrip_normal_simple_kpec, only: kpec_solve
+    use faststrip_normal_simple_kpec_strips, only: kpec_strips_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t

@@ -5,10 +5,10 @@ module faststrip_contact_method_hertz
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_normal_hertz, only: hertz_solve_gap_demand, hertz_strips
-    use faststrip_normal_hertz_certificate, only: certify_hertz
+    use faststrip_normal_simple_hertz, only: hertz_solve_gap_demand, hertz_strips
+    use faststrip_normal_estimate_hertz_certificate, only: certify_hertz
     use faststrip_normal_limitations, only: check_lowest, name_resolution, name_steps
-    use faststrip_normal_misfit, only: misfit_t, find_misfit
+    use faststrip_normal_estimate_misfit, only: misfit_t, find_misfit
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_hertz_errors, only: add_hertz_errors

@@ -1,5 +1,5 @@
-!> How wrong forces of the core's methods are: what those with a march in a patch share, and what all
-!> of them leave out.
+!> How wrong forces of the core's methods are: what those with a march in a patch share, and what
+!> all of them leave out.
 module faststrip_contact_method_march_errors
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: falls, softened
@@ -7,7 +7,7 @@ module faststrip_contact_method_march_errors
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, is_error, st_under_resolved
     use faststrip_influence_rectangle, only: coupling_constant
-    use faststrip_normal_certificate, only: certificate_t
+    use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_limitations, only: name_force_resolution, add_limitation
     use faststrip_tangential_force_errors, only: estimate_force_errors
     use faststrip_tangential_motion, only: cut_creepage

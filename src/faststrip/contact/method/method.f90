@@ -10,8 +10,8 @@ module faststrip_contact_method
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
-    use faststrip_normal_certificate, only: certificate_t
-    use faststrip_normal_hertz, only: hertz_t
+    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t

@@ -3,7 +3,7 @@ module faststrip_contact_method_strip
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, clear_status, is_error, message_length, &
                                      st_under_resolved
-    use faststrip_normal_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_simple_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_limitations, only: name_resolution, add_limitation
     use faststrip_normal_strip, only: strip_options_t, strip_solve_demand, estimate_strips
     use faststrip_normal_types, only: normal_result_t

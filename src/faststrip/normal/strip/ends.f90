@@ -1,0 +1,460 @@
+!> Where the patches of a strip solution end: ends move to where the strips run out, and places
+!> that the deformed surfaces have closed join in.
+module faststrip_normal_strip_ends
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_influence_closed, only: strip_influence_edges
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals, valley_below
+    use faststrip_normal_cells_overlap, only: overlap_tolerance
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
+                                              take_in, sort_patches, join_met_patches
+    use faststrip_normal_strip_state, only: strip_workspace_t, flattest
+    implicit none
+    private
+
+    public :: move_ends, part_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
+    public :: farthest_out
+
+    !> How far an end may be carried on, inwards and outwards.
+    !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
+    real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
+
+    ! Tuned [points]. Origin: capacity.
+    integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
+    ! Tuned [steps]: by which an edge of an overlap is sought. Origin: chosen: a few percent of the
+    ! scan's spacing.
+    integer, parameter :: halvings = 5
+    ! Tuned [passes]. Origin: chosen against ends that swing.
+    integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
+    ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
+    ! swing.
+    real(wp), parameter :: damping = 0.6_wp
+    ! Tuned [strip widths]. Origin: chosen.
+    real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
+    ! Tuned [1]. Origin: a round contact between plane strain and a needle.
+    real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
+    ! Tuned [strips]. Origin: chosen for the patch ends of many strips.
+    integer, parameter :: fine_patch = 24    ! from so many strips on an end is carried on from
+    ! Tuned [doublings]: most of the step that an end may take towards "too far". Origin: safeguard:
+    ! powers of two cannot overflow.
+    integer, parameter :: most_pushes = 20
+                                             ! strips further apart
+
+contains
+
+    !> Move the ends of all patches to where the squared strip length vanishes.
+    pure subroutine move_ends(workspace, pass, patches, move)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: pass
+        type(patches_t), intent(inout) :: patches
+        real(wp), intent(out) :: move !! largest move, in units of `end_width`
+
+        real(wp) :: factor, step, width, y_low, y_high
+        integer :: p, first, last, stride
+        logical :: shares
+
+        factor = 1.0_wp
+        if (pass >= damped_pass) factor = damping
+        y_low = workspace%curve%y(1)
+        y_high = workspace%curve%y(workspace%curve%n)
+        move = 0.0_wp
+        last = 0
+        shares = .false.
+        do p = 1, patches%n
+            first = last + 1
+            last = last + patches%at(p)%n_strips
+            associate (patch => patches%at(p))
+                stride = end_stride(patch%n_strips)
+                if (.not. shares) then
+                    width = end_width(workspace, first, stride)
+                    step = factor*end_step(workspace, first, 1, stride)*width
+                    step = min(step, patch%y_from - y_low)
+                    call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, &
+                                   step)
+                    patch%y_from = patch%y_from - step
+                    move = max(move, abs(step)/width)
+                end if
+                shares = patch%meets_next
+                if (shares) then
+                    call move_shared_end(workspace, factor, last, patch, patches%at(p + 1), move)
+                    cycle
+                end if
+                width = end_width(workspace, last, stride)
+                step = factor*end_step(workspace, last, -1, stride)*width
+                step = min(step, y_high - patch%y_to)
+                call hold_back(width, patch%too_far_to - patch%y_to, patch%pushes_to, step)
+                patch%y_to = patch%y_to + step
+                move = max(move, abs(step)/width)
+            end associate
+        end do
+    end subroutine move_ends
+
+    !> Move the end that two patches share to where both want to go on as far; or apart, where both
+    !> together want to draw back.
+    pure subroutine move_shared_end(workspace, factor, last, patch, next, move)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: factor        ! of the steps
+        integer, intent(in) :: last           ! strip of the left patch
+        type(patch_t), intent(inout) :: patch ! the left one
+        type(patch_t), intent(inout) :: next  ! and that beside it
+        real(wp), intent(inout) :: move       ! largest so far, in widths
+
+        real(wp) :: to, from, width_to, width_from
+
+        call shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
+        to = factor*to
+        from = factor*from
+        if (to + from >= 0.0_wp) then
+            to = 0.5_wp*(to - from)
+            from = -to
+        end if
+        patch%y_to = patch%y_to + to
+        next%y_from = next%y_from - from
+        if (to + from >= 0.0_wp) then
+            next%y_from = patch%y_to
+        else
+            move = max(move, abs(to)/width_to, abs(from)/width_from)
+        end if
+    end subroutine move_shared_end
+
+    !> Part patches that share an end from which both together want to draw back.
+    pure subroutine part_ends(workspace, tolerance, patches, parted)
+        type(strip_workspace_t), intent(in) :: workspace !! with their strips
+        real(wp), intent(in) :: tolerance                !! not by less than this, strip widths
+        type(patches_t), intent(inout) :: patches        !! the ends of those parted are moved
+        logical, intent(out) :: parted                   !! any
+
+        real(wp) :: to, from, width_to, width_from
+        integer :: p, last
+
+        parted = .false.
+        last = 0
+        do p = 1, patches%n - 1
+            last = last + patches%at(p)%n_strips
+            if (.not. patches%at(p)%meets_next) cycle
+            call shared_steps(workspace, patches%at(p), patches%at(p + 1), last, to, from, &
+                              width_to, width_from)
+            if (to + from >= -tolerance*min(width_to, width_from)) cycle
+            patches%at(p)%y_to = patches%at(p)%y_to + to
+            patches%at(p + 1)%y_from = patches%at(p + 1)%y_from - from
+            patches%at(p)%meets_next = .false.
+            parted = .true.
+        end do
+    end subroutine part_ends
+
+    !> How far both sides of a shared end want to go on, and widths there, mm.
+    pure subroutine shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(patch_t), intent(in) :: patch, next ! side by side
+        integer, intent(in) :: last              ! strip of the left one
+        real(wp), intent(out) :: to, from, width_to, width_from
+
+        integer :: stride
+
+        stride = end_stride(patch%n_strips)
+        width_to = end_width(workspace, last, stride)
+        to = end_step(workspace, last, -1, stride)*width_to
+        stride = end_stride(next%n_strips)
+        width_from = end_width(workspace, last + 1, stride)
+        from = end_step(workspace, last + 1, 1, stride)*width_from
+    end subroutine shared_steps
+
+    !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
+    !> the less the place counts: everything else may have moved since.
+    pure subroutine hold_back(width, space, pushes, step)
+        real(wp), intent(in) :: width    ! of the end strip, mm
+        real(wp), intent(in) :: space     ! from the end to the place that was too far, mm
+        integer, intent(inout) :: pushes ! how often the end has pushed against it
+        real(wp), intent(inout) :: step  ! how far the end moves out, mm
+
+        real(wp) :: most
+
+        most = 0.5_wp*space + forget*width*(2.0_wp**pushes - 1.0_wp)
+        if (step <= most) return
+        step = most
+        pushes = min(pushes + 1, most_pushes)
+    end subroutine hold_back
+
+    !> How many strips apart the three strips are from which an end is carried on.
+    pure integer function end_stride(n_strips)
+        integer, intent(in) :: n_strips !! of the patch
+
+        end_stride = max(1, n_strips/fine_patch)
+    end function end_stride
+
+    !> The measure of an end's moves, mm: the width of the end strip, of several in a fine patch.
+    pure real(wp) function end_width(workspace, k, stride) result(width)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: k      !! the end strip
+        integer, intent(in) :: stride !! of `end_stride`
+
+        width = stride*(workspace%strips%y_right(k) - workspace%strips%y_left(k))
+    end function end_width
+
+    !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
+    pure real(wp) function end_step(workspace, k, inward, stride) result(step)
+        type(strip_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: k      !! the end strip
+        integer, intent(in) :: inward !! 1 at a left end, -1 at a right end
+        integer, intent(in) :: stride !! strips from one of the three strips to the next
+
+        real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s
+        integer :: j
+
+        width = end_width(workspace, k, stride)
+        do j = 1, 3
+            associate (i => k + (j - 1)*stride*inward)
+                y(j) = 0.5_wp*(workspace%strips%y_left(i) + workspace%strips%y_right(i))/width
+                q(j) = (workspace%strips%half_length(i)/workspace%strips%half_length(k))**2 &
+                       *(workspace%strips%inv2r(i)/workspace%strips%inv2r(k))
+            end associate
+        end do
+        ! q(s) = 1 + b s + bend s^2 with s from the end strip's middle outwards.
+        d2 = abs(y(2) - y(1))
+        d3 = abs(y(3) - y(1))
+        slope = (q(1) - q(2))/d2
+        bend = (slope - (q(2) - q(3))/(d3 - d2))/d3
+        b = slope + bend*d2
+        discriminant = b*b - 4.0_wp*bend
+        s = 0.5_wp/stride + farthest_out
+        if (discriminant >= 0.0_wp .and. b < 0.0_wp) then
+            s = 2.0_wp/(sqrt(discriminant) - b)
+        else if (bend < 0.0_wp) then
+            s = -(b + sqrt(discriminant))/(2.0_wp*bend)
+        else if (q(2) > 1.0_wp) then
+            ! A long tail, as between two patches about to meet: xd itself runs out evenly. Both
+            ! rules agree where the quadratic has a double root.
+            s = d2/(sqrt(q(2)) - 1.0_wp)
+        end if
+        step = max(farthest_in, min(farthest_out, s - 0.5_wp/stride))
+    end function end_step
+
+    !> Find places outside the patches where the deformed surfaces would overlap, and patches that
+    !> have met: add, extend or merge patches.
+    pure subroutine close_overlaps(workspace, compliance, penetration, may_merge, patches, changed)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration
+        logical, intent(in) :: may_merge
+        type(patches_t), intent(inout) :: patches
+        logical, intent(out) :: changed
+
+        real(wp) :: y_from(4*max_patches), y_to(4*max_patches), low, high, width
+        integer :: i, n, p
+        type(patches_t) :: solved
+
+        changed = .false.
+        solved = patches
+        width = maxval((patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from) &
+                       /patches%at(:patches%n)%n_strips)
+        call level_intervals(workspace%curve, workspace%curve%h_lowest + penetration, y_from, &
+                             y_to, n)
+        do i = 1, n
+            low = y_from(i)
+            do p = 1, solved%n
+                if (solved%at(p)%y_to <= low .or. solved%at(p)%y_from >= y_to(i)) cycle
+                high = solved%at(p)%y_from
+                if (high > low) call scan(workspace, compliance, penetration, low, high, width, &
+                                          patches, changed)
+                low = max(low, solved%at(p)%y_to)
+            end do
+            if (y_to(i) > low) call scan(workspace, compliance, penetration, low, y_to(i), &
+                                         width, patches, changed)
+        end do
+        call sort_patches(patches)
+        call join_met_patches(may_merge, patches, changed)
+    end subroutine close_overlaps
+
+    !> Scan one stretch outside the patches for overlap.
+    pure subroutine scan(workspace, compliance, penetration, low, high, width, patches, changed)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, low, high, width
+        type(patches_t), intent(inout) :: patches
+        logical, intent(inout) :: changed
+
+        real(wp) :: y, dy, depth, deepest, h, inv2r
+        integer :: j, m, from
+        type(patch_t) :: seed
+
+        m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
+        dy = (high - low)/m
+        from = 0
+        deepest = 0.0_wp
+        do j = 1, m + 1
+            depth = 0.0_wp
+            if (j <= m) depth = depth_at(workspace, compliance, penetration, &
+                                         low + (j - 0.5_wp)*dy)
+            if (depth > overlap_tolerance*penetration) then
+                if (from == 0) from = j
+                deepest = max(deepest, depth)
+            else if (from > 0) then
+                seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
+                ! One that reaches no end of the stretch may become a patch: where is it?
+                if (from > 1 .and. j <= m) then
+                    y = low + (from - 0.5_wp)*dy
+                    call find_edge(workspace, compliance, penetration, y, y - dy, deepest, &
+                                   seed%y_from)
+                    y = low + (j - 0.5_wp)*dy
+                    call find_edge(workspace, compliance, penetration, y - dy, y, deepest, &
+                                   seed%y_to)
+                end if
+                call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
+                inv2r = max(inv2r, flattest)
+                seed%seed_length = sqrt(deepest/inv2r)
+                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
+                                     /(pi*compliance)
+                call take_in(seed, low, high, dy, patches, changed)
+                from = 0
+                deepest = 0.0_wp
+            end if
+        end do
+    end subroutine scan
+
+    !> Halve the way between a place that overlaps and one that does not.
+    pure subroutine find_edge(workspace, compliance, penetration, inside, outside, deepest, edge)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, inside, outside
+        real(wp), intent(inout) :: deepest ! overlap found
+        real(wp), intent(inout) :: edge    ! of the overlap
+
+        real(wp) :: overlaps, clear, depth
+        integer :: i
+
+        overlaps = inside
+        clear = outside
+        do i = 1, halvings
+            edge = 0.5_wp*(overlaps + clear)
+            depth = depth_at(workspace, compliance, penetration, edge)
+            deepest = max(deepest, depth)
+            if (depth > overlap_tolerance*penetration) then
+                overlaps = edge
+            else
+                clear = edge
+            end if
+        end do
+        edge = 0.5_wp*(overlaps + clear)
+    end subroutine find_edge
+
+    !> Overlap of the surfaces that the strips of the last pass deform, mm.
+    pure real(wp) function depth_at(workspace, compliance, penetration, y) result(depth)
+        type(strip_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: compliance, penetration, y
+
+        integer :: n
+
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        associate (strips => workspace%strips)
+            depth = overlap_depth(workspace%curve, compliance, penetration, strips%y_left(:n), &
+                                  strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
+        end associate
+    end function depth_at
+
+    !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
+    !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and
+    !> next
+    !> to the ends of the patches.
+    pure real(wp) function overlap_left(curve, compliance, penetration, strips) result(largest)
+        type(gap_curve_t), intent(in) :: curve       !! the gap
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: penetration          !! above the lowest height, mm
+        type(contact_strips_t), intent(in) :: strips !! a solution
+
+        ! Distances from an end, in widths of the end strip
+        ! Tuned [strip widths]. Origin: chosen.
+        real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
+        ! Tuned [1]. Origin: chosen.
+        real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
+        real(wp) :: depth, width
+        integer :: j, k
+
+        ! A valley may be cut off by the end of the points.
+        depth = max(overlap_outside(curve, compliance, penetration, strips, curve%y(1)), &
+                    overlap_outside(curve, compliance, penetration, strips, curve%y(curve%n)))
+        ! Higher ones cannot overlap.
+        j = 1
+        do
+            j = valley_below(curve, curve%h_lowest + penetration, j + 1)
+            if (j > curve%n_pieces) exit
+            depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
+                                               curve%y_node(j)))
+        end do
+        do k = 1, strips%n
+            width = strips%y_right(k) - strips%y_left(k)
+            if (is_end(strips, k, k - 1)) then
+                do j = 1, size(beside)
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
+                                                             strips, &
+                                                             strips%y_left(k) - beside(j)*width))
+                end do
+            end if
+            if (is_end(strips, k, k + 1)) then
+                do j = 1, size(beside)
+                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
+                                                             strips, &
+                                                             strips%y_right(k) + beside(j)*width))
+                end do
+            end if
+        end do
+        largest = depth/penetration
+    end function overlap_left
+
+    !> Does a patch end between two neighbouring strips?
+    pure logical function is_end(strips, k, neighbour)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k, neighbour
+
+        is_end = neighbour < 1 .or. neighbour > strips%n
+        if (.not. is_end) is_end = strips%patch(k) /= strips%patch(neighbour)
+    end function is_end
+
+    !> Overlap at a point, mm; zero in a patch and where the gap has no points.
+    pure real(wp) function overlap_outside(curve, compliance, penetration, strips, y) result(depth)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, penetration, y
+        type(contact_strips_t), intent(in) :: strips
+
+        integer :: n
+
+        depth = 0.0_wp
+        n = strips%n
+        if (y < curve%y(1) .or. y > curve%y(curve%n)) return
+        if (any(strips%y_left(:n) <= y .and. strips%y_right(:n) >= y)) return
+        depth = overlap_depth(curve, compliance, penetration, strips%y_left(:n), &
+                              strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
+    end function overlap_outside
+
+    !> By how much the deformed surfaces overlap at a point outside the patches, mm; negative where
+    !> they are apart, at least by that.
+    pure real(wp) function overlap_depth(curve, compliance, penetration, y_left, y_right, p0, &
+                                         half_length, y) result(depth)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: compliance, penetration, y_left(:), y_right(:), p0(:), &
+                                half_length(:), y
+
+        real(wp) :: h, inv2r, undeformed, displacement, least, width, middle
+        integer :: s
+
+        call gap_at(curve, y, h, inv2r)
+        undeformed = penetration - (h - curve%h_lowest)
+        depth = undeformed
+        if (depth <= 0.0_wp) return
+        ! Mostly a bound tells that there is no overlap: the mean of 1/r is not less than
+        ! 1/sqrt(mean of r^2) (Jensen), and the mean of x^2 is xd^2/4, that of a width w^2/12.
+        least = 0.0_wp
+        do s = 1, size(p0)
+            width = y_right(s) - y_left(s)
+            middle = 0.5_wp*(y_left(s) + y_right(s)) - y
+            ! Given: moment of a width
+            least = least + p0(s)*half_length(s)*width &
+                    /sqrt(0.25_wp*half_length(s)**2 + middle**2 + width**2/12.0_wp)
+        end do
+        depth = undeformed - 0.5_wp*pi*compliance*least
+        if (depth <= 0.0_wp) return
+        displacement = 0.0_wp
+        do s = 1, size(p0)
+            displacement = displacement + compliance*p0(s)*half_length(s) &
+                           *strip_influence_edges((y_left(s) - y)/half_length(s), &
+                                                  (y_right(s) - y)/half_length(s))
+        end do
+        depth = undeformed - displacement
+    end function overlap_depth
+end module faststrip_normal_strip_ends
