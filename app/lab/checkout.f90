@@ -1,6 +1,6 @@
 !> Where the checkout is that the laboratory works in.
 module faststrip_lab_checkout
-    use faststrip_command_system, only: resolved
+    use faststrip_command_program_system, only: resolved
     implicit none
     private
 

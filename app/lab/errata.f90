@@ -31,8 +31,8 @@ module faststrip_lab_errata
                                         literal_offcentre_influence, center_pressures
     use faststrip_tangential_paper, only: march_reading_t, march_sum_t, printed_march
     use faststrip_tables_printed_integral, only: printed_influence, rule_qags, rule_cquad
-    use faststrip_command_console, only: fail_on_error, put_origin, say
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text
+    use faststrip_command_program_console, only: fail_on_error, put_origin, say
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
     implicit none
     private
 

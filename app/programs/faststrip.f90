@@ -1,20 +1,21 @@
 !> The command line of faststrip.
 program faststrip_main
-    use faststrip_command_console, only: say, usage_error, version_text
-    use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
-    use faststrip_command_files, only: clear_leftovers
-    use faststrip_command_integral, only: run_integral
+    use faststrip_command_program_console, only: say, usage_error, version_text
+    use faststrip_command_program_options, only: command_argument, need_nothing_more, &
+                                                 refuse_subcommand
+    use faststrip_command_program_files, only: clear_leftovers
+    use faststrip_command_table_integral, only: run_integral
     use faststrip_command_contact, only: run_contact
     use faststrip_command_batch, only: run_batch
-    use faststrip_command_merge, only: run_merge
-    use faststrip_command_sweep, only: run_sweep
+    use faststrip_command_batch_merge, only: run_merge
+    use faststrip_command_contact_sweep, only: run_sweep
     use faststrip_command_table, only: run_table
     use faststrip_command_profile, only: run_profile
     use faststrip_command_wheelset, only: run_wheelset
-    use faststrip_command_conicity, only: run_conicity
-    use faststrip_command_netcdf, only: run_netcdf
-    use faststrip_command_netcdf_file, only: finish_as_asked
-    use faststrip_command_explore, only: run_explore
+    use faststrip_command_wheelset_conicity, only: run_conicity
+    use faststrip_command_program_netcdf, only: run_netcdf
+    use faststrip_command_program_netcdf_file, only: finish_as_asked
+    use faststrip_command_program_explore, only: run_explore
     use faststrip_command_lookup, only: run_lookup
     implicit none
 

@@ -1,8 +1,9 @@
 !> The command line of the laboratory: what measures and tries faststrip inside its own checkout.
 program faststrip_lab
-    use faststrip_command_console, only: say, usage_error, version_text, name_program
-    use faststrip_command_options, only: command_argument, need_nothing_more, refuse_subcommand
-    use faststrip_command_files, only: clear_leftovers
+    use faststrip_command_program_console, only: say, usage_error, version_text, name_program
+    use faststrip_command_program_options, only: command_argument, need_nothing_more, &
+                                                 refuse_subcommand
+    use faststrip_command_program_files, only: clear_leftovers
     use faststrip_lab_fuzz, only: run_fuzz
     use faststrip_lab_errata, only: run_errata
     use faststrip_lab_forces_data, only: run_force_data

@@ -18,7 +18,7 @@ SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"her
 # forces, studies of one method, references by Kalker's methods.
 STUDIES = {
     "src/faststrip/interop/classic.f90",
-    "app/command/lookup_direct.f90",
+    "app/command/lookup/direct.f90",
     *(f"app/lab/{path}.f90" for path in (
         "bench/accuracy", "bench/certificate", "bench/certificate_truth", "bench/convergence",
         "bench/correction", "bench/extremes_noise", "bench/extremes_normal", "bench/kalker",

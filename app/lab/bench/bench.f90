@@ -1,10 +1,11 @@
 !> `faststrip-lab bench`: what things cost and how accurate they are.
 module faststrip_lab_bench
     use faststrip_base_kinds, only: wp
-    use faststrip_command_console, only: usage_error
-    use faststrip_command_files, only: take_input
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
-                                         option_integer, option_number, option_word
+    use faststrip_command_program_console, only: usage_error
+    use faststrip_command_program_files, only: take_input
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
+                                                 option_text, option_integer, option_number, &
+                                                 option_word
     use faststrip_lab_bench_integral, only: bench_integral
     use faststrip_lab_bench_normal, only: bench_normal, bench_normal_most_strips
     use faststrip_lab_bench_steps, only: bench_steps

@@ -35,7 +35,7 @@ module faststrip_lab_bench_certificate
                                                      print_tally, figures, n_figures
     use faststrip_lab_bench_certificate_truth, only: truth_t, find_truth, is_certain, &
                                                      elements_along, elements_across
-    use faststrip_command_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_lab_checkout, only: in_checkout
     implicit none

@@ -2,7 +2,7 @@
 module faststrip_lab_bench_certificate_tally
     use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: integer_text
-    use faststrip_command_console, only: say
+    use faststrip_command_program_console, only: say
     implicit none
     private
 

@@ -12,7 +12,7 @@ module faststrip_lab_bench_convergence
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_ellipse, only: make_ellipse
-    use faststrip_command_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
     implicit none
     private
 

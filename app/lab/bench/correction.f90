@@ -16,7 +16,7 @@ module faststrip_lab_bench_correction
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_command_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
     implicit none
     private
 

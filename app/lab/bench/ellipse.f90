@@ -7,7 +7,7 @@ module faststrip_lab_bench_ellipse
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_command_console, only: fail_on_error
+    use faststrip_command_program_console, only: fail_on_error
     implicit none
     private
 

@@ -1,9 +1,9 @@
 !> The cases of example/cases.
 module faststrip_lab_bench_example_cases
     use faststrip_base_status, only: status_t
-    use faststrip_command_case_file, only: case_t, read_case
-    use faststrip_command_console, only: fail_on_error
-    use faststrip_command_prepared_case, only: prepared_case_t, prepare_case
+    use faststrip_command_settings_case_file, only: case_t, read_case
+    use faststrip_command_program_console, only: fail_on_error
+    use faststrip_command_contact_prepared_case, only: prepared_case_t, prepare_case
     implicit none
     private
 

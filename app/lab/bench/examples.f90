@@ -4,16 +4,16 @@ module faststrip_lab_bench_examples
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
     use faststrip_base_kinds, only: wp
-    use faststrip_command_case_file, only: case_t
-    use faststrip_command_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_settings_case_file, only: case_t
+    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_bench_example_cases, only: example_names, read_example
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, normal_auto, &
                                          tangential_linear, tangential_fastsim
     use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_wanted, only: wanted_t
-    use faststrip_command_result_csv, only: result_columns, put_result
-    use faststrip_command_prepared_case, only: prepared_case_t
-    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_command_rows_result_csv, only: result_columns, put_result
+    use faststrip_command_contact_prepared_case, only: prepared_case_t
+    use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
     private
 

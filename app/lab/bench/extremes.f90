@@ -9,7 +9,7 @@ module faststrip_lab_bench_extremes
     use faststrip_lab_bench_extremes_normal, only: normal_extremes
     use faststrip_lab_bench_extremes_rows, only: put_row_header
     use faststrip_lab_bench_extremes_tangential, only: tangential_extremes
-    use faststrip_command_console, only: fail_on_error, put_origin
+    use faststrip_command_program_console, only: fail_on_error, put_origin
     implicit none
     private
 

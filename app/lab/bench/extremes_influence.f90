@@ -16,7 +16,7 @@ module faststrip_lab_bench_extremes_influence
     use faststrip_influence_row, only: influence_column, influence_column_at
     use faststrip_tables_polynomials, only: basis_chebyshev, polynomial_value
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_command_console, only: fail_on_error, progress
+    use faststrip_command_program_console, only: fail_on_error, progress
     use faststrip_lab_bench_exact_influence, only: exact_influence, judge_name, qp
     implicit none
     private

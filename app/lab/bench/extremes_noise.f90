@@ -30,13 +30,13 @@ module faststrip_lab_bench_extremes_noise
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_command_case_file, only: case_t
+    use faststrip_command_settings_case_file, only: case_t
     use faststrip_lab_bench_example_cases, only: example_names, read_example
-    use faststrip_command_console, only: fail_on_error, progress
+    use faststrip_command_program_console, only: fail_on_error, progress
     use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_command_prepared_case, only: prepared_case_t
-    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_command_contact_prepared_case, only: prepared_case_t
+    use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
     private
 

@@ -15,7 +15,7 @@ module faststrip_lab_bench_extremes_normal
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_ellipse, only: make_ellipse, make_parabola
     use faststrip_lab_bench_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_command_console, only: fail_on_error, progress
+    use faststrip_command_program_console, only: fail_on_error, progress
     implicit none
     private
 

@@ -18,7 +18,7 @@ module faststrip_lab_bench_forces
     use faststrip_normal_simple_hertz, only: hertz_strips
     use faststrip_files_gap, only: read_gap_file
     use faststrip_lab_bench_cases, only: read_columns
-    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
     use faststrip_contact_method, only: workspace_t, contact_result_t

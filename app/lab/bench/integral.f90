@@ -19,9 +19,9 @@ module faststrip_lab_bench_integral
     use faststrip_influence_row, only: influence_column
     use faststrip_lab_bench_exact_influence, only: qp
     use faststrip_lab_bench_polynomials, only: power_of_ten_influence, power_of_ten_row
-    use faststrip_command_clock, only: median, spread_of
-    use faststrip_command_console, only: fail_on_error, put_origin
-    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_clock, only: median, spread_of
+    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
 

@@ -17,8 +17,8 @@ module faststrip_lab_bench_kalker
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang
-    use faststrip_command_clock, only: cpu_microseconds
-    use faststrip_command_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_clock, only: cpu_microseconds
+    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
     implicit none
     private
 

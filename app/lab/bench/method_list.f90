@@ -5,9 +5,9 @@ module faststrip_lab_bench_method_list
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, read_csv, require_column, column_index, cell_text, &
                                    cell_integer, cell_number
-    use faststrip_command_console, only: fail, fail_on_error, exit_bad_input
+    use faststrip_command_program_console, only: fail, fail_on_error, exit_bad_input
     use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_methods, only: settings_t, check_settings, settle_wanted, one_of
+    use faststrip_command_settings_methods, only: settings_t, check_settings, settle_wanted, one_of
     use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
                                          normal_table, tangential_table
     implicit none

@@ -30,10 +30,10 @@ module faststrip_lab_bench_normal
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_command_clock, only: microseconds, cpu_microseconds, median, spread_of, &
-                                       spread_text, spread_names, cpu_columns
-    use faststrip_command_console, only: fail_on_error, note, put_origin
-    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
+                                               spread_text, spread_names, cpu_columns
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
 

@@ -18,10 +18,10 @@ module faststrip_lab_bench_reference_tang
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
     use faststrip_lab_bench_cases, only: bench_case_t
-    use faststrip_command_clock, only: microseconds, cpu_microseconds, median, spread_of, &
-                                       spread_text, spread_names
-    use faststrip_command_console, only: fail_on_error, note
-    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
+                                               spread_text, spread_names
+    use faststrip_command_program_console, only: fail_on_error, note
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
 

@@ -20,7 +20,7 @@ module faststrip_lab_bench_robust
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
 

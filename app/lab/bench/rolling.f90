@@ -17,7 +17,7 @@ module faststrip_lab_bench_rolling
                                            edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_ellipse
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases, read_columns
-    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
 

@@ -21,10 +21,10 @@ module faststrip_lab_bench_speed
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_bench_speed_states, only: states_t, read_states, time_states, state_methods
-    use faststrip_command_clock, only: cpu_microseconds
-    use faststrip_command_console, only: fail_on_error, put_origin, progress
-    use faststrip_command_machine, only: cpu_name
-    use faststrip_command_solver, only: solver_t, ready_gap_t, new_solver, make_ready, solve
+    use faststrip_command_program_clock, only: cpu_microseconds
+    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_machine, only: cpu_name
+    use faststrip_command_contact_solver, only: solver_t, ready_gap_t, new_solver, make_ready, solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t, times_t
     use faststrip_contact_solve, only: solve_contact_forces

@@ -9,8 +9,8 @@ module faststrip_lab_bench_speed_states
                                         wheelset_demand_t, wheelset_result_t
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
     use faststrip_lab_checkout, only: in_checkout
-    use faststrip_command_clock, only: cpu_microseconds
-    use faststrip_command_console, only: fail_on_error
+    use faststrip_command_program_clock, only: cpu_microseconds
+    use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
     use faststrip_command_wheelset_states, only: given_state_t, state_columns_t, &
                                                  find_state_columns, read_state_row, take_state

@@ -20,8 +20,8 @@ module faststrip_lab_bench_steps
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_bench_normal, only: gap_of_shift
     use faststrip_lab_bench_trade_cases, only: trade_case_t, read_scene_cases
-    use faststrip_command_clock, only: cpu_microseconds, spread_text
-    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_clock, only: cpu_microseconds, spread_text
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
 

@@ -18,10 +18,10 @@ module faststrip_lab_bench_tang
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_of_norm
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_command_clock, only: cpu_microseconds, spread_of, spread_text, &
-                                       spread_names, cpu_columns
-    use faststrip_command_console, only: fail_on_error, note, progress, put_origin
-    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_text, &
+                                               spread_names, cpu_columns
+    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
 

@@ -8,10 +8,10 @@ module faststrip_lab_bench_tangential
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_lab_bench_cases, only: bench_case_t, read_bench_cases
-    use faststrip_command_clock, only: cpu_microseconds, median, spread_of, spread_text, &
-                                       spread_names, cpu_columns
-    use faststrip_command_console, only: fail_on_error, note, put_origin
-    use faststrip_command_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_clock, only: cpu_microseconds, median, spread_of, spread_text, &
+                                               spread_names, cpu_columns
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_name_length
     use faststrip_contact_method, only: workspace_t, contact_result_t

@@ -14,13 +14,13 @@ module faststrip_lab_bench_trade
                                    end_row, close_csv
     use faststrip_lab_bench_trade_influence, only: trade_influence
     use faststrip_lab_bench_trade_times, only: solution_columns, time_solution
-    use faststrip_command_clock, only: spread_of, spread_names, cpu_columns
-    use faststrip_command_console, only: fail_on_error, put_origin, progress
-    use faststrip_command_methods, only: in_core
+    use faststrip_command_program_clock, only: spread_of, spread_names, cpu_columns
+    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_settings_methods, only: in_core
     use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
                                          normal_table, &
                                          normal_norm, tangential_tang
-    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t, times_t
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list

@@ -22,8 +22,8 @@ module faststrip_lab_bench_trade_influence
     use faststrip_geometry_gap_curve, only: gap_at
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_bench_polynomials, only: power_of_ten_influence
-    use faststrip_command_clock, only: cpu_microseconds, spread_of, spread_names
-    use faststrip_command_console, only: fail_on_error
+    use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_names
+    use faststrip_command_program_console, only: fail_on_error
     use faststrip_lab_bench_trade_cases, only: trade_case_t, n_figures
     implicit none
     private

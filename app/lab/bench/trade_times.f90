@@ -3,7 +3,7 @@
 module faststrip_lab_bench_trade_times
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_command_clock, only: cpu_microseconds, spread_of, spread_names
+    use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_names
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: tangential_none

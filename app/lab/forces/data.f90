@@ -3,9 +3,9 @@ module faststrip_lab_forces_data
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
-    use faststrip_command_console, only: fail_on_error, usage_error, progress, put_origin
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
-                                         option_integer
+    use faststrip_command_program_console, only: fail_on_error, usage_error, progress, put_origin
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
+                                                 option_integer
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
     use faststrip_lab_forces_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, put_record_header, put_record

@@ -5,9 +5,9 @@ module faststrip_lab_forces_features
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, read_csv, open_csv, put_comment, &
                                    put_header, put_cell, end_row, close_csv
-    use faststrip_command_console, only: fail_on_error, progress, put_origin
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
-                                         option_integer
+    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
+                                                 option_integer
     use faststrip_contact_methods, only: most_strips
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_lab_pressures, only: solve_pressures

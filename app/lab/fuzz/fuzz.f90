@@ -4,9 +4,10 @@ module faststrip_lab_fuzz
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
-    use faststrip_command_console, only: fail_on_error, usage_error, progress, put_origin, say
-    use faststrip_command_options, only: command_t, option_t, parse_command, given, option_text, &
-                                         option_integer, option_word
+    use faststrip_command_program_console, only: fail_on_error, usage_error, progress, put_origin, &
+                                                 say
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
+                                                 option_text, option_integer, option_word
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_lab_fuzz_faults, only: is_fault, fault_names
     use faststrip_lab_fuzz_judges, only: verdict_t

@@ -5,7 +5,7 @@ module faststrip_lab_fuzz_tables
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row, csv_table_t, &
                                    read_csv, require_column, cell_text, cell_number
-    use faststrip_command_console, only: say, fail, fail_on_error, exit_bad_input
+    use faststrip_command_program_console, only: say, fail, fail_on_error, exit_bad_input
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, all_families
     use faststrip_lab_fuzz_judges, only: verdict_t, is_broken, broken_judges, n_judges, &
                                          judge_names, judge_demands

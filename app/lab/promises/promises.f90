@@ -10,18 +10,18 @@ module faststrip_lab_promises
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, open_csv, put_comment, &
                                    put_header, put_cell, end_row, close_csv
-    use faststrip_command_clock, only: cpu_microseconds, median
-    use faststrip_command_console, only: fail_on_error, progress, put_origin
-    use faststrip_command_files, only: take_input, take_output, take_beside
-    use faststrip_command_auto_words, only: words_of_steps
+    use faststrip_command_program_clock, only: cpu_microseconds, median
+    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_program_files, only: take_input, take_output, take_beside
+    use faststrip_command_rows_auto_words, only: words_of_steps
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
-                                         option_integer
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
+                                                 option_integer
     use faststrip_command_batch, only: case_columns
-    use faststrip_command_prepared_case, only: put_gap
-    use faststrip_command_solver, only: solver_t, new_solver, free_solver, solve
+    use faststrip_command_contact_prepared_case, only: put_gap
+    use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &

@@ -5,9 +5,10 @@ module faststrip_lab_promises_truths
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
-    use faststrip_command_console, only: fail_on_error, note, progress, put_origin, usage_error
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
-                                         option_integer
+    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin, &
+                                                 usage_error
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
+                                                 option_integer
     use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
                                                find_promise_contact, draw_promise_creepages, &
                                                promise_kinds, states_drawn

@@ -13,11 +13,11 @@ module faststrip_lab_scenes_reference_scenes
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
-    use faststrip_command_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_lab_pressures, only: solve_pressures
-    use faststrip_command_options, only: command_t, option_t, parse_command, option_text, &
-                                         option_integer
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
+                                                 option_integer
     use faststrip_lab_scenes_reference_gaps, only: reference_scene_t, make_reference_scene, &
                                                    draw_creepage, scene_families
     implicit none

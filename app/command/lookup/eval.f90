@@ -1,0 +1,177 @@
+!> `faststrip lookup eval`: forces of a table at the states of a CSV file.
+module faststrip_command_lookup_eval
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_text, only: integer_text
+    use faststrip_command_program_console, only: fail, fail_on_error, note, put_origin, &
+                                                 exit_bad_input, progress
+    use faststrip_command_lookup_file, only: read_table
+    use faststrip_command_lookup_wheel_eval, only: wheel_names, put_wheel, name_length
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
+                                                 option_text, option_word
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
+                                   column_index, cell_text, cell_number, open_csv, put_cell, &
+                                   end_row, close_csv
+    use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
+    use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
+    implicit none
+    private
+
+    public :: run_lookup_eval, state_columns
+
+    !> What a table of states must have.
+    character(len=15), parameter :: state_columns(n_lookup_state) = [character(len=15) :: &
+        'a_mm', 'b_mm', 'N_N', 'mu', 'G_MPa', 'cksi', 'ceta', 'cphi_rad_per_mm']
+    character(len=6), parameter :: force_columns(n_forces) = [character(len=6) :: &
+        'Fx_N', 'Fy_N', 'Mz_Nmm']
+    character(len=4), parameter :: by(n_lookup_state) = [character(len=4) :: &
+        'a', 'b', 'N', 'mu', 'G', 'cksi', 'ceta', 'cphi']
+
+contains
+
+    !> Run the action from the command line.
+    subroutine run_lookup_eval()
+        type(command_t) :: command
+        type(csv_table_t) :: states
+        type(csv_writer_t) :: writer
+        type(lookup_t) :: lookup
+        type(status_t) :: status
+        ! As many as a state of either kind has.
+        real(wp) :: numbers(n_lookup_state)
+        integer, allocatable :: column(:)
+        character(len=name_length), allocatable :: needed(:), new(:)
+        integer :: i, row, order, n_failed
+        logical :: with_jacobian, is_wheel
+
+        command%name = 'lookup eval'
+        command%n_words = 2
+        command%usage = 'TABLE.fslt STATES.csv'
+        command%about = &
+            'Forces on the rail at the states of a CSV file with the columns' // new_line('a') &
+            // 'a_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,cphi_rad_per_mm; others are carried through.' &
+            // new_line('a') // 'Adds Fx_N,Fy_N,Mz_Nmm,status. A row that fails gets its status' &
+            // ' word and empty' // new_line('a') // 'figures; the exit code is then 1.' &
+            // ' With the table of a wheel: y_mm,yaw_rad,' // new_line('a') &
+            // 'load_N,mu,cksi,ceta,cphi_rad_per_mm,slot; the numbers of the contact are added,' &
+            // ' too.' // new_line('a')
+        command%options = [ &
+            option_t('--order', 'NAME', 'interpolation: linear (default) or cubic'), &
+            option_t('--jacobian', '', 'add the derivatives, as dFx_dcksi, in units of both'), &
+            option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
+        call parse_command(command, 2)
+        order = lookup_linear
+        if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
+            == 'cubic') order = lookup_cubic
+        with_jacobian = given(command, '--jacobian')
+        call read_table(command%arguments(1)%text, lookup)
+        call read_csv(command%arguments(2)%text, states, status)
+        call fail_on_error(status)
+        is_wheel = lookup%kind == lookup_kind_wheel
+        if (is_wheel) then
+            call wheel_names(with_jacobian, needed, new)
+        else
+            call hertz_names(with_jacobian, needed, new)
+        end if
+        call find_columns(states, needed, new, column)
+        call open_csv(writer, option_text(command, '-o', '-'), status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        do i = 1, states%n_columns
+            call put_cell(writer, states%names(i)%text)
+        end do
+        do i = 1, size(new)
+            call put_cell(writer, trim(new(i)))
+        end do
+        call end_row(writer)
+        n_failed = 0
+        do row = 1, states%n_rows
+            do i = 1, states%n_columns
+                call put_cell(writer, cell_text(states, row, i))
+            end do
+            do i = 1, size(column)
+                call cell_number(states, row, column(i), numbers(i), status)
+                if (is_error(status)) exit
+            end do
+            if (is_wheel) then
+                call put_wheel(lookup, order, numbers, with_jacobian, writer, status)
+            else
+                call put_hertz(lookup, order, numbers, with_jacobian, writer, status)
+            end if
+            call end_row(writer)
+            if (is_error(status)) then
+                n_failed = n_failed + 1
+                call note('row ' // integer_text(row) // ' (' // states%file // ':' &
+                          // integer_text(states%line(row)) // '): ' // trim(status%message))
+            end if
+            call progress('states', row, states%n_rows)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+        if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
+                                    // integer_text(states%n_rows) // ' states failed')
+    end subroutine run_lookup_eval
+
+    !> The columns that are needed; ends the program if one is missing, or if one that will be added
+    !> is there already.
+    subroutine find_columns(states, needed, new, column)
+        type(csv_table_t), intent(in) :: states
+        character(len=*), intent(in) :: needed(:), new(:)
+        integer, allocatable, intent(out) :: column(:)
+
+        type(status_t) :: status
+        integer :: i
+
+        allocate (column(size(needed)), source=0)
+        do i = 1, size(needed)
+            call require_column(states, trim(needed(i)), column(i), status)
+            call fail_on_error(status)
+        end do
+        do i = 1, size(new)
+            if (column_index(states, trim(new(i))) > 0) &
+                call fail(exit_bad_input, 'a column must not have the name of a result, got ' &
+                          // trim(new(i)) // ' (' // states%file // ')')
+        end do
+    end subroutine find_columns
+
+    ! Columns of a state of an ellipse, and of what is found for it.
+    subroutine hertz_names(with_jacobian, needed, new)
+        logical, intent(in) :: with_jacobian
+        character(len=name_length), allocatable, intent(out) :: needed(:), new(:)
+
+        integer :: i, k
+
+        needed = [character(len=name_length) :: state_columns]
+        new = [character(len=name_length) :: force_columns, 'status']
+        if (with_jacobian) &
+            new = [character(len=name_length) :: new, &
+                   (('d' // force_columns(k)(:2) // '_d' // by(i), k=1, n_forces), &
+                    i=1, n_lookup_state)]
+    end subroutine hertz_names
+
+    ! Forces of a state of an ellipse; empty cells if there is an error, or was one before.
+    subroutine put_hertz(lookup, order, state, with_jacobian, writer, status)
+        type(lookup_t), intent(in) :: lookup
+        integer, intent(in) :: order
+        real(wp), intent(in) :: state(n_lookup_state)
+        logical, intent(in) :: with_jacobian
+        type(csv_writer_t), intent(inout) :: writer
+        type(status_t), intent(inout) :: status
+
+        real(wp) :: forces(n_forces), jacobian(n_forces, n_lookup_state)
+        integer :: i, k
+
+        if (.not. is_error(status)) &
+            call look_up_hertz(lookup, order, state, forces, status, jacobian)
+        do k = 1, n_forces
+            call put_cell(writer, forces(k), .not. is_error(status))
+        end do
+        call put_cell(writer, trim(status_word(status%code)))
+        if (.not. with_jacobian) return
+        do i = 1, n_lookup_state
+            do k = 1, n_forces
+                call put_cell(writer, jacobian(k, i), .not. is_error(status))
+            end do
+        end do
+    end subroutine put_hertz
+end module faststrip_command_lookup_eval

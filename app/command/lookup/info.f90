@@ -1,0 +1,118 @@
+!> `faststrip lookup info`: what a table of creep forces holds.
+module faststrip_command_lookup_info
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: number_text
+    use faststrip_base_text, only: integer_text
+    use faststrip_command_program_console, only: say
+    use faststrip_command_lookup_file, only: read_table
+    use faststrip_command_lookup_fill, only: nodes_in
+    use faststrip_command_program_options, only: command_t, parse_command
+    use faststrip_command_lookup_wheel_test, only: wheel_error_names, state_kinds
+    use faststrip_lookup_axis, only: lookup_axis_t
+    use faststrip_lookup_faces, only: n_forces
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_wheel_errors, at_load
+    implicit none
+    private
+
+    public :: run_lookup_info
+
+    character(len=2), parameter :: forces(3) = ['Fx', 'Fy', 'Mz']
+    character(len=6), parameter :: orders(2) = [character(len=6) :: 'linear', 'cubic']
+
+contains
+
+    !> Run the action from the command line.
+    subroutine run_lookup_info()
+        type(command_t) :: command
+        type(lookup_t) :: lookup
+        integer :: at, cut, order, k
+
+        command%name = 'lookup info'
+        command%n_words = 2
+        command%usage = 'TABLE.fslt'
+        command%about = 'Say what a table holds, how it was made, and its errors.' // new_line('a')
+        allocate (command%options(0))
+        call parse_command(command, 1)
+        call read_table(command%arguments(1)%text, lookup)
+        at = 1
+        do while (at <= len_trim(lookup%text))
+            cut = index(lookup%text(at:), new_line('a'))
+            if (cut == 0) cut = len_trim(lookup%text(at:)) + 1
+            call say(trim(lookup%text(at:at + cut - 2)))
+            at = at + cut
+        end do
+        if (lookup%kind == lookup_kind_wheel) then
+            call say_wheel(lookup)
+            return
+        end if
+        call say('Hertz ellipses, nu ' // trim(number_text(lookup%nu)) // ', ' &
+                 // trim(number_text(real(nodes_in(lookup), wp))) // ' nodes')
+        call say_axis('q, creepage r/(1 + r)', lookup%q%x)
+        call say_axis('ratios of creepages', lookup%ratio%x)
+        call say_axis('a/b', exp(lookup%shape%x))
+        if (lookup%promised > 0.0_wp) &
+            call say('made for a 99th percentile of ' // trim(number_text(lookup%promised)))
+        if (lookup%tested == 0) return
+        call say('errors on ' // integer_text(lookup%tested) // ' fresh contacts, over mu N and ' &
+                 // 'mu N c: mean, 99th percentile, worst')
+        do order = 1, 2
+            do k = 1, 3
+                call say('  ' // orders(order) // ' ' // forces(k) // '  ' &
+                         // number_text(lookup%errors(k, 1, order)) &
+                         // number_text(lookup%errors(k, 2, order)) &
+                         // trim(number_text(lookup%errors(k, 3, order))))
+            end do
+        end do
+    end subroutine run_lookup_info
+
+    ! The table of a wheel.
+    subroutine say_wheel(lookup)
+        type(lookup_t), intent(in) :: lookup
+
+        integer :: order, k, kind
+
+        associate (wheel => lookup%wheel)
+            call say('a wheel on a rail, nu ' // trim(number_text(lookup%nu)) // ', G ' &
+                     // trim(number_text(wheel%shear)) // ' MPa, ' // integer_text(wheel%sets) &
+                     // ' contacts, ' // trim(number_text(real(size(lookup%values)/n_forces, wp))) &
+                     // ' nodes')
+            call say_axis('q, creepage r/(1 + r)', lookup%q%x)
+            call say_axis('ratios of creepages', lookup%ratio%x)
+            call say_axis('y, mm', wheel%y%x)
+            call say_axis('yaw, rad', wheel%yaw%x)
+            call say_axis('load, N', wheel%load%x)
+            do k = 1, wheel%slots
+                call say('  slot ' // integer_text(k) // ': a contact at ' // integer_text( &
+                         count(wheel%contacts(at_load, k, :) > 0.0_wp)) // ' of ' &
+                         // integer_text(size(wheel%set, 2)) // ' places')
+            end do
+            call say('  shortest cell of y: ' // trim(number_text( &
+                     minval(wheel%y%x(2:) - wheel%y%x(:wheel%y%n - 1)))) // ' mm')
+            if (lookup%promised > 0.0_wp) &
+                call say('made for a 99th percentile of ' // trim(number_text(lookup%promised)))
+            do kind = 1, 2
+                if (wheel%tested(kind) == 0) cycle
+                call say('errors on ' // integer_text(wheel%tested(kind)) // ' fresh states' &
+                         // trim(merge(' where contacts come or go', '                          ', &
+                                       state_kinds(kind) == 'change')) &
+                         // ', over mu N, mu N c, N: mean, 99th percentile, worst')
+                do order = 1, 2
+                    do k = 1, n_wheel_errors
+                        call say('  ' // orders(order) // ' ' // wheel_error_names(k) // '  ' &
+                                 // number_text(wheel%errors(k, 1, order, kind)) &
+                                 // number_text(wheel%errors(k, 2, order, kind)) &
+                                 // trim(number_text(wheel%errors(k, 3, order, kind))))
+                    end do
+                end do
+            end do
+        end associate
+    end subroutine say_wheel
+
+    subroutine say_axis(name, nodes)
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: nodes(:)
+
+        call say('  ' // name // ': ' // integer_text(size(nodes)) // ' nodes, ' &
+                 // trim(number_text(nodes(1))) // ' to ' // trim(number_text(nodes(size(nodes)))))
+    end subroutine say_axis
+end module faststrip_command_lookup_info

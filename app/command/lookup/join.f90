@@ -1,0 +1,123 @@
+!> `faststrip lookup join`: a table of creep forces from its parts.
+module faststrip_command_lookup_join
+    use, intrinsic :: iso_fortran_env, only: int8
+    use faststrip_base_status, only: status_t
+    use faststrip_base_text, only: integer_text
+    use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input
+    use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
+                                               release_workers
+    use faststrip_command_lookup_file, only: write_table
+    use faststrip_command_lookup_fill, only: judge_table
+    use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
+                                                take_threads, choice_text
+    use faststrip_command_lookup_parts, only: take_values, is_solved, units_of
+    use faststrip_command_lookup_wheel_case, only: read_wheel_case
+    use faststrip_command_lookup_wheel_judge, only: judge_wheel_table => judge_table
+    use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, make_wheel_solvers, &
+                                                     release_wheel_solvers
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
+                                                 option_text, option_integer
+    use faststrip_command_program_system, only: set_progress
+    use faststrip_files_bytes, only: read_bytes
+    use faststrip_lookup_bytes, only: open_lookup
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
+    use faststrip_wheelset_types, only: wheelset_model_t
+    implicit none
+    private
+
+    public :: run_lookup_join
+
+    ! Tuned [files]: the most. Origin: capacity.
+    integer, parameter :: most_files = 10000
+    ! Contacts that a table is judged by, as those of make.
+    ! Given: a number.
+    integer, parameter :: first_seed = 100
+
+contains
+
+    !> Run the action from the command line.
+    subroutine run_lookup_join()
+        type(command_t) :: command
+        type(direct_choice_t) :: choice
+        type(direct_t), allocatable :: workers(:)
+        type(lookup_t) :: lookup
+        type(status_t) :: status
+        integer(int8), allocatable :: bytes(:)
+        integer :: i, tests, missing
+
+        command%name = 'lookup join'
+        command%n_words = 2
+        command%usage = 'PART.fslt...'
+        command%about = &
+            'Join the parts that lookup make --part or lookup wheel --part made, and judge the' &
+            // new_line('a') // 'table: the same bytes as by one process. The method has to be' &
+            // ' that of the parts.' // new_line('a')
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the table there', writes=.true.), &
+            option_t('--case', 'CASE.nml', 'wheel and rail of the table of a wheel', &
+                     reads=.true.), &
+            option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000; of a wheel' &
+                     // new_line('a') // '2000 states)'), &
+            direct_options]
+        call parse_command(command, 1, most_files)
+        if (option_text(command, '-o', '-') == '-') &
+            call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
+        call take_direct_options(command, choice)
+        tests = option_integer(command, '--tests', 10000, least=100, most=10000000)
+        associate (first => command%arguments(1)%text)
+            call read_bytes(first, bytes, status)
+            call fail_on_error(status)
+            call open_lookup(bytes, lookup, status, may_lack=.true.)
+            call fail_on_error(status, first)
+            choice%nu = lookup%nu
+            if (index(lookup%text, choice_text(choice)) == 0) &
+                call fail(exit_bad_input, 'parts must be of the ' // choice_text(choice) &
+                          // ' (' // first // ')')
+        end associate
+        do i = 2, size(command%arguments)
+            call take_values(command%arguments(i)%text, lookup, status)
+            call fail_on_error(status)
+        end do
+        missing = 0
+        do i = 1, units_of(lookup)
+            if (.not. is_solved(lookup, i)) missing = missing + 1
+        end do
+        if (missing > 0) call fail(exit_bad_input, 'parts are missing: ' // integer_text(missing) &
+                                   // ' of ' // integer_text(units_of(lookup)) // ' ' &
+                                   // trim(merge('contacts', 'a/b     ', &
+                                                 lookup%kind == lookup_kind_wheel)))
+        if (lookup%kind == lookup_kind_wheel) then
+            call judge_joined_wheel(command, choice, lookup)
+        else
+            call make_workers(choice, take_threads(command), workers, status)
+            call fail_on_error(status)
+            call set_progress('fresh contacts')
+            call judge_table(workers, lookup, tests, first_seed, lookup%errors, status)
+            call fail_on_error(status)
+            lookup%tested = tests
+            call release_workers(workers)
+        end if
+        lookup%promised = 0.0
+        call write_table(option_text(command, '-o', ''), lookup)
+    end subroutine run_lookup_join
+
+    ! The errors of the table of a wheel.
+    subroutine judge_joined_wheel(command, choice, lookup)
+        type(command_t), intent(in) :: command
+        type(direct_choice_t), intent(in) :: choice
+        type(lookup_t), intent(inout) :: lookup
+
+        type(wheelset_model_t) :: model
+        type(wheel_solver_t), allocatable :: solvers(:)
+        type(status_t) :: status
+
+        if (.not. given(command, '--case')) &
+            call usage_error('parts of the table of a wheel need --case CASE.nml', command%name)
+        call read_wheel_case(option_text(command, '--case', ''), model)
+        call make_wheel_solvers(model, choice, take_threads(command), solvers, status)
+        call fail_on_error(status)
+        call judge_wheel_table(solvers, option_integer(command, '--tests', 2000, least=100, &
+                                                       most=10000000), first_seed, lookup)
+        call release_wheel_solvers(solvers)
+    end subroutine judge_joined_wheel
+end module faststrip_command_lookup_join

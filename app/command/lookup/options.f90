@@ -1,0 +1,144 @@
+!> Which method a lookup table's forces are solved by, from the command line.
+module faststrip_command_lookup_options
+    use, intrinsic :: iso_c_binding, only: c_int
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_text, only: integer_text, parse_integer, parse_real
+    use faststrip_command_program_console, only: usage_error
+    use faststrip_command_lookup_direct, only: direct_choice_t, direct_methods
+    use faststrip_command_program_options, only: command_t, option_t, option_word, option_integer, &
+                                                 option_number, option_text, refuse_value, given
+    use faststrip_command_program_system, only: use_one_thread_each
+    use faststrip_files_csv, only: real_text
+    implicit none
+    private
+
+    public :: direct_options, take_direct_options, take_threads, take_part, take_ends, choice_text
+
+    !> For the tables of options.
+    type(option_t), parameter :: direct_options(6) = [ &
+        option_t('--method', 'NAME', 'faststrip (default), fastsim, tang or auto'), &
+        option_t('--strips', 'N', 'strips, or rows of fastsim (default 15; fastsim 50)'), &
+        option_t('--points', 'N', 'points along each (default 15; fastsim 50)'), &
+        option_t('--across', 'N', 'elements of tang along each axis (default 36)'), &
+        option_t('--tolerance', 'E', 'auto: tang where faststrip''s estimated error is above,' &
+                 // new_line('a') // 'over mu N and mu N c (default 0.02)'), &
+        option_t('--threads', 'N', 'that solve contacts (default: all cores); the bits are the' &
+                 // new_line('a') // 'same for any number')]
+
+    ! Tuned [strips, points]. Origin: as in a case file.
+    integer, parameter :: strips_of(4) = [15, 50, 15, 15]
+    ! Tuned [1]. Origin: as that of auto.
+    real(wp), parameter :: usual_tolerance = 0.02_wp
+    ! Tuned [threads]: the most. Origin: capacity.
+    integer, parameter :: most_threads = 1024
+    ! Tuned [strips, elements]: the most. Origin: capacity.
+    integer, parameter :: most_strips = 1000, least_across = 8, most_across = 400
+
+    interface
+        ! Processors of the machine, of the C library.
+        function c_get_nprocs() bind(c, name='get_nprocs') result(n)
+            import :: c_int
+            integer(c_int) :: n
+        end function c_get_nprocs
+    end interface
+
+contains
+
+    !> The method that the command line names.
+    subroutine take_direct_options(command, choice)
+        type(command_t), intent(in) :: command       !! parsed, with `direct_options`
+        type(direct_choice_t), intent(inout) :: choice !! what is not named stays, but for sizes
+
+        character(len=:), allocatable :: name
+        integer :: i
+
+        name = option_word(command, '--method', 'faststrip', direct_methods)
+        do i = 1, size(direct_methods)
+            if (direct_methods(i) == name) choice%method = i
+        end do
+        choice%strips = option_integer(command, '--strips', strips_of(choice%method), least=3, &
+                                       most=most_strips)
+        choice%points = option_integer(command, '--points', strips_of(choice%method), least=3, &
+                                       most=most_strips)
+        choice%across = option_integer(command, '--across', choice%across, least=least_across, &
+                                       most=most_across)
+        choice%tolerance = option_number(command, '--tolerance', usual_tolerance, above=0)
+        if (given(command, '--tolerance') .and. name /= 'auto') &
+            call usage_error('--tolerance goes with --method auto', command%name)
+    end subroutine take_direct_options
+
+    !> How many threads solve contacts. Libraries get one each: more of them wait for each other.
+    integer function take_threads(command) result(threads)
+        type(command_t), intent(in) :: command !! parsed, with `direct_options`
+
+        threads = min(int(c_get_nprocs()), most_threads)
+        threads = option_integer(command, '--threads', threads, least=1, most=most_threads)
+        call use_one_thread_each()
+    end function take_threads
+
+    !> Which part of how many.
+    subroutine take_part(command, part, parts)
+        type(command_t), intent(in) :: command !! parsed, with `--part`
+        integer, intent(out) :: part           !! from 1 on; 1 if there is one
+        integer, intent(out) :: parts          !! how many
+
+        character(len=:), allocatable :: text
+        integer :: slash
+        logical :: is_part, is_parts
+
+        part = 1
+        parts = 1
+        if (.not. given(command, '--part')) return
+        text = option_text(command, '--part', '')
+        slash = index(text, '/')
+        call parse_integer(text(:max(slash - 1, 0)), part, is_part)
+        call parse_integer(text(slash + 1:), parts, is_parts)
+        if (.not. (is_part .and. is_parts) .or. slash == 0 .or. part < 1 .or. part > parts) &
+            call refuse_value(command, '--part', 'k/K, a part and how many there are')
+    end subroutine take_part
+
+    !> First and last number of an option, FIRST:LAST.
+    subroutine take_ends(command, name, default, ends, may_be_one, above)
+        type(command_t), intent(in) :: command      !! parsed, with the option
+        character(len=*), intent(in) :: name        !! of the option
+        character(len=*), intent(in) :: default     !! as the option's text
+        real(wp), intent(out) :: ends(2)            !! rising
+        logical, intent(in), optional :: may_be_one !! may both be the same?
+        integer, intent(in), optional :: above      !! the first must be above it
+
+        character(len=:), allocatable :: text
+        integer :: colon
+        logical :: are_numbers(2), are_good
+
+        text = option_text(command, name, default)
+        colon = index(text, ':')
+        are_numbers = .false.
+        ends = 0.0_wp
+        if (colon > 0) then
+            call parse_real(text(:colon - 1), ends(1), are_numbers(1))
+            call parse_real(text(colon + 1:), ends(2), are_numbers(2))
+        end if
+        if (.not. all(are_numbers)) call refuse_value(command, name, 'FIRST:LAST, two numbers')
+        are_good = ends(2) > ends(1)
+        if (present(may_be_one)) are_good = are_good .or. (may_be_one .and. ends(2) >= ends(1))
+        if (present(above)) are_good = are_good .and. ends(1) > above
+        if (.not. are_good) call refuse_value(command, name, 'two rising numbers within its range')
+    end subroutine take_ends
+
+    !> The method in a line of words.
+    function choice_text(choice) result(text)
+        type(direct_choice_t), intent(in) :: choice
+        character(len=:), allocatable :: text
+
+        text = 'method ' // trim(direct_methods(choice%method))
+        select case (direct_methods(choice%method))
+        case ('tang')
+            text = text // ', ' // integer_text(choice%across) // ' elements along each axis'
+        case ('auto')
+            text = text // ', tolerance ' // real_text(choice%tolerance)
+        case default
+            text = text // ', ' // integer_text(choice%strips) // ' strips, ' &
+                   // integer_text(choice%points) // ' points along each'
+        end select
+    end function choice_text
+end module faststrip_command_lookup_options

@@ -1,0 +1,80 @@
+!> The options of `faststrip profile` that say what is done to points.
+module faststrip_command_profile_curation
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_text, only: parse_real
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_command_program_options, only: command_t, option_t, given, option_text, &
+                                                 option_number, refuse_value
+    implicit none
+    private
+
+    public :: curation_options, take_curation
+
+    real(wp), parameter :: degree = pi/180.0_wp
+    real(wp), parameter :: mm_per_um = 1.0e-3_wp
+
+    !> The options of the command line.
+    type(option_t), parameter :: curation_options(15) = [ &
+        option_t('--keep', 'FROM,TO', 'keep the points in this range of y, mm'), &
+        option_t('--drop-double', 'MM', 'drop points no farther from the one before (0: in one' // &
+                 new_line('a') // 'place)'), &
+        option_t('--drop-folds', '', 'drop points in which the profile turns back'), &
+        option_t('--mirror', '', 'mirror y'), &
+        option_t('--shift-y', 'MM', 'shift along y'), &
+        option_t('--shift-z', 'MM', 'shift along z'), &
+        option_t('--rotate', 'DEG', 'turn about the origin, from y to z'), &
+        option_t('--inclination', 'TANGENT', 'turn a rail so that its top leans to the gauge' // &
+                 new_line('a') // 'side, 0.025 for 1:40'), &
+        option_t('--cant', 'TANGENT', 'the same, by its older name'), &
+        option_t('--smooth-wavelength', 'MM', 'halve waves of this length, remove shorter ones'), &
+        option_t('--smooth-noise', 'UM', 'smooth for this standard deviation of the points'), &
+        option_t('--resample', 'MM', 'points at this distance along the profile'), &
+        option_t('--kink-angle', 'DEG', 'what turns by more in one point is a kink' // &
+                 new_line('a') // '(default 20)'), &
+        option_t('--round-kinks', '', 'smooth and resample over kinks'), &
+        option_t('--tape-circle', 'MM', 'where the tape circle of a wheel is, in y of the file')]
+
+contains
+
+    !> Read the options.
+    subroutine take_curation(command, curation)
+        type(command_t), intent(in) :: command      !! a parsed command
+        type(curation_t), intent(out) :: curation   !! what is to be done
+
+        character(len=:), allocatable :: text
+        integer :: comma
+        logical :: valid(2)
+
+        if (given(command, '--keep')) then
+            text = option_text(command, '--keep', '')
+            comma = index(text, ',')
+            valid = .false.
+            if (comma > 0) then
+                call parse_real(text(:comma - 1), curation%keep(1), valid(1))
+                call parse_real(text(comma + 1:), curation%keep(2), valid(2))
+            end if
+            if (.not. all(valid) .or. curation%keep(2) <= curation%keep(1)) &
+                call refuse_value(command, '--keep', 'FROM,TO, the second number larger')
+            curation%keeps = .true.
+        end if
+        if (given(command, '--inclination') .and. given(command, '--cant')) &
+            call refuse_value(command, '--cant', 'given without --inclination, which is its name')
+        curation%double = option_number(command, '--drop-double', -1.0_wp, least=0)
+        curation%folds = given(command, '--drop-folds')
+        curation%mirror = given(command, '--mirror')
+        curation%shift = [option_number(command, '--shift-y', 0.0_wp), &
+                          option_number(command, '--shift-z', 0.0_wp)]
+        curation%turn = degree*option_number(command, '--rotate', 0.0_wp) &
+                        - atan(option_number(command, '--inclination', &
+                                             option_number(command, '--cant', 0.0_wp)))
+        curation%wavelength = option_number(command, '--smooth-wavelength', 0.0_wp, above=0)
+        curation%noise = mm_per_um*option_number(command, '--smooth-noise', 0.0_wp, above=0)
+        if (curation%wavelength > 0.0_wp .and. curation%noise > 0.0_wp) &
+            call refuse_value(command, '--smooth-noise', 'given without --smooth-wavelength')
+        curation%step = option_number(command, '--resample', 0.0_wp, above=0)
+        curation%kink_angle = degree*option_number(command, '--kink-angle', &
+                                                   standard_kink_angle/degree, above=0)
+        curation%rounds = given(command, '--round-kinks')
+    end subroutine take_curation
+end module faststrip_command_profile_curation

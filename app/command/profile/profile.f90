@@ -1,0 +1,294 @@
+!> `faststrip profile`: reads profiles of every format, describes, curates, draws and converts them.
+module faststrip_command_profile
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_comment, close_csv
+    use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
+                                       length_unit, body_wheel, body_rail
+    use faststrip_files_profile_writer, only: write_profile, check_profile_name
+    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                          profile_at
+    use faststrip_geometry_arc_spline, only: standard_kink_angle
+    use faststrip_geometry_curation, only: resample
+    use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
+    use faststrip_command_program_console, only: fail, fail_on_error, note, usage_error, &
+                                                 put_origin, version_text, printable, exit_bad_input
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
+                                                 option_text, option_number, option_integer, &
+                                                 option_word, refuse_value
+    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_taken, only: take_profile
+    use faststrip_command_profile_curation, only: curation_options, take_curation
+    use faststrip_command_profile_measures, only: measures_t, measure_profile, &
+                                                  put_measures_header, put_measures
+    use faststrip_command_profile_picture, only: draw_profile, nominal_t
+    implicit none
+    private
+
+    public :: run_profile
+
+    integer, parameter :: most_files = 100000
+
+    !> Options that tell how a file is to be read.
+    type(option_t), parameter :: reading_options(8) = [ &
+        option_t('--kind', 'KIND', 'wheel or rail, where the file does not say'), &
+        option_t('--section', 'N', 'which one, of a file with several'), &
+        option_t('--side', 'SIDE', 'right (default) or left, of a file with both'), &
+        option_t('--y-positive-to', 'SIDE', 'field or gauge: the sense of y in the file'), &
+        option_t('--z-positive-to', 'SIDE', 'down or up: the sense of z in the file'), &
+        option_t('--unit', 'UNIT', 'mm, m or in: the unit of the file'), &
+        option_t('--any-count', '', 'take a number of points that the header denies'), &
+        option_t('--ignore-smoothing', '', 'pass over the smoothing a file asks for')]
+
+    ! Points of a standard profile along y, and their distance along the arc, mm.
+    integer, parameter :: nominal_points = 4001
+    real(wp), parameter :: nominal_step = 0.2_wp
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_profile()
+        type(command_t) :: command
+        type(profile_options_t) :: options
+        type(curation_t) :: curation
+        type(measures_t), allocatable :: measures(:)
+        type(nominal_t) :: nominal
+        integer :: i, n, n_failed
+
+        command%name = 'profile'
+        command%usage = 'FILE...'
+        command%about = &
+            'Read wheel and rail profiles: MiniProf (.whl, .ban, .mpt), SIMPACK (.prw, .prr),' // &
+            new_line('a') // 'VAMPIRE (.whe, .rai), GENSYS (.wheel), two-column text, CSV. Rows' &
+            // new_line('a') // 'of a CSV describe them: y to the field side, z down, mm.' // &
+            new_line('a') // 'Nothing is repaired unasked; what is asked for is done in the' // &
+            new_line('a') // 'order below.' // new_line('a')
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the profile there: .csv, .prw or .prr', writes=.true.), &
+            option_t('--table', 'FILE', 'write the CSV of descriptions there (default stdout)', &
+                     writes=.true.), &
+            option_t('--draw', 'FILE.svg', 'draw the profile there', writes=.true.), &
+            option_t('--nominal', 'NAME', 'wear against a standard profile or a file'), &
+            option_t('--align', 'HOW', 'lay a rail on the nominal one: field (default), none'), &
+            reading_options, curation_options]
+        call parse_command(command, 1, most_files)
+        call take_reading(command, options)
+        call take_curation(command, curation)
+        n = size(command%arguments)
+        if (n > 1 .and. given(command, '-o')) &
+            call usage_error('-o takes one profile, got ' // integer_text(n), command%name)
+        if (n > 1 .and. given(command, '--draw')) &
+            call usage_error('--draw takes one profile, got ' // integer_text(n), command%name)
+        allocate (measures(n))
+        n_failed = 0
+        do i = 1, n
+            call describe(command%arguments(i)%text, options, curation, measures(i))
+            if (given(command, '--nominal') .and. .not. is_error(measures(i)%status)) &
+                call compare(command, measures(i), nominal)
+            if (is_error(measures(i)%status)) then
+                n_failed = n_failed + 1
+                call note(trim(measures(i)%status%message))
+                cycle
+            end if
+            if (len(measures(i)%words) > 0) &
+                call note(measures(i)%path // ': ' // measures(i)%words)
+        end do
+        call write_table(option_text(command, '--table', '-'), measures)
+        if (n_failed == 0 .and. given(command, '-o')) &
+            call write_points(option_text(command, '-o', ''), measures(1))
+        if (n_failed == 0 .and. given(command, '--draw')) &
+            call draw(option_text(command, '--draw', ''), measures(1), nominal)
+        if (n > 1 .and. n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
+                                                // integer_text(n) // ' profiles failed')
+        if (n_failed > 0) stop exit_bad_input, quiet=.true.
+    end subroutine run_profile
+
+    subroutine take_reading(command, options)
+        type(command_t), intent(in) :: command
+        type(profile_options_t), intent(out) :: options
+
+        select case (option_word(command, '--kind', '', [character(len=5) :: 'wheel', 'rail']))
+        case ('wheel'); options%kind = body_wheel
+        case ('rail'); options%kind = body_rail
+        end select
+        options%section = option_integer(command, '--section', 0, least=1)
+        if (option_word(command, '--side', 'right', [character(len=5) :: 'right', 'left']) == &
+            'left') options%side = -1
+        select case (option_word(command, '--y-positive-to', '', &
+                                 [character(len=5) :: 'field', 'gauge']))
+        case ('field'); options%y_sense = 1
+        case ('gauge'); options%y_sense = -1
+        end select
+        select case (option_word(command, '--z-positive-to', '', [character(len=4) :: 'down', &
+                                                                  'up']))
+        case ('down'); options%z_sense = 1
+        case ('up'); options%z_sense = -1
+        end select
+        if (given(command, '--unit')) options%unit_mm = &
+            length_unit(option_word(command, '--unit', 'mm', [character(len=2) :: 'mm', 'm', 'in']))
+        options%any_count = given(command, '--any-count')
+        options%ignore_smoothing = given(command, '--ignore-smoothing')
+        options%has_tape_circle = given(command, '--tape-circle')
+        options%tape_circle = option_number(command, '--tape-circle', 0.0_wp)
+    end subroutine take_reading
+
+    !> Take one file and measure it.
+    subroutine describe(path, options, curation, measures)
+        character(len=*), intent(in) :: path
+        type(profile_options_t), intent(in) :: options
+        type(curation_t), intent(in) :: curation
+        type(measures_t), intent(out) :: measures
+
+        measures%path = path
+        call take_profile(path, options, curation, measures%taken_profile_t, measures%status)
+        if (.not. is_error(measures%status)) call measure_profile(curation%kink_angle, measures)
+    end subroutine describe
+
+    !> Wear against a nominal profile.
+    subroutine compare(command, measures, nominal)
+        type(command_t), intent(in) :: command
+        type(measures_t), intent(inout) :: measures
+        type(nominal_t), intent(out) :: nominal
+
+        real(wp), allocatable :: y(:), z(:)
+        real(wp) :: motion(3)
+        character(len=:), allocatable :: how
+
+        how = option_word(command, '--align', 'field', [character(len=5) :: 'field', 'none'])
+        if (measures%points%kind == 0) then
+            call set_status(measures%status, st_bad_argument, 'the kind of a profile must be ' // &
+                            'known for --nominal (--kind says it) (' // measures%path // ')')
+            return
+        end if
+        call take_nominal(option_text(command, '--nominal', ''), measures%points%kind, nominal)
+        y = measures%points%y
+        z = measures%points%z
+        motion = 0.0_wp
+        if (measures%points%kind == body_rail .and. how == 'field') then
+            call align_by_field_side(nominal%y, nominal%z, y, z, motion, measures%status)
+            if (is_error(measures%status)) then
+                measures%status%message = trim(measures%status%message) // ' (' // measures%path &
+                                          // ')'
+                return
+            end if
+        end if
+        allocate (nominal%depth(size(nominal%y)), source=0.0_wp)
+        allocate (nominal%is_known(size(nominal%y)), source=.false.)
+        call wear_depths(nominal%y, nominal%z, y, z, &
+                         merge(1.0_wp, -1.0_wp, measures%points%kind == body_rail), &
+                         nominal%depth, nominal%is_known)
+        measures%has_wear = any(nominal%is_known)
+        if (measures%has_wear) &
+            measures%largest_wear = maxval(nominal%depth, mask=nominal%is_known)
+        if (measures%points%kind == body_rail) &
+            call measure_rail_wear(nominal%y, nominal%z, y, z, measures%wear)
+        ! For the picture the nominal profile goes to the measured one, which stays as it is.
+        call move_back(motion, nominal%y, nominal%z)
+        nominal%is_given = .true.
+    end subroutine compare
+
+    !> The motion undone: first the shift, then the turn.
+    pure subroutine move_back(motion, y, z)
+        real(wp), intent(in) :: motion(3)
+        real(wp), intent(inout) :: y(:), z(:)
+
+        real(wp) :: before(size(y))
+
+        before = y - motion(1)
+        z = z - motion(2)
+        y = before*cos(motion(3)) + z*sin(motion(3))
+        z = -before*sin(motion(3)) + z*cos(motion(3))
+    end subroutine move_back
+
+    !> The points of a nominal profile: a standard one by its name, or a file.
+    subroutine take_nominal(name, kind, nominal)
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: kind
+        type(nominal_t), intent(out) :: nominal
+
+        type(profile_options_t) :: options
+        type(profile_file_t) :: points
+        type(profile_t) :: profile
+        type(status_t) :: status
+        real(wp) :: y, z, dz, d2z
+        integer :: i
+
+        if (kind == body_wheel) then
+            call make_wheel_profile(name, profile, status)
+        else
+            call make_rail_profile(name, 0.0_wp, profile, status)
+        end if
+        if (is_error(status)) then
+            options%kind = kind
+            call read_profile(name, options, points, status)
+            call fail_on_error(status, '--nominal takes a standard profile or a file')
+            nominal%y = points%y
+            nominal%z = points%z
+            return
+        end if
+        ! Many points along y, then as many as are needed along the arc.
+        allocate (nominal%y(nominal_points), nominal%z(nominal_points), source=0.0_wp)
+        do i = 1, nominal_points
+            y = profile%y_first + (profile%y_last - profile%y_first)*(i - 1)/(nominal_points - 1)
+            call profile_at(profile, y, z, dz, d2z, status)
+            nominal%y(i) = y
+            nominal%z(i) = z
+        end do
+        call resample(nominal%y, nominal%z, nominal_step, standard_kink_angle, status)
+        call fail_on_error(status)
+    end subroutine take_nominal
+
+    subroutine write_table(path, measures)
+        character(len=*), intent(in) :: path
+        type(measures_t), intent(in) :: measures(:)
+
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        do i = 1, size(measures)
+            if (len(measures(i)%words) > 0) &
+                call put_comment(writer, printable(measures(i)%path // ': ' // measures(i)%words))
+        end do
+        call put_measures_header(writer)
+        do i = 1, size(measures)
+            call put_measures(writer, measures(i))
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine write_table
+
+    subroutine write_points(path, measures)
+        character(len=*), intent(in) :: path
+        type(measures_t), intent(in) :: measures
+
+        type(csv_text_t) :: comments(4)
+        type(status_t) :: status
+
+        comments(1)%text = version_text()
+        comments(2)%text = printable('from ' // measures%path // ' (' // &
+                                     trim(measures%points%format) // ')')
+        comments(3)%text = 'y to the field side, z down, mm'
+        comments(4)%text = printable(measures%words)
+        call check_profile_name(path, measures%points%kind, status)
+        if (is_error(status)) call usage_error(trim(status%message), 'profile')
+        call write_profile(path, measures%points%y, measures%points%z, measures%points%kind, &
+                           comments(:merge(4, 3, len(measures%words) > 0)), status)
+        call fail_on_error(status)
+    end subroutine write_points
+
+    subroutine draw(path, measures, nominal)
+        character(len=*), intent(in) :: path
+        type(measures_t), intent(in) :: measures
+        type(nominal_t), intent(in) :: nominal
+
+        type(status_t) :: status
+
+        call draw_profile(path, measures, nominal, status)
+        call fail_on_error(status)
+    end subroutine draw
+end module faststrip_command_profile

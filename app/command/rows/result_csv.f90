@@ -1,0 +1,261 @@
+!> The columns every solved contact fills, in the same words for each subcommand.
+module faststrip_command_rows_result_csv
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word, number_text
+    use faststrip_contact_method, only: contact_result_t, wear_figures_t
+    use faststrip_contact_methods, only: normal_auto
+    use faststrip_contact_wanted, only: auto_steps_t
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
+    use faststrip_command_program_console, only: note, put_origin
+    use faststrip_command_rows_auto_words, only: words_of_steps
+    use faststrip_command_settings_methods, only: settings_t
+    use faststrip_command_rows_wear_figures, only: strip_wear_t, make_strip_wear
+    implicit none
+    private
+
+    public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear, no_wear
+    public :: wear_columns, put_wear, put_wear_source, strip_columns, put_strip
+
+    !> Begins what is said where there is no wear in spite of a law.
+    character(len=*), parameter :: no_wear = 'no wear: '
+
+    !> Names of the columns of wear, in the order of `put_wear`.
+    character(len=*), parameter :: wear_columns(6) = [character(len=26) :: &
+        't_gamma_N', 't_gamma_spin_N', 't_gamma_per_area_N_per_mm2', 'fatigue_index', &
+        'wear_ug_per_m', 'wear_mm3_per_m']
+
+    !> Names of a strip's columns, in the order of `put_strip`.
+    character(len=*), parameter :: strip_columns(15) = [character(len=26) :: &
+        'patch', 'strip', 'y_left_mm', 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', &
+        'load_N', 'Fx_N', 'Fy_N', 'friction_power_N', 't_gamma_per_area_N_per_mm2', &
+        'wear_ug_per_m', 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km']
+
+    !> Names of the columns, in the order of `put_result`.
+    character(len=*), parameter :: result_columns(32) = [character(len=26) :: &
+        'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
+        'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
+        'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
+        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
+        'est_err_Mz', 'gap_change_um', &
+        'choice', 'strips_across', wear_columns]
+
+contains
+
+    !> The cells of one contact; all but the status word are empty if there is no result.
+    subroutine put_result(writer, result, steps, status, tells_times)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, in the middle of a row
+        type(contact_result_t), intent(in) :: result !! figures
+        type(auto_steps_t), intent(in) :: steps     !! of auto
+        type(status_t), intent(in) :: status        !! how it ended
+        logical, intent(in), optional :: tells_times !! else the cells of times are empty; default
+                                                    !! true
+
+        character(len=:), allocatable :: choice
+        logical :: with_times
+        integer :: i
+
+        with_times = .true.
+        if (present(tells_times)) with_times = tells_times
+        call put_cell(writer, trim(status_word(status%code)))
+        if (is_error(status)) then
+            do i = 2, size(result_columns)
+                call put_cell(writer, '')
+            end do
+            return
+        end if
+        call put_cell(writer, result%normal%penetration)
+        call put_cell(writer, result%normal%area)
+        call put_cell(writer, result%normal%pmax)
+        call put_cell(writer, result%normal%y_min)
+        call put_cell(writer, result%normal%y_max)
+        call put_cell(writer, result%normal%x_max)
+        call put_cell(writer, result%normal%n_patches)
+        associate (tangential => result%tangential)
+            call put_cell(writer, tangential%fx, is_known=result%has_forces)
+            call put_cell(writer, tangential%fy, is_known=result%has_forces)
+            call put_cell(writer, tangential%mz, is_known=result%has_forces)
+            call put_cell(writer, tangential%friction_power, is_known=result%has_forces)
+            call put_cell(writer, tangential%stick_fraction, is_known=result%knows_stick)
+        end associate
+        call put_cell(writer, result%times%normal_us, is_known=with_times)
+        call put_cell(writer, result%times%tangential_us, is_known=with_times)
+        associate (certificate => result%certificate)
+            call put_cell(writer, certificate%residual_inside, is_known=result%has_residuals)
+            call put_cell(writer, certificate%overlap_outside, is_known=result%has_residuals)
+            call put_cell(writer, certificate%est_err_penetration, is_known=result%is_estimated)
+            call put_cell(writer, certificate%est_err_pmax, is_known=result%is_estimated)
+            call put_cell(writer, certificate%est_err_area, is_known=result%is_estimated)
+        end associate
+        associate (errors => result%force_errors)
+            call put_cell(writer, errors%fx, is_known=result%forces_are_estimated)
+            call put_cell(writer, errors%fy, is_known=result%forces_are_estimated)
+            call put_cell(writer, errors%mz, is_known=result%forces_are_estimated)
+        end associate
+        call put_cell(writer, 1.0e3_wp*result%gap_change, is_known=result%gap_change > 0.0_wp)
+        call words_of_steps(steps, with_times, choice)
+        call put_cell(writer, choice)
+        if (result%normal%strips_across > 0) then
+            call put_cell(writer, result%normal%strips_across)
+        else
+            call put_cell(writer, '')
+        end if
+        call put_wear(writer, result%wear, result%has_forces)
+    end subroutine put_result
+
+    !> The cells of T gamma, fatigue and wear.
+    subroutine put_wear(writer, figures, has_forces)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file, in the middle of a row
+        type(wear_figures_t), intent(in) :: figures  !! of a contact
+        logical, intent(in) :: has_forces            !! are there creep forces?
+
+        call put_cell(writer, figures%t_gamma, is_known=has_forces)
+        call put_cell(writer, figures%t_gamma_spin, is_known=has_forces)
+        call put_cell(writer, figures%t_gamma_per_area, is_known=has_forces)
+        call put_cell(writer, figures%fatigue_index, is_known=figures%knows_fatigue)
+        call put_cell(writer, figures%wear%mass, is_known=figures%knows_wear)
+        call put_cell(writer, figures%wear%volume, is_known=figures%knows_wear)
+    end subroutine put_wear
+
+    !> The comment lines on columns: what the friction power and T gamma are, where a wear law is
+    !> from, and that gaps are smoothed, if they are.
+    subroutine put_notes(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
+        class(settings_t), intent(in) :: case       !! smoothing, wear, a budget
+
+        call put_comment(writer, 'friction_power_N is the frictional work per distance rolled, ' &
+                         // 'T gamma')
+        call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fy ceta|; t_gamma_spin_N adds ' &
+                         // '|Mz cphi|')
+        call put_wear_source(writer, case)
+        if (case%methods%normal == normal_auto .and. case%wanted%budget_us > 0.0_wp) &
+            call put_comment(writer, 'within a budget of time, which another run may spend ' &
+                             // 'otherwise: its bytes may differ')
+        if (case%smoothing <= 0.0_wp) return
+        call put_comment(writer, 'gap smoothed for a noise of ' &
+                         // trim(number_text(1.0e3_wp*case%smoothing)) &
+                         // ' um, rms; gap_change_um is by how much it changed, rms')
+    end subroutine put_notes
+
+    !> Say on stderr why there is no wear, where a law was given and does not go as far.
+    subroutine note_wear(wear_status, place)
+        type(status_t), intent(in) :: wear_status !! of the workspace
+        character(len=*), intent(in) :: place  !! which one it is, with what parts it; or empty
+
+        if (is_error(wear_status)) call note(place // no_wear // trim(wear_status%message))
+    end subroutine note_wear
+
+    !> Where a wear law is from, and whose wear it is, if there is one.
+    subroutine put_wear_source(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
+        class(settings_t), intent(in) :: case       !! law, or none
+
+        if (case%wear_law%n == 0) return
+        if (case%wear_law%of_wheel) then
+            call put_comment(writer, 'wear of the wheel by ' // case%wear_file)
+        else
+            call put_comment(writer, 'wear of the rail by ' // case%wear_file)
+        end if
+        call put_comment(writer, 'its source: ' // case%wear_source)
+    end subroutine put_wear_source
+
+    !> The strips of a contact, one row a strip.
+    subroutine put_strips(writer, case_name, strips, forces, case, radius)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file
+        character(len=*), intent(in) :: case_name    !! for the column `case`
+        type(contact_strips_t), intent(in) :: strips !! mm, MPa
+        type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
+        class(settings_t), intent(in) :: case        !! wear law
+        real(wp), intent(in) :: radius               !! rolling radius, mm; 0: not known
+
+        type(strip_wear_t) :: wear
+        integer :: k
+
+        call make_strip_wear(case%wear_law, strips, forces, radius, wear)
+        call put_origin(writer)
+        call put_wear_source(writer, case)
+        call put_header(writer, [character(len=len(strip_columns)) :: 'case', strip_columns])
+        do k = 1, strips%n
+            call put_cell(writer, case_name)
+            call put_strip(writer, strips, forces, wear, k)
+            call end_row(writer)
+        end do
+    end subroutine put_strips
+
+    !> The cells of one strip.
+    subroutine put_strip(writer, strips, forces, wear, k)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file, in the middle of a row
+        type(contact_strips_t), intent(in) :: strips !! mm, MPa
+        type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
+        type(strip_wear_t), intent(in) :: wear       !! of the strips
+        integer, intent(in) :: k                     !! which one
+
+        integer :: j
+
+        associate (left => strips%y_left(k), right => strips%y_right(k), &
+                   length => strips%half_length(k), p0 => strips%p0(k))
+            call put_cell(writer, strips%patch(k))
+            call put_cell(writer, k)
+            call put_cell(writer, left)
+            call put_cell(writer, right)
+            call put_cell(writer, 0.5_wp*(left + right))
+            call put_cell(writer, length)
+            call put_cell(writer, p0)
+            call put_cell(writer, strip_load(p0, length, right - left))
+        end associate
+        if (forces%n == strips%n) then
+            call put_cell(writer, forces%fx(k))
+            call put_cell(writer, forces%fy(k))
+            call put_cell(writer, forces%friction_power(k))
+        else
+            do j = 1, 3
+                call put_cell(writer, '')
+            end do
+        end if
+        call put_known(writer, wear%t_gamma_per_area, k)
+        call put_known(writer, wear%mass, k)
+        call put_known(writer, wear%pass_depth, k)
+        call put_known(writer, wear%depth_per_km, k)
+    end subroutine put_strip
+
+    ! One of some numbers, or an empty cell where there are none.
+    subroutine put_known(writer, numbers, k)
+        type(csv_writer_t), intent(inout) :: writer
+        real(wp), allocatable, intent(in) :: numbers(:)
+        integer, intent(in) :: k
+
+        if (allocated(numbers)) then
+            call put_cell(writer, numbers(k))
+        else
+            call put_cell(writer, '')
+        end if
+    end subroutine put_known
+
+    !> The elements of a contact, one row an element.
+    subroutine put_field(writer, case_name, field)
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+        character(len=*), intent(in) :: case_name     !! for the column `case`
+        type(tangential_field_t), intent(in) :: field !! mm, MPa
+
+        integer :: i
+
+        call put_origin(writer)
+        call put_header(writer, [character(len=9) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
+                                 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa'])
+        do i = 1, field%n
+            call put_cell(writer, case_name)
+            call put_cell(writer, field%x(i))
+            call put_cell(writer, field%y(i))
+            call put_cell(writer, field%area(i))
+            call put_cell(writer, field%state(i))
+            call put_cell(writer, field%pn(i))
+            call put_cell(writer, field%px(i))
+            call put_cell(writer, field%py(i))
+            call put_cell(writer, field%sx(i))
+            call put_cell(writer, field%sy(i))
+            call put_cell(writer, field_power(field, i))
+            call end_row(writer)
+        end do
+    end subroutine put_field
+end module faststrip_command_rows_result_csv

@@ -1,0 +1,197 @@
+!> The table of a wheelset's contacts.
+module faststrip_command_wheelset_csv
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_wheelset_strips, only: wheel_strips_t
+    use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
+    use faststrip_command_program_console, only: put_origin, tell_held
+    use faststrip_command_rows_result_csv, only: put_wear, put_wear_source, wear_columns, &
+                                                 put_strip, strip_columns
+    use faststrip_command_settings_methods, only: settings_t
+    use faststrip_command_rows_wear_figures, only: strip_wear_t, make_strip_wear
+    use faststrip_tangential_wear_law, only: wear_law_t
+    implicit none
+    private
+
+    public :: put_wheelset_header, put_wheel, put_failed_state, put_strips_header, put_wheel_strips
+
+    ! In the order of `put_contact`.
+    character(len=*), parameter :: names(47) = [character(len=19) :: &
+        'case', 'side', 'contact', 'status', 'x_track_mm', 'y_track_mm', 'z_track_mm', &
+        'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', 'N_N', 'Fx_N', 'Fs_N', 'Mz_Nmm', &
+        'penetration_mm', 'pmax_MPa', 'area_mm2', 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
+        'z_mm', 'roll_rad', 'y_rail_mm', 'z_rail_mm', 'x_wheel_mm', 'y_wheel_mm', 'z_wheel_mm', &
+        'radius_mm', 'rolling_speed_mm_s', 'Fx_wheelset_N', 'Fy_wheelset_N', 'Fz_wheelset_N', &
+        'friction_power_N', 'stick_fraction', 'ymin_mm', 'ymax_mm', 'xmax_mm', 'n_patches', &
+        'strips_across', 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', &
+        'est_err_Fy', 'est_err_Mz', 'message']
+
+    ! Which solution it is, and where.
+    character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
+
+contains
+
+    !> Names of the columns.
+    subroutine put_wheelset_header(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        class(settings_t), intent(in) :: case       !! wear law, for its source
+
+        call put_origin(writer)
+        call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fs ceta|; t_gamma_spin_N adds ' &
+                         // '|Mz cphi|')
+        call put_wear_source(writer, case)
+        call tell_held(writer)
+        call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
+                                 wear_columns, solution_columns])
+    end subroutine put_wheelset_header
+
+    !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
+    subroutine put_wheel(writer, case, side, wheel, has_forces, solution, y)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! left or right
+        type(wheel_result_t), intent(in) :: wheel   !! solved
+        logical, intent(in) :: has_forces           !! were creep forces asked for?
+        integer, intent(in) :: solution             !! 1: of the state; 2, 3: to its left, right
+        real(wp), intent(in) :: y                   !! lateral displacement of the wheelset, mm
+
+        integer :: i
+
+        do i = 1, wheel%n
+            call put_cell(writer, case)
+            call put_cell(writer, side)
+            call put_cell(writer, i)
+            call put_contact(writer, wheel, wheel%contact(i))
+            call put_wear(writer, wheel%contact(i)%figures%wear, has_forces)
+            call put_cell(writer, solution)
+            call put_cell(writer, y)
+            call end_row(writer)
+        end do
+        if (wheel%n > 0) return
+        call put_empty(writer, case, side, 'ok', 'no contact')
+        call put_cell(writer, solution)
+        call put_cell(writer, y)
+        call end_row(writer)
+    end subroutine put_wheel
+
+    !> The row of a state that has no solution.
+    subroutine put_failed_state(writer, case, side, status)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! as it was given
+        type(status_t), intent(in) :: status        !! why there is none
+
+        call put_empty(writer, case, side, trim(status_word(status%code)), trim(status%message))
+        call put_cell(writer, '')
+        call put_cell(writer, '')
+        call end_row(writer)
+    end subroutine put_failed_state
+
+    subroutine put_empty(writer, case, side, word, message)
+        type(csv_writer_t), intent(inout) :: writer
+        character(len=*), intent(in) :: case, side, word, message
+
+        integer :: i
+
+        call put_cell(writer, case)
+        call put_cell(writer, side)
+        call put_cell(writer, 0)
+        call put_cell(writer, word)
+        do i = 5, size(names) - 1
+            call put_cell(writer, '')
+        end do
+        call put_cell(writer, message)
+        do i = 1, size(wear_columns)
+            call put_cell(writer, '')
+        end do
+    end subroutine put_empty
+
+    subroutine put_contact(writer, wheel, contact)
+        type(csv_writer_t), intent(inout) :: writer
+        type(wheel_result_t), intent(in) :: wheel
+        type(wheel_contact_t), intent(in) :: contact
+
+        call put_cell(writer, trim(status_word(contact%status%code)))
+        call put_numbers(writer, contact%place)
+        call put_cell(writer, contact%angle)
+        call put_numbers(writer, [contact%creepage%cksi, contact%creepage%ceta, &
+                                  contact%creepage%cphi])
+        associate (normal => contact%figures%normal, forces => contact%figures%tangential)
+            call put_numbers(writer, [normal%load, forces%fx, forces%fy, forces%mz, &
+                                      normal%penetration, normal%pmax, normal%area])
+            call put_numbers(writer, contact%force)
+            call put_numbers(writer, [wheel%z, wheel%roll])
+            call put_numbers(writer, contact%rail)
+            call put_numbers(writer, contact%wheel)
+            call put_numbers(writer, [contact%radius, contact%speed])
+            call put_numbers(writer, contact%force_wheelset)
+            call put_numbers(writer, [forces%friction_power, forces%stick_fraction, &
+                                      normal%y_min, normal%y_max, normal%x_max])
+            call put_cell(writer, normal%n_patches)
+            call put_cell(writer, normal%strips_across)
+        end associate
+        associate (figures => contact%figures)
+            call put_cell(writer, figures%certificate%est_err_penetration, &
+                          is_known=figures%is_estimated)
+            call put_cell(writer, figures%certificate%est_err_pmax, is_known=figures%is_estimated)
+            call put_cell(writer, figures%certificate%est_err_area, is_known=figures%is_estimated)
+            call put_cell(writer, figures%force_errors%fx, is_known=figures%forces_are_estimated)
+            call put_cell(writer, figures%force_errors%fy, is_known=figures%forces_are_estimated)
+            call put_cell(writer, figures%force_errors%mz, is_known=figures%forces_are_estimated)
+        end associate
+        if (contact%status%code == 0 .or. is_error(contact%status)) then
+            call put_cell(writer, '')
+        else
+            call put_cell(writer, trim(contact%status%message))
+        end if
+    end subroutine put_contact
+
+    !> Names of the columns of strips: those of `contact`, and the places.
+    subroutine put_strips_header(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        class(settings_t), intent(in) :: case       !! wear law, for its source
+
+        call put_origin(writer)
+        call put_wear_source(writer, case)
+        call put_header(writer, [character(len=len(strip_columns)) :: 'case', 'side', 'contact', &
+                                 strip_columns, 'y_rail_mm', 'z_rail_mm', 'y_wheel_mm', &
+                                 'z_wheel_mm'])
+    end subroutine put_strips_header
+
+    !> One row a strip of a contact.
+    subroutine put_wheel_strips(writer, case, side, i, radius, found, law)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: case        !! name of the state
+        character(len=*), intent(in) :: side        !! left or right
+        integer, intent(in) :: i                    !! contact of the wheel
+        real(wp), intent(in) :: radius              !! rolling radius, mm
+        type(wheel_strips_t), intent(in) :: found   !! of the contact
+        type(wear_law_t), intent(in) :: law         !! or none
+
+        type(strip_wear_t) :: wear
+        integer :: k
+
+        call make_strip_wear(law, found%strips, found%forces, radius, wear)
+        do k = 1, found%strips%n
+            call put_cell(writer, case)
+            call put_cell(writer, side)
+            call put_cell(writer, i)
+            call put_strip(writer, found%strips, found%forces, wear, k)
+            call put_numbers(writer, found%rail(:, k))
+            call put_numbers(writer, found%wheel(:, k))
+            call end_row(writer)
+        end do
+    end subroutine put_wheel_strips
+
+    subroutine put_numbers(writer, numbers)
+        type(csv_writer_t), intent(inout) :: writer
+        real(wp), intent(in) :: numbers(:)
+
+        integer :: i
+
+        do i = 1, size(numbers)
+            call put_cell(writer, numbers(i))
+        end do
+    end subroutine put_numbers
+end module faststrip_command_wheelset_csv
