@@ -1,6 +1,6 @@
 """The networks that correct FASTSTRIP's forces and say how wrong they are, for their fitting.
 
-What src/faststrip/tangential/force/correction.f90 and force_errors.f90 evaluate: inputs from the
+What src/faststrip/tangential/force/correction.f90 and errors.f90 evaluate: inputs from the
 columns of `faststrip-lab force-features`, layers, and how the factors make forces. jax and optax do
 the fitting (tools/requirements-fit.txt).
 """

@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "reference" / "force_correction.json"
-MODULE = ROOT / "src" / "faststrip" / "tangential" / "force_weights.f90"
+MODULE = ROOT / "src" / "faststrip" / "tangential" / "force" / "weights.f90"
 LAYERS = ("first", "second", "third")
 
 HEAD = """\

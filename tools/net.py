@@ -206,12 +206,9 @@ def difference(before, after):
         return f"{before.stat().st_size} bytes, now {after.stat().st_size}"
     old, new = (list(csv.DictReader(line for line in path.read_text(encoding="utf-8").splitlines()
                                     if not line.startswith("#"))) for path in (before, after))
-    if len(old) != len(new):
-        return f"{len(old)} rows, now {len(new)}"
-    if not old:
-        return "comments or names of columns"
-    if list(old[0]) != list(new[0]):
-        return f"{len(old[0])} columns, now {len(new[0])}"
+    widths = [len(table[0]) if table else 0 for table in (old, new)]
+    if len(old) != len(new) or old and list(old[0]) != list(new[0]):
+        return f"{len(old)} rows of {widths[0]} columns, now {len(new)} of {widths[1]}"
     largest, where, cells = -1.0, "comments alone", 0
     for i, (one, other) in enumerate(zip(old, new, strict=True), 1):
         for column in one:

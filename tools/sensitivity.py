@@ -48,7 +48,7 @@ from run_mutants import Base, Job, Unfit, files_of
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FLAGS = "-O2 -fopenmp -fPIC -frecursive -fimplicit-none -std=f2018"
 ROOMS = ("normal", "tangential", "contact", "geometry", "kalker", "numerics", "influence")
-FIRST = ("normal/strip", "normal/certificate", "normal/lattice", "normal/sub_patches",
+FIRST = ("normal/strip", "normal/estimate", "normal/cells", "normal/sub_patches",
          "normal/limitations", "tangential/faststrip")
 PROGRAM_SOURCES = ("src/", "app/")
 FACTORS = ("half", "double")

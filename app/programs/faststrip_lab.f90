@@ -5,11 +5,11 @@ program faststrip_lab
                                                  refuse_subcommand
     use faststrip_command_program_files, only: clear_leftovers
     use faststrip_lab_fuzz, only: run_fuzz
-    use faststrip_lab_errata, only: run_errata
+    use faststrip_lab_studies_errata, only: run_errata
     use faststrip_lab_forces_data, only: run_force_data
     use faststrip_lab_forces_features, only: run_force_features
-    use faststrip_lab_bench, only: run_bench
-    use faststrip_lab_scenes_reference_scenes, only: run_scenes
+    use faststrip_lab_grid_bench, only: run_bench
+    use faststrip_lab_studies_reference_scenes, only: run_scenes
     use faststrip_lab_promises, only: run_promises
     use faststrip_lab_promises_truths, only: run_truth
     implicit none

@@ -193,7 +193,7 @@ class Installed(HostTest):
         self.assertNotRegex(flags, FORBIDDEN)
 
     def test_the_structs_of_the_last_release_are_those_of_the_header(self):
-        source = (ROOT / "src" / "faststrip" / "interop" / "c_structs.f90").read_text("utf-8")
+        source = (ROOT / "src/faststrip/interop/c/structs.f90").read_text("utf-8")
         listed = re.findall(r"^ +(\d+)_c_size_t, (\d+)_c_size_t", source, re.MULTILINE)
         self.write("sizes.c", "#include <faststrip.h>\n#include <stdio.h>\nint main(void) {"
                               'printf("%zu %zu", sizeof(faststrip_case), sizeof(faststrip_result));'

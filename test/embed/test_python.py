@@ -424,8 +424,8 @@ class Contacts(HostTest):
 
     def test_limits_are_those_of_the_library(self):
         sources = "".join((ROOT / "src" / "faststrip" / f"{name}.f90").read_text(encoding="utf-8")
-                          for name in ("contact/methods", "contact/solve", "tangential/types",
-                                       "geometry/gap"))
+                          for name in ("contact/methods", "contact/reserve", "tangential/types",
+                                       "geometry/gap/gap"))
         package = sys.modules["faststrip._contact"]
         for name, limit in (("most_strips", package.MOST_STRIPS),
                             ("most_points", package.MOST_POINTS),

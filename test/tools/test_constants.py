@@ -53,7 +53,7 @@ class OfTheProject(unittest.TestCase):
                                    "--root", copy], capture_output=True, encoding="utf-8",
                                   check=False)
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"strip_newton\.f90:\d+: bare number 1\.7_wp")
+        self.assertRegex(done.stderr, r"strip/newton\.f90:\d+: bare number 1\.7_wp")
 
 
 class Rule(unittest.TestCase):

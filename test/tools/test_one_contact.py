@@ -20,12 +20,12 @@ STUDIES = {
     "src/faststrip/interop/classic.f90",
     "app/command/lookup/direct.f90",
     *(f"app/lab/{path}.f90" for path in (
-        "bench/accuracy", "bench/certificate", "bench/certificate_truth", "bench/convergence",
-        "bench/correction", "bench/extremes_noise", "bench/extremes_normal", "bench/kalker",
-        "bench/normal", "bench/reference", "bench/reference_tang", "bench/robust",
-        "bench/rolling", "bench/speed", "bench/steps", "bench/tang", "bench/trade_influence",
-        "errata", "forces/features", "forces/reference", "fuzz/norm_judge", "fuzz/run",
-        "promises/truth", "scenes/reference_scenes"))}
+        "extremes/noise", "extremes/normal", "forces/features", "forces/reference",
+        "fuzz/norm_judge", "fuzz/run", "grid/accuracy", "grid/convergence", "grid/normal",
+        "grid/speed", "grid/steps", "grid/tang", "promises/truth", "studies/certificate",
+        "studies/certificate_truth", "studies/correction", "studies/errata", "studies/kalker",
+        "studies/reference", "studies/reference_scenes", "studies/reference_tang",
+        "studies/robust", "studies/rolling", "studies/trade_influence"))}
 
 
 def types():

@@ -86,7 +86,7 @@ class States(unittest.TestCase):
     """The states in the code are those of the document, and each has its procedure."""
 
     def setUp(self):
-        self.text = (ROOM / "strip_settle.f90").read_text(encoding="utf-8")
+        self.text = (ROOM / "strip/settle.f90").read_text(encoding="utf-8")
         self.states = [name.removeprefix("state_") for name in STATES.findall(self.text)]
 
     def test_documented(self):

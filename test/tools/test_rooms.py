@@ -93,7 +93,7 @@ class Rooms(unittest.TestCase):
                 text = path.read_text(encoding="utf-8")
                 self.assertEqual(re.findall(r"^(?:sub)?module\s+(\w+)", text, re.MULTILINE), [name])
         self.assertEqual(self.path["faststrip_normal_strip"].name, "strip.f90")
-        self.assertEqual(self.path["faststrip_lab_bench"].parent.name, "bench")
+        self.assertEqual(self.path["faststrip_command_batch"].parent.name, "batch")
 
     def test_rooms_of_the_core_import_only_from_below(self):
         count = 0

@@ -7,7 +7,7 @@ module faststrip_lab_forces_data
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
-    use faststrip_lab_forces_gaps, only: force_families
+    use faststrip_lab_random_force_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, put_record_header, put_record
     use faststrip_lab_forces_reference, only: reference_workspaces_t, solve_reference
     implicit none

@@ -22,7 +22,7 @@ module faststrip_lab_forces_features
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape, n_even, n_odd
     use faststrip_tangential_types, only: tangential_result_t, most_points
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
-    use faststrip_lab_forces_gaps, only: force_families
+    use faststrip_lab_random_force_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, take_record
     implicit none
     private

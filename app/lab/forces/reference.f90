@@ -14,7 +14,7 @@ module faststrip_lab_forces_reference
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_pressures, only: solve_pressures
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_creepages
-    use faststrip_lab_forces_gaps, only: force_families
+    use faststrip_lab_random_force_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, most_states
     implicit none
     private

@@ -1,9 +1,9 @@
 !> The cases of `faststrip-lab fuzz`: odd numbers have shapes drawn in units of their Hertz ellipse
-!> (`faststrip_lab_fuzz_gaps`), even ones gaps as the field hands them over
-!> (`faststrip_lab_fuzz_field_gaps`).
+!> (`faststrip_lab_random_gaps`), even ones gaps as the field hands them over
+!> (`faststrip_lab_random_field_gaps`).
 module faststrip_lab_fuzz_cases
-    use faststrip_lab_fuzz_gaps, only: fuzz_case_t, make_fuzz_case, family_names
-    use faststrip_lab_fuzz_field_gaps, only: make_field_case, field_family_names
+    use faststrip_lab_random_gaps, only: fuzz_case_t, make_fuzz_case, family_names
+    use faststrip_lab_random_field_gaps, only: make_field_case, field_family_names
     implicit none
     private
 

@@ -15,10 +15,10 @@ module faststrip_lab_promises_contacts
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_lab_bench_trade_cases, only: trade_case_t, read_hertz_cases
+    use faststrip_lab_grid_trade_cases, only: trade_case_t, read_hertz_cases
     use faststrip_lab_checkout, only: in_checkout
-    use faststrip_lab_fuzz_gaps, only: random_t, start_random, uniform, log_uniform, chance
-    use faststrip_lab_promises_gaps, only: draw_promise_gap, gap_kinds
+    use faststrip_lab_random_gaps, only: random_t, start_random, uniform, log_uniform, chance
+    use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
     use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
     implicit none
     private

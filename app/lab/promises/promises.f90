@@ -22,7 +22,7 @@ module faststrip_lab_promises
     use faststrip_command_batch, only: case_columns
     use faststrip_command_contact_prepared_case, only: put_gap
     use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
-    use faststrip_lab_bench_method_list, only: method_entry_t, read_method_list
+    use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
                                                find_promise_contact, promise_kinds

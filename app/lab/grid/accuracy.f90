@@ -1,0 +1,113 @@
+!> `faststrip-lab bench accuracy`: errors of the strip solver against CONTACT.
+module faststrip_lab_grid_accuracy
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, number_text, status_word
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, strips_auto, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    implicit none
+    private
+
+    public :: bench_accuracy
+
+    integer, parameter :: choices(2) = [15, strips_auto]
+    character(len=*), parameter :: choice_names(2) = [character(len=4) :: '15', 'auto']
+    integer, parameter :: capacity = 200
+
+contains
+
+    !> Solve everything, write the CSV and say the mean and the largest errors.
+    subroutine bench_accuracy(file, folder)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with the contacts
+
+        type(bench_case_t), allocatable :: cases(:)
+        type(strip_workspace_t) :: workspace
+        type(contact_strips_t) :: strips
+        type(normal_result_t) :: result
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        real(wp), allocatable :: errors(:, :)
+        integer :: i, k, j, n, points
+
+        call read_bench_cases(folder, cases, status)
+        call fail_on_error(status)
+        points = 0
+        do i = 1, size(cases)
+            points = max(points, size(cases(i)%gap%y))
+        end do
+        call reserve_strips(strips, capacity, status)
+        call fail_on_error(status)
+        call reserve_strip_workspace(workspace, capacity, points, status)
+        call fail_on_error(status)
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'errors against CONTACT on 0.1 mm, area extrapolated; ' &
+                         // 'relative, patch ends in mm')
+        call put_header(writer, [character(len=15) :: 'case', 'strips', 'status', &
+                                 'penetration_err', 'pmax_err', 'area_err', 'ymin_err_mm', &
+                                 'ymax_err_mm', 'strips_used', 'iterations'])
+        allocate (errors(5, size(cases)))
+        do k = 1, size(choices)
+            n = 0
+            do i = 1, size(cases)
+                call set_strip_gap(workspace, cases(i)%gap, status)
+                if (.not. is_error(status)) &
+                    call strip_solve(workspace, normal_compliance(material_t()), cases(i)%load, &
+                                     strip_options_t(strips_per_patch=choices(k)), strips, &
+                                     result, status)
+                call put_cell(writer, cases(i)%name)
+                call put_cell(writer, trim(choice_names(k)))
+                call put_cell(writer, trim(status_word(status%code)))
+                if (is_error(status)) then
+                    do j = 1, 7
+                        call put_cell(writer, '')
+                    end do
+                else
+                    n = n + 1
+                    errors(:, n) = [result%penetration/cases(i)%truth%penetration - 1.0_wp, &
+                                    result%pmax/cases(i)%truth%pmax - 1.0_wp, &
+                                    result%area/cases(i)%truth%area - 1.0_wp, &
+                                    result%y_min - cases(i)%truth%y_min, &
+                                    result%y_max - cases(i)%truth%y_max]
+                    do j = 1, 5
+                        call put_cell(writer, errors(j, n))
+                    end do
+                    call put_cell(writer, strips%n)
+                    call put_cell(writer, result%iterations)
+                end if
+                call end_row(writer)
+            end do
+            if (n > 0) call tell(trim(choice_names(k)), abs(errors(:, :n)))
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_accuracy
+
+    subroutine tell(name, errors)
+        character(len=*), intent(in) :: name
+        real(wp), intent(in) :: errors(:, :)
+
+        call note(name // ' strips, mean/max: penetration ' // pair(100.0_wp*errors(1, :)) &
+                  // ' %, pmax ' // pair(100.0_wp*errors(2, :)) // ' %, area ' &
+                  // pair(100.0_wp*errors(3, :)) // ' %, ends ' // pair([errors(4, :), &
+                                                                     errors(5, :)]) // ' mm')
+    end subroutine tell
+
+    function pair(values) result(text)
+        real(wp), intent(in) :: values(:)
+        character(len=:), allocatable :: text
+
+        character(len=24) :: buffer
+
+        write (buffer, '(f0.3, a, f0.3)') sum(values)/size(values), '/', maxval(values)
+        text = trim(buffer)
+    end function pair
+end module faststrip_lab_grid_accuracy

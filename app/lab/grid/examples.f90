@@ -1,0 +1,100 @@
+!> `faststrip-lab bench examples`: the cases of example/cases by several methods.
+module faststrip_lab_grid_examples
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
+    use faststrip_base_kinds, only: wp
+    use faststrip_command_settings_case_file, only: case_t
+    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_lab_grid_example_cases, only: example_names, read_example
+    use faststrip_contact_methods, only: contact_methods_t, normal_hertz, normal_auto, &
+                                         tangential_linear, tangential_fastsim
+    use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_wanted, only: wanted_t
+    use faststrip_command_rows_result_csv, only: result_columns, put_result
+    use faststrip_command_contact_prepared_case, only: prepared_case_t
+    use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
+    implicit none
+    private
+
+    public :: bench_examples
+
+    character(len=*), parameter :: labels(5) = [character(len=22) :: 'Kalker', &
+        'Hertz + linear', 'Hertz + FASTSIM', 'strips 15 + FASTSTRIP', 'auto 2 %']
+
+contains
+
+    !> Solve every case by every method and write the CSV.
+    subroutine bench_examples(file, folder)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with the case files
+
+        type(csv_writer_t) :: writer
+        type(case_t) :: case
+        type(prepared_case_t) :: prepared
+        type(solver_t), pointer :: solver
+        type(contact_result_t) :: result
+        type(status_t) :: status
+        integer :: i, m, run
+
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'Kalker: NORM and TANG on about 30 elements across')
+        call put_header(writer, [[character(len=len(result_columns)) :: 'example', 'method', &
+                                  'N_N', 'mu'], result_columns])
+        do i = 1, size(example_names)
+            call read_example(folder, i, case, prepared)
+            do m = 1, size(labels)
+                call new_solver(solver, status)
+                call fail_on_error(status)
+                call choose(m, prepared)
+                ! The second time nothing has to be allocated or planned.
+                do run = 1, 2
+                    call solve(solver, prepared, result, status)
+                end do
+                call put_cell(writer, trim(example_names(i)))
+                call put_cell(writer, trim(labels(m)))
+                if (prepared%by_load) then
+                    call put_cell(writer, prepared%load)
+                else if (is_error(status)) then
+                    call put_cell(writer, '')
+                else
+                    call put_cell(writer, result%normal%load)
+                end if
+                call put_cell(writer, case%mu)
+                call put_result(writer, result, solver%workspace%steps, status)
+                call end_row(writer)
+                call free_solver(solver)
+            end do
+            call progress('examples', i, size(example_names))
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_examples
+
+    !> The methods behind a label.
+    subroutine choose(m, contact)
+        integer, intent(in) :: m
+        type(prepared_case_t), intent(inout) :: contact
+
+        real(wp), parameter :: never_met = 1.0e-9_wp
+
+        contact%methods = contact_methods_t()
+        contact%wanted = wanted_t()
+        contact%asked%times = .true.
+        select case (m)
+        case (1)
+            contact%methods%normal = normal_auto
+            contact%wanted%tolerance = never_met
+        case (2)
+            contact%methods%normal = normal_hertz
+            contact%methods%tangential = tangential_linear
+        case (3)
+            contact%methods%normal = normal_hertz
+            contact%methods%tangential = tangential_fastsim
+        case (5)
+            contact%methods%normal = normal_auto
+        end select
+    end subroutine choose
+end module faststrip_lab_grid_examples

@@ -1,0 +1,341 @@
+!> `faststrip-lab bench forces`: errors of all tangential methods against Kalker's exact theory.
+!>
+!> Four sets: Hertz contacts (`hertz_creep.csv`), the paper's 20 contacts with either sign of the
+!> creepages (`s1002_uic60_B.csv`, `_A.csv`), and contacts of many kinds solved by NORM and TANG
+!> (`reference/scenes`, in two groups by odd and even number); all but the first by strips.
+!> Errors of forces in % of mu N, of the moment in % of mu N c, c = sqrt(area/pi), against the
+!> extrapolated reference; of the friction power in % of what the reference's forces give,
+!> `-(Fx cksi + Fy ceta + Mz cphi)`; of the stick fraction in points of the reference's share of
+!> elements.
+module faststrip_lab_grid_forces
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_text, &
+                                   csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_material, only: material_t
+    use faststrip_normal_simple_hertz, only: hertz_strips
+    use faststrip_files_gap, only: read_gap_file
+    use faststrip_lab_grid_cases, only: read_columns
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_methods, only: normal_hertz, method_name_length
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_reserve, only: reserve_workspace
+    use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_geometry_gap, only: min_gap_points
+    use faststrip_lab_force_laws, only: tangential_methods => force_laws
+    use faststrip_lab_pressures, only: solve_pressures
+    use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
+    implicit none
+    private
+
+    public :: bench_forces
+
+    !> Errors of one contact: Fx, Fy, force vector, Mz, power, stick fraction; in %.
+    integer, parameter :: n_errors = 6
+    ! The reference has the power of a contact that slides little with few digits.
+    real(wp), parameter :: smallest_share = 0.05_wp
+
+    !> What CONTACT finds.
+    type :: reference_t
+        real(wp) :: size = 0.0_wp                             ! mm
+        real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp     ! N, N mm
+        real(wp) :: stick = 0.0_wp
+    end type reference_t
+
+    !> Errors of one set, summed up by group and method.
+    type :: tally_t
+        integer :: n_groups = 0
+        character(len=method_name_length) :: group(10) = ''
+        real(wp) :: total(n_errors, 10, size(tangential_methods)) = 0.0_wp
+        real(wp) :: largest(n_errors, 10, size(tangential_methods)) = 0.0_wp
+        integer :: number(n_errors, 10, size(tangential_methods)) = 0
+    end type tally_t
+
+contains
+
+    !> Compare everything, write the CSV and say the mean and largest errors.
+    subroutine bench_forces(file, folder, scenes)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with CONTACT's results
+        character(len=*), intent(in) :: scenes !! CSV of the contacts of many kinds
+
+        type(csv_writer_t) :: writer
+        type(csv_table_t) :: table
+        type(tally_t) :: tally
+        type(status_t) :: status
+
+        ! Read before anything is written.
+        call read_csv(scenes, table, status)
+        call fail_on_error(status)
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_comment(writer, 'errors against extrapolated references: forces in % of mu N, ' &
+                         // 'moment in % of mu N c, power in %, stick fraction in points')
+        call put_header(writer, [character(len=14) :: 'set', 'group', 'case', 'method', &
+                                 'Fx_err', 'Fy_err', 'force_err', 'Mz_err', 'power_err', &
+                                 'stick_err'])
+        call compare_hertz(folder, writer, tally)
+        call tell('Hertz contacts', tally)
+        call compare_shifts(folder, 's1002_uic60_B', writer, tally)
+        call compare_shifts(folder, 's1002_uic60_A', writer, tally)
+        call compare_scenes(table, writer, tally)
+        call tell('scenes', tally)
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_forces
+
+    !> Ellipses, all methods on the ellipse itself or on 15 strips of it.
+    subroutine compare_hertz(folder, writer, tally)
+        character(len=*), intent(in) :: folder
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(14) = [character(len=9) :: 'a_mm', 'b_mm', 'mu', 'N', &
+            'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap', 'n_adh', 'n_con', &
+            'G', 'nu']
+        type(csv_table_t) :: table
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
+        type(reference_t) :: reference
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :)
+        character(len=method_name_length) :: group
+        integer :: i, case_column
+
+        tally = tally_t()
+        call read_csv(folder // '/hertz_creep.csv', table, status)
+        call fail_on_error(status)
+        call require_column(table, 'case', case_column, status)
+        call fail_on_error(status)
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
+        contact%methods%normal = normal_hertz
+        contact%estimate = .false.
+        call reserve_workspace(workspace, contact%methods, min_gap_points, status)
+        call fail_on_error(status)
+        workspace%solved_by = normal_hertz
+        workspace%is_ellipse = .true.
+        do i = 1, table%n_rows
+            associate (hertz => workspace%hertz)
+                hertz%a = v(i, 1)
+                hertz%b = v(i, 2)
+                hertz%load = v(i, 4)
+                hertz%area = pi*hertz%a*hertz%b
+                hertz%pmax = 1.5_wp*hertz%load/hertz%area
+                reference = reference_t(sqrt(hertz%a*hertz%b), v(i, 8), v(i, 9), v(i, 10), &
+                                        v(i, 11)/v(i, 12))
+            end associate
+            contact%mu = v(i, 3)
+            contact%load = v(i, 4)
+            contact%creepage = creepage_t(v(i, 5), v(i, 6), v(i, 7))
+            contact%material%e_wheel = 2.0_wp*v(i, 13)*(1.0_wp + v(i, 14))
+            contact%material%e_rail = contact%material%e_wheel
+            contact%material%nu_wheel = v(i, 14)
+            contact%material%nu_rail = v(i, 14)
+            call hertz_strips(workspace%hertz, contact%methods%strips_per_patch, &
+                              workspace%strips, status)
+            call fail_on_error(status)
+            group = cell_text(table, i, case_column)
+            call compare(workspace, contact, reference, 'hertz', trim(group), i, writer, tally)
+        end do
+        call total_group(tally)
+    end subroutine compare_hertz
+
+    !> The paper's contacts, the normal problem by strips and by Hertz.
+    subroutine compare_shifts(folder, name, writer, tally)
+        character(len=*), intent(in) :: folder, name
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(10) = [character(len=16) :: 'Fn_N', 'cksi', 'ceta', &
+            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_extrap_mm2', &
+            'n_adhesion', 'n_contact']
+        type(csv_table_t) :: table
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
+        type(contact_result_t) :: figures
+        type(reference_t) :: reference
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :)
+        integer :: i, shift_column
+
+        tally = tally_t()
+        call read_csv(folder // '/' // name // '.csv', table, status)
+        call fail_on_error(status)
+        call require_column(table, 'yw_mm', shift_column, status)
+        call fail_on_error(status)
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
+        contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
+        contact%mu = 0.3_wp
+        contact%estimate = .false.
+        do i = 1, table%n_rows
+            call read_gap_file(folder // '/gaps/shift_' // cell_text(table, i, shift_column) &
+                               // '.csv', contact%gap, status)
+            call fail_on_error(status)
+            contact%load = v(i, 1)
+            contact%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
+            call solve_pressures(workspace, contact, figures, status)
+            if (is_error(status)) call fail_on_error(status)
+            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), &
+                                    v(i, 9)/v(i, 10))
+            call compare(workspace, contact, reference, name, 'all', i, writer, tally)
+        end do
+        call tell(name, tally)
+    end subroutine compare_shifts
+
+    !> Contacts of many kinds.
+    subroutine compare_scenes(table, writer, tally)
+        type(csv_table_t), intent(in) :: table
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(out) :: tally
+
+        character(len=*), parameter :: names(9) = [character(len=16) :: 'number', 'cksi', 'ceta', &
+            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
+            'stick_fraction']
+        type(workspace_t) :: workspace
+        type(contact_result_t) :: figures
+        type(reference_t) :: reference
+        type(reference_scene_t) :: scene
+        type(status_t) :: status
+        real(wp), allocatable :: v(:, :)
+        integer :: i
+
+        tally = tally_t()
+        call read_columns(table, names, v, status)
+        call fail_on_error(status)
+        do i = 1, table%n_rows
+            call make_reference_scene(nint(v(i, 1)), scene)
+            scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
+            scene%estimate = .false.
+            call solve_pressures(workspace, scene, figures, status)
+            if (is_error(status)) call fail_on_error(status)
+            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), v(i, 9))
+            call compare(workspace, scene%contact_case_t, reference, 'scenes', &
+                         trim(merge('even', 'odd ', modulo(scene%number, 2) == 0)), scene%number, &
+                         writer, tally)
+        end do
+        call total_group(tally)
+    end subroutine compare_scenes
+
+    !> All methods on one contact.
+    subroutine compare(workspace, contact, reference, set, group, number, writer, tally)
+        type(workspace_t), intent(inout) :: workspace ! with a normal solution
+        type(contact_case_t), intent(in) :: contact ! what was solved
+        type(reference_t), intent(in) :: reference
+        character(len=*), intent(in) :: set, group
+        integer, intent(in) :: number
+        type(csv_writer_t), intent(inout) :: writer
+        type(tally_t), intent(inout) :: tally
+
+        type(contact_case_t) :: case
+        type(contact_result_t) :: found
+        type(status_t) :: status
+        real(wp) :: error(n_errors), force, power
+        logical :: counts(n_errors)
+        integer :: m, j
+
+        case = contact
+        force = contact%mu*contact%load
+        power = -(reference%fx*contact%creepage%cksi + reference%fy*contact%creepage%ceta &
+                  + reference%mz*contact%creepage%cphi)
+        do m = 1, size(tangential_methods)
+            case%methods%tangential = tangential_methods(m)%number
+            call solve_contact_forces(workspace, case, found, status)
+            if (is_error(status)) call fail_on_error(status)
+            associate (result => found%tangential)
+                error(1) = (result%fx - reference%fx)/force
+                error(2) = (result%fy - reference%fy)/force
+                error(3) = hypot(error(1), error(2))
+                error(4) = (result%mz - reference%mz)/(force*reference%size)
+                error(5) = result%friction_power/power - 1.0_wp
+                error(6) = result%stick_fraction - reference%stick
+            end associate
+            error = 100.0_wp*error
+            counts = .true.
+            counts(5) = hypot(reference%fx, reference%fy) > smallest_share*force
+            counts(6) = tangential_methods(m)%gives_stick
+            call put_cell(writer, set)
+            call put_cell(writer, group)
+            call put_cell(writer, number)
+            call put_cell(writer, trim(tangential_methods(m)%name))
+            do j = 1, n_errors
+                if (counts(j)) then
+                    call put_cell(writer, error(j))
+                else
+                    call put_cell(writer, '')
+                end if
+            end do
+            call end_row(writer)
+            call add_errors(tally, group, m, abs(error), counts)
+        end do
+    end subroutine compare
+
+    subroutine add_errors(tally, group, m, error, counts)
+        type(tally_t), intent(inout) :: tally
+        character(len=*), intent(in) :: group
+        integer, intent(in) :: m
+        real(wp), intent(in) :: error(:)
+        logical, intent(in) :: counts(:)
+
+        integer :: g
+
+        do g = 1, tally%n_groups
+            if (tally%group(g) == group) exit
+        end do
+        if (g > tally%n_groups) then
+            tally%n_groups = g
+            tally%group(g) = group
+        end if
+        where (counts)
+            tally%total(:, g, m) = tally%total(:, g, m) + error
+            tally%largest(:, g, m) = max(tally%largest(:, g, m), error)
+            tally%number(:, g, m) = tally%number(:, g, m) + 1
+        end where
+    end subroutine add_errors
+
+    !> Add the group of all groups.
+    subroutine total_group(tally)
+        type(tally_t), intent(inout) :: tally
+
+        integer :: g, n
+
+        n = tally%n_groups
+        g = n + 1
+        tally%n_groups = g
+        tally%group(g) = 'all'
+        tally%total(:, g, :) = sum(tally%total(:, :n, :), 2)
+        tally%largest(:, g, :) = maxval(tally%largest(:, :n, :), 2)
+        tally%number(:, g, :) = sum(tally%number(:, :n, :), 2)
+    end subroutine total_group
+
+    subroutine tell(what, tally)
+        character(len=*), intent(in) :: what
+        type(tally_t), intent(in) :: tally
+
+        character(len=140) :: line
+        integer :: g, m, j
+
+        do g = 1, tally%n_groups
+            write (line, '(3a, i0, a)') what, ', ', trim(tally%group(g)) // ' (', &
+                tally%number(1, g, 1), '): mean | max of'
+            call note(trim(line))
+            write (line, '(t26, 6a15)') 'Fx', 'Fy', 'force', 'Mz', 'power', 'stick'
+            call note(trim(line))
+            do m = 1, size(tangential_methods)
+                line = '  ' // tangential_methods(m)%name
+                do j = 1, n_errors
+                    associate (n => tally%number(j, g, m), cell => line(12 + 15*j:26 + 15*j))
+                        if (n > 0) write (cell, '(f8.2, f7.1)') tally%total(j, g, m)/n, &
+                            min(tally%largest(j, g, m), 9999.9_wp)
+                    end associate
+                end do
+                call note(trim(line))
+            end do
+        end do
+    end subroutine tell
+end module faststrip_lab_grid_forces

@@ -1,0 +1,416 @@
+!> `faststrip-lab bench normal`: times of the strip solver.
+!>
+!> All are times of the processor, of many runs the median (`us` is an older name of it), the 95th
+!> percentile and the worst; parts are medians alone. So a machine that also does other
+!> work gives nearly the same; a linear algebra library must not share a solution among threads
+!> (OPENBLAS_NUM_THREADS=1), or the time of all of them counts.
+module faststrip_lab_grid_normal
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+    use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error, number_text
+    use faststrip_base_text, only: integer_text
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_numerics_lu, only: lu_factor, lu_solve
+    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
+                                          standard_cant
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
+                                                find_rigid_contact
+    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve_gap
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_tangential_fastsim, only: fastsim_solve
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
+                                               spread_text, spread_names, cpu_columns
+    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    implicit none
+    private
+
+    public :: bench_normal, bench_normal_most_strips, gap_of_shift
+
+    !> The largest number of strips that is measured.
+    integer, parameter :: bench_normal_most_strips = 400
+
+    integer, parameter :: strip_counts(17) = [5, 7, 9, 11, 15, 21, 27, 31, 41, 61, 81, 101, 141, &
+                                              201, 251, 301, bench_normal_most_strips]
+
+    ! How a solution starts: from nothing, or from the step before, which had 5 % more or less
+    ! load, or from which the wheelset has moved sideways.
+    integer, parameter :: cold = 1, warm_load = 2, warm_shift = 3
+    character(len=*), parameter :: starts(3) = [character(len=10) :: &
+        'cold', 'warm_load', 'warm_shift']
+    real(wp), parameter :: load_factor = 1.05_wp, shift_step = 0.05_wp
+
+    integer, parameter :: fewest_runs = 3, most_runs = 400
+    integer, parameter :: fastsim_elements = 50
+    real(wp), parameter :: mu = 0.3_wp
+
+    !> Two contacts that follow each other, and what solves them.
+    type :: bench_t
+        type(material_t) :: material
+        type(bench_case_t), allocatable :: cases(:)
+        type(gap_t), allocatable :: before(:), after(:) ! of each shift, and 0.05 mm further
+        type(strip_workspace_t) :: workspace
+        type(contact_strips_t) :: strips
+    end type bench_t
+
+    !> What was measured of one contact.
+    type :: times_t
+        real(wp) :: us(size(spread_names)) = 0.0_wp ! of a solution, see `spread_of`
+        real(wp) :: gap_us = 0.0_wp     ! of handing over the gap
+        real(wp) :: iterations = 0.0_wp ! steps
+        real(wp) :: factorings = 0.0_wp ! those of them with a Jacobian
+        real(wp) :: values = 0.0_wp, gradients = 0.0_wp ! influence numbers computed
+        real(wp) :: operations = 0.0_wp ! of the linear algebra
+        integer :: runs = 0
+    end type times_t
+
+contains
+
+    !> Measure and write the CSV.
+    subroutine bench_normal(file, folder, most_strips, seconds)
+        character(len=*), intent(in) :: file   !! to write, - for stdout
+        character(len=*), intent(in) :: folder !! with the contacts
+        integer, intent(in) :: most_strips     !! no larger number of strips
+        real(wp), intent(in) :: seconds        !! for each number of strips, >= 0
+
+        type(bench_t) :: bench
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        call prepare(folder, bench)
+        call open_csv(writer, file, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=13) :: 'start', 'strips', 'us', 'iterations', &
+                                 'ns_per_entry', 'fastsim_us', 'ratio', 'flags', 'compiler', &
+                                 'cpu', 'gap_us', 'case', 'runs', &
+                                 'factorings', 'ns_per_value', 'entries_us', 'algebra_us', &
+                                 cpu_columns])
+        do i = 1, size(strip_counts)
+            if (strip_counts(i) > most_strips) exit
+            call measure_strips(bench, strip_counts(i), 1.0e6_wp*seconds, writer)
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine bench_normal
+
+    !> Read the contacts, and make the gaps of two steps from the profiles.
+    subroutine prepare(folder, bench)
+        character(len=*), intent(in) :: folder
+        type(bench_t), intent(out) :: bench
+
+        type(profile_t) :: wheel, rail
+        type(status_t) :: status
+        integer :: i, points
+
+        call read_bench_cases(folder, bench%cases, status)
+        call fail_on_error(status)
+        call make_wheel_profile('s1002', wheel, status)
+        call fail_on_error(status)
+        call make_rail_profile('uic60', standard_cant, rail, status)
+        call fail_on_error(status)
+        allocate (bench%before(size(bench%cases)), bench%after(size(bench%cases)))
+        points = 0
+        do i = 1, size(bench%cases)
+            call gap_of_shift(wheel, rail, bench%cases(i)%shift, bench%before(i))
+            call gap_of_shift(wheel, rail, bench%cases(i)%shift + shift_step, bench%after(i))
+            points = max(points, size(bench%cases(i)%gap%y), size(bench%before(i)%y), &
+                         size(bench%after(i)%y))
+        end do
+        i = 2*maxval(strip_counts) + 60
+        call reserve_strips(bench%strips, i, status)
+        call fail_on_error(status)
+        call reserve_strip_workspace(bench%workspace, i, points, status)
+        call fail_on_error(status)
+    end subroutine prepare
+
+    !> The gap of a wheelset that was moved sideways.
+    subroutine gap_of_shift(wheel, rail, shift, gap)
+        type(profile_t), intent(in) :: wheel, rail !! the profiles
+        real(wp), intent(in) :: shift              !! lateral shift, mm
+        type(gap_t), intent(out) :: gap            !! at the rigid contact, mm
+
+        type(rigid_contact_t) :: touching
+        type(status_t) :: status
+
+        call find_rigid_contact(wheel, rail, wheelset_t(), track_t(), shift, touching, status)
+        call fail_on_error(status)
+        call make_gap(wheel, rail, wheelset_t(), touching, standard_gap_step, standard_gap_height, &
+                      gap, status)
+        call fail_on_error(status)
+    end subroutine gap_of_shift
+
+    !> All contacts and starts with one number of strips, as far as the time goes.
+    subroutine measure_strips(bench, n, budget_us, writer)
+        type(bench_t), intent(inout) :: bench
+        integer, intent(in) :: n
+        real(wp), intent(in) :: budget_us
+        type(csv_writer_t), intent(inout) :: writer
+
+        type(times_t) :: times
+        real(wp) :: entry_ns, value_ns, operation_ns, fastsim_us, share
+        real(wp) :: us(size(bench%cases), size(starts))
+        real(wp) :: fastsim(size(bench%cases))
+        character(len=16) :: names(size(bench%cases), size(starts))
+        integer(int64) :: begin, now
+        integer :: i, k, start, figure, counts(size(starts)), n_fastsim
+        logical :: solved
+
+        counts = 0
+        n_fastsim = 0
+        share = budget_us/(size(starts)*size(bench%cases))
+        call system_clock(begin)
+        do k = 1, size(bench%cases)
+            ! Scattered, so that what the time leaves out is no end of the sweep.
+            i = 1 + modulo(7*(k - 1), size(bench%cases))
+            if (modulo(size(bench%cases), 7) == 0) i = k
+            fastsim_us = fastsim_time(bench, i)
+            if (fastsim_us > 0.0_wp) then
+                n_fastsim = n_fastsim + 1
+                fastsim(n_fastsim) = fastsim_us
+            end if
+            entry_ns = 0.0_wp
+            value_ns = 0.0_wp
+            operation_ns = 0.0_wp
+            do start = 1, size(starts)
+                call measure_start(bench, i, start, n, share, times, solved)
+                if (.not. solved) cycle
+                counts(start) = counts(start) + 1
+                us(counts(start), start) = times%us(1)
+                names(counts(start), start) = bench%cases(i)%name
+                if (entry_ns == 0.0_wp) then
+                    entry_ns = entry_time(bench%strips, .true.)
+                    value_ns = entry_time(bench%strips, .false.)
+                    operation_ns = operation_time(2*bench%strips%n + 3)
+                end if
+                call put_cell(writer, trim(starts(start)))
+                call put_cell(writer, n)
+                call put_cell(writer, times%us(1))
+                call put_cell(writer, times%iterations)
+                call put_cell(writer, entry_ns)
+                call put_cell(writer, fastsim_us)
+                call put_cell(writer, times%us(1)/fastsim_us)
+                call put_cell(writer, compiler_flags())
+                call put_cell(writer, compiler_name())
+                call put_cell(writer, cpu_name())
+                call put_cell(writer, times%gap_us)
+                call put_cell(writer, bench%cases(i)%name)
+                call put_cell(writer, times%runs)
+                call put_cell(writer, times%factorings)
+                call put_cell(writer, value_ns)
+                call put_cell(writer, 1.0e-3_wp*(value_ns*times%values + entry_ns*times%gradients))
+                call put_cell(writer, 1.0e-3_wp*operation_ns*times%operations)
+                do figure = 1, size(times%us)
+                    call put_cell(writer, times%us(figure))
+                end do
+                call end_row(writer)
+            end do
+            call system_clock(now)
+            if (microseconds(begin, now) > budget_us) exit
+        end do
+        call tell(n, us, names, counts, median(fastsim(:n_fastsim)))
+    end subroutine measure_strips
+
+    !> Say median, 95th percentile and worst over the contacts, which also shows that the work goes
+    !> on.
+    subroutine tell(n, us, names, counts, fastsim_us)
+        integer, intent(in) :: n, counts(:)
+        real(wp), intent(in) :: us(:, :), fastsim_us
+        character(len=*), intent(in) :: names(:, :)
+
+        character(len=:), allocatable :: text
+        integer :: start
+
+        text = integer_text(n) // ' strips, ' // integer_text(counts(cold)) // &
+               ' contacts, processor us, median/95th percentile/worst of them:'
+        do start = 1, size(starts)
+            text = text // ' ' // trim(starts(start)) // ' ' &
+                   // spread_text(us(:counts(start), start), names(:counts(start), start)) // ','
+        end do
+        call note(text // ' FASTSIM ' // trim(number_text(fastsim_us)) // ' us')
+    end subroutine tell
+
+    !> Solve one contact again and again; `solved` is false if it cannot be.
+    subroutine measure_start(bench, i, start, n, budget_us, times, solved)
+        type(bench_t), intent(inout) :: bench
+        integer, intent(in) :: i, start, n
+        real(wp), intent(in) :: budget_us
+        type(times_t), intent(out) :: times
+        logical, intent(out) :: solved
+
+        type(strip_options_t) :: options
+        type(normal_result_t) :: result
+        type(status_t) :: status
+        real(wp) :: us(most_runs), gap_us(most_runs), load
+        real(wp), dimension(most_runs) :: iterations, factorings, values, gradients, operations
+        real(wp) :: from, between, to
+        integer(int64) :: begin, now
+        integer :: run, first
+        logical :: second_step
+
+        options%strips_per_patch = n
+        ! The first two warm runs make the two steps that the others alternate between.
+        first = merge(1, -1, start == cold)
+        call system_clock(begin)
+        do run = first, most_runs
+            second_step = modulo(run, 2) == 0 .and. start /= cold
+            load = bench%cases(i)%load
+            if (second_step .and. start == warm_load) load = load_factor*load
+            options%warm_start = run > first .and. start /= cold
+            from = cpu_microseconds()
+            if (start /= warm_shift) then
+                call set_strip_gap(bench%workspace, bench%cases(i)%gap, status)
+            else if (second_step) then
+                call set_strip_gap(bench%workspace, bench%after(i), status)
+            else
+                call set_strip_gap(bench%workspace, bench%before(i), status)
+            end if
+            between = cpu_microseconds()
+            if (.not. is_error(status)) &
+                call strip_solve(bench%workspace, normal_compliance(bench%material), load, &
+                                 options, bench%strips, result, status)
+            to = cpu_microseconds()
+            solved = .not. is_error(status)
+            if (.not. solved) then
+                call note(bench%cases(i)%name // ', ' // integer_text(n) // ' strips, ' &
+                          // trim(starts(start)) // ': ' // trim(status%message))
+                return
+            end if
+            if (run < 1) cycle
+            times%runs = run
+            gap_us(run) = between - from
+            us(run) = to - between
+            iterations(run) = result%cost%iterations
+            factorings(run) = result%cost%factorings
+            values(run) = result%cost%values
+            gradients(run) = result%cost%gradients
+            operations(run) = result%cost%operations
+            call system_clock(now)
+            if (microseconds(begin, now) > budget_us .and. &
+                (run >= fewest_runs .or. us(run) > budget_us)) exit
+        end do
+        times%us = spread_of(us(:times%runs))
+        times%gap_us = median(gap_us(:times%runs))
+        times%iterations = median(iterations(:times%runs))
+        times%factorings = median(factorings(:times%runs))
+        times%values = median(values(:times%runs))
+        times%gradients = median(gradients(:times%runs))
+        times%operations = median(operations(:times%runs))
+    end subroutine measure_start
+
+    !> Time of one influence number, ns: all columns of a solved contact, on the centre lines and at
+    !> the tips, as one iteration needs them, with derivatives or without.
+    real(wp) function entry_time(strips, with_derivatives)
+        type(contact_strips_t), intent(in) :: strips
+        logical, intent(in) :: with_derivatives
+
+        integer, parameter :: runs = 7, fewest_entries = 5000
+        real(wp), dimension(strips%n) :: y, value, d_x, d_half_length
+        real(wp) :: us(runs), from
+        integer :: run, s, i, repetitions
+
+        associate (left => strips%y_left, right => strips%y_right, &
+                   half_length => strips%half_length(:strips%n))
+            y = 0.5_wp*(left(:strips%n) + right(:strips%n))
+            repetitions = 1 + fewest_entries/(2*strips%n**2)
+            do run = 1, runs
+                from = cpu_microseconds()
+                do i = 1, repetitions
+                    do s = 1, strips%n
+                        if (with_derivatives) then
+                            call center_influence_column_gradient(half_length(s), left(s), &
+                                                                  right(s), y, value, d_half_length)
+                            call tip_influence_column_gradient(half_length(s), left(s), right(s), &
+                                                               half_length, y, value, d_x, &
+                                                               d_half_length)
+                        else
+                            call center_influence_column(half_length(s), left(s), right(s), y, &
+                                                         value)
+                            call tip_influence_column(half_length(s), left(s), right(s), &
+                                                      half_length, y, value)
+                        end if
+                    end do
+                end do
+                us(run) = (cpu_microseconds() - from)/repetitions
+            end do
+        end associate
+        entry_time = 1.0e3_wp*median(us)/(2.0_wp*strips%n**2)
+    end function entry_time
+
+    !> Time of one operation in the factorisation and solution of m equations, ns.
+    real(wp) function operation_time(m)
+        integer, intent(in) :: m
+
+        integer, parameter :: runs = 5
+        real(wp), allocatable :: a(:, :), factors(:, :), b(:)
+        integer, allocatable :: pivot(:)
+        real(wp) :: us(runs), from
+        integer :: run, i, k, repetitions
+        logical :: singular
+
+        allocate (a(m, m), factors(m, m), b(m), pivot(m))
+        do k = 1, m
+            do i = 1, m
+                a(i, k) = 1.0_wp/(1.0_wp + abs(i - k))
+            end do
+        end do
+        repetitions = 1 + 100000/m**3
+        do run = 1, runs
+            from = cpu_microseconds()
+            do i = 1, repetitions
+                factors = a
+                b = 1.0_wp
+                call lu_factor(m, factors, pivot, singular)
+                if (.not. singular) call lu_solve(m, factors, pivot, b)
+            end do
+            us(run) = (cpu_microseconds() - from)/repetitions
+        end do
+        operation_time = 1.0e3_wp*median(us)/(2.0_wp/3.0_wp*real(m, wp)**3 + 2.0_wp*real(m, wp)**2)
+    end function operation_time
+
+    !> Time of FASTSIM on the Hertz ellipse of a contact, us; not a number if it has none.
+    real(wp) function fastsim_time(bench, i) result(time)
+        type(bench_t), intent(in) :: bench
+        integer, intent(in) :: i
+
+        integer, parameter :: runs = 7, repetitions = 20
+        type(gap_curve_t) :: curve
+        type(hertz_t) :: hertz
+        type(tangential_result_t) :: result
+        type(status_t) :: status
+        real(wp) :: us(runs), from
+        integer :: run, k
+
+        time = ieee_value(time, ieee_quiet_nan)
+        call reserve_gap_curve(curve, size(bench%cases(i)%gap%y), status)
+        call fail_on_error(status)
+        call set_gap_curve(curve, bench%cases(i)%gap, status)
+        call fail_on_error(status)
+        call hertz_solve_gap(curve, normal_compliance(bench%material), bench%cases(i)%load, &
+                             hertz, status)
+        if (is_error(status)) return
+        do run = 1, runs
+            from = cpu_microseconds()
+            do k = 1, repetitions
+                call fastsim_solve(hertz, bench%material, mu, bench%cases(i)%creepage, &
+                                   fastsim_elements, fastsim_elements, result, status)
+            end do
+            us(run) = (cpu_microseconds() - from)/repetitions
+            if (is_error(status)) return
+        end do
+        time = median(us)
+    end function fastsim_time
+end module faststrip_lab_grid_normal
