@@ -365,6 +365,7 @@ def fpm(name, package, command, flags, *words, trouble, twin=""):
             for path in place.rglob("*.digest"):
                 path.unlink()
         unfinished.touch()
+        drop_old_archives(place)
         quietly(name, [FPM, "update", "-C", package], trouble, compiler())
         # Without a buffer the log tells at any time how far fpm is.
         quietly(name, [FPM, command, "-C", package, "--compiler", "gfortran", "--flag", flags,
@@ -372,6 +373,22 @@ def fpm(name, package, command, flags, *words, trouble, twin=""):
                 compiler() | {"GFORTRAN_UNBUFFERED_ALL": "y"}
                 | ({"FASTSTRIP_TWIN": str(ROOT / twin / "build")} if twin else {}), WORK[package])
         unfinished.unlink()
+
+
+def drop_old_archives(place):
+    """Remove libraries that hold an object of a source that is no longer there, or is elsewhere:
+    fpm adds to a library and takes nothing out."""
+    sources = tuple(f"{path.relative_to(ROOT).as_posix().replace('/', '_')}.o"
+                    for folder in ("src", "app", "test/funit", "build/tests")
+                    for end in ("f90", "c")
+                    for path in pathlib.Path(ROOT, folder).rglob(f"*.{end}"))
+    for archive in place.rglob("*.a"):
+        members = subprocess.run(["ar", "t", archive], stdout=subprocess.PIPE, check=False,
+                                 stderr=subprocess.DEVNULL, encoding="utf-8").stdout.split()
+        # The name of an object is the path of its source from the package, or from one beside it.
+        if not all(any(name.endswith(member.split("_.._")[-1].removeprefix(".._"))
+                       for name in sources) for member in members):
+            archive.unlink()
 
 
 def fpm_build(name, package, flags, twin=""):

@@ -210,16 +210,48 @@ class Wheelset(ProgramTest):
         self.assertIn("the vertical force must be above 0, got -10000.0 N", run.stderr)
         self.assertIn("4 of 6 states failed", run.stderr)
 
-    def test_what_is_no_method_of_a_wheelset_is_refused(self):
-        for name in ("norm", "auto"):
-            self.write("bad.nml", CASE + f"&numerics\n normal='{name}'\n/\n")
-            self.write("states.csv", HEADER + "\n")
-            self.refused(1, "wheelset", "bad.nml", "--states", "states.csv", says=["normal", name])
-        self.write("bad.nml", CASE + "&numerics\n tangential='tang'\n/\n")
-        self.refused(1, "wheelset", "bad.nml", "--states", "states.csv", says=["tang"])
-        self.write("bad.nml", CASE + "&numerics\n smoothing_um=1.0\n/\n")
-        self.refused(1, "wheelset", "bad.nml", "--states", "states.csv",
-                     says=["smoothing_um", "--smooth-wavelength"])
+    def test_every_choice_carries_the_load(self):
+        """What strips do not solve they find the height for: the vertical force of each wheel, or
+        of both, is the one asked for, whatever solves the contacts; by references and smoothed gaps
+        the figures are near those of strips, with estimates of their own."""
+        states = ("1,right,2,0,0.002,20000,,5e4", "2,left,-6,,-0.004,20000,,5e4",
+                  "3,both,1,0,0.001,20000,,1e5")
+        header = HEADER + ",z_mm"
+        height = self.solved(*states)[0]["z_mm"]
+        states = (*(f"{state}," for state in states), f"4,right,2,0,0.002,20000,,,{height}")
+        plain = self.solved(*states, header=header)
+        self.assertEqual(len(plain), 5)
+        for words in ("normal='norm' tangential='tang'", "normal='norm'", "tangential='tang'",
+                      "normal='auto'", "normal='auto' target='pmax' tolerance=0.005",
+                      "smoothing_um=0.2", "normal='kpec' smoothing_um=0.2"):
+            self.write("chosen.nml", CASE + f"&numerics\n {words}\n/\n")
+            rows = self.solved(*states, header=header, case="chosen.nml")
+            with self.subTest(words):
+                self.assertEqual(len(rows), len(plain))
+                forces = numbers(rows, "Fz_track_N")
+                self.assert_close(forces[0], 5e4, absolute=5.1, what=words)
+                self.assert_close(forces[1], 5e4, absolute=5.1, what=words)
+                self.assert_close(forces[2] + forces[3], 1e5, absolute=10.1, what=words)
+                # Auto takes no more strips than the forces of each contact need.
+                near = 0.2 if "kpec" in words else 0.04 if "auto" in words else 0.02
+                for one, other in zip(rows, plain, strict=True):
+                    for name in ("N_N", "pmax_MPa", "penetration_mm"):
+                        self.assert_close(float(one[name]), float(other[name]), relative=near,
+                                          what=f"{words} {name}")
+                    self.assertNotEqual([one[name] for name in FORCES],
+                                        [other[name] for name in FORCES])
+                    self.assertEqual(one["est_err_pmax"] == "", "kpec" in words)
+        self.write("twice.nml", CASE + "&numerics\n normal='norm' tangential='tang'\n/\n")
+        once = self.solved(states[0], header=header, case="twice.nml")
+        self.assertEqual(self.solved(states[0], states[1], states[0], header=header,
+                                     case="twice.nml")[0], once[0])
+
+    def test_a_table_is_made_by_methods_of_the_library(self):
+        for words, said in (("normal='norm'", "norm"), ("normal='auto'", "auto"),
+                            ("tangential='tang'", "tang"),
+                            ("smoothing_um=1.0", "--smooth-wavelength")):
+            self.write("bad.nml", CASE + f"&numerics\n {words}\n/\n")
+            self.refused(1, "lookup", "wheel", "bad.nml", "-o", "x.fslt", says=["a table", said])
 
     def test_pressures_beyond_yield_are_named(self):
         state = "1,right,2,0,0.002,2000,,1e4"

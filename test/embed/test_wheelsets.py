@@ -161,11 +161,17 @@ class Faces(HostTest):
                  "roll of a rail"),
                 (lambda: package.Wheelset("round"), "must be s1002, cone20 or cone40, got round"),
                 (lambda: package.Wheelset(rail=3), "rail must be a Profile of a rail or a name"),
-                (lambda: package.Wheelset(normal="auto"), "must not be auto"),
                 (lambda: package.Wheelset(radius=-1.0), "nominal radius")):
             with self.assertRaises(package.FaststripError) as caught:
                 call()
             self.assertIn(text, str(caught.exception))
+        with package.Wheelset(normal="auto") as chosen:
+            # The height is found by strips, the load carried by what auto takes.
+            one, other = (each.solve(load=5e4, y=2.0) for each in (chosen, wheelset))
+            for side in ("right", "left"):
+                found, plain = getattr(one, side), getattr(other, side)
+                self.assertAlmostEqual(found.vertical_force, 5e4, delta=5.1)
+                self.assertAlmostEqual(found.z, plain.z, delta=0.01)
         with wheelset:
             self.assertEqual(wheelset.solve(z=-5.0).contacts, ())
         with self.assertRaisesRegex(package.FaststripError, "closed"):

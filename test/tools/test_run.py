@@ -392,6 +392,20 @@ class FromNothing(Building):
         objects, said = built()
         self.assertEqual((objects, said), (["programs_faststrip.f90.o"], "3\nrevision unknown\n"))
 
+    def test_a_module_that_has_moved_is_built_again(self):
+        text = LIBRARY.replace("public :: wp", "public :: wp\n    public :: tell").replace(
+            "end module", "contains\n\n    subroutine tell() bind(c)\n    end subroutine tell\n"
+            "end module")
+        main = MAIN.replace("    implicit none", "    use faststrip_base_kinds, only: tell\n"
+                            "    implicit none\n    call tell()")
+        self.write("src/faststrip/base/kinds.f90", text)
+        self.write("app/programs/faststrip.f90", main)
+        self.assertEqual(self.run_it("build").returncode, 0)
+        (self.folder / "src/faststrip/base/kinds.f90").unlink()
+        self.write("src/faststrip/ground/kinds.f90", text)
+        result = self.run_it("build")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_all_stages_are_counted(self):
         disabled = PASSING.replace("@test", "@test\n@disable").replace("passes", "waits")
         self.check(PASSING + disabled, 0, "3 passed, 0 failed, 1 skipped")

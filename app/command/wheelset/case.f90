@@ -15,7 +15,7 @@ module faststrip_command_wheelset_case
     use faststrip_command_settings_case_values, only: unset, case_groups
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_program_files, only: take_input
-    use faststrip_command_settings_methods, only: in_core, word_length
+    use faststrip_command_settings_methods, only: in_core, settle_wanted, word_length
     use faststrip_command_settings_namelist, only: namelist_file_t, group_t, read_namelist_file, &
                                                    find_group, sets, refuse
     use faststrip_command_settings_namelist_values, only: reading_t, next_lines, refuse_values, &
@@ -38,10 +38,11 @@ contains
 
     !> Read a case file; ends the program with one line at the first thing that is wrong. Groups
     !> that are for one contact may stand there, too.
-    subroutine read_wheelset_case(path, case, model)
+    subroutine read_wheelset_case(path, case, model, for_table)
         character(len=*), intent(in) :: path            !! name of the `.nml` file
         type(wheelset_case_t), intent(inout) :: case    !! checked
         type(wheelset_model_t), intent(inout) :: model  !! made of it
+        logical, intent(in), optional :: for_table      !! only what is cheap enough for one?
 
         type(namelist_file_t) :: content
         type(group_t) :: group
@@ -63,18 +64,9 @@ contains
         call hold_width(content, case%rail, case%wheelset%radius)
         call hold_width(content, case%left_rail, case%wheelset%radius)
         call read_numerics_group(content, case%case_t)
+        call settle_wanted(case%case_t)
         call find_group(content, 'numerics', .false., group)
-        if (case%methods%normal == normal_auto &
-            .or. .not. in_core(normal_table, case%methods%normal)) &
-            call refuse(content, group, 'normal', 'must be a method of strips or ellipses for a ' &
-                        // 'wheelset', trim(normal_method_name(case%methods%normal)))
-        if (.not. in_core(tangential_table, case%methods%tangential)) &
-            call refuse(content, group, 'tangential', 'must be a method of the library for a ' // &
-                        'wheelset', trim(tangential_method_name(case%methods%tangential)))
-        ! Each gap would be smoothed by a strength of its own, and forces would jump.
-        if (sets(content, group, 'smoothing_um')) &
-            call refuse(content, group, 'smoothing_um', 'must not be given for a wheelset; ' // &
-                        'smooth its profiles (faststrip profile --smooth-wavelength)', '')
+        if (present(for_table)) call refuse_dear_methods(content, group, case)
         if (sets(content, group, 'gap_step_mm')) &
             call refuse(content, group, 'gap_step_mm', 'must not be given for a wheelset', '')
         call read_state_group(content, case)
@@ -86,6 +78,24 @@ contains
         call fail_on_error(status, path)
         if (sets(content, group, 'gap_height_mm')) model%gap_height = case%gap_height
     end subroutine read_wheelset_case
+
+    !> A table is made of many solutions of the library's methods.
+    subroutine refuse_dear_methods(content, group, case)
+        type(namelist_file_t), intent(in) :: content
+        type(group_t), intent(in) :: group
+        type(wheelset_case_t), intent(in) :: case
+
+        if (case%methods%normal == normal_auto &
+            .or. .not. in_core(normal_table, case%methods%normal)) &
+            call refuse(content, group, 'normal', 'must be a method of strips or ellipses for a ' &
+                        // 'table', trim(normal_method_name(case%methods%normal)))
+        if (.not. in_core(tangential_table, case%methods%tangential)) &
+            call refuse(content, group, 'tangential', 'must be a method of the library for a ' // &
+                        'table', trim(tangential_method_name(case%methods%tangential)))
+        if (case%smoothing > 0.0_wp) &
+            call refuse(content, group, 'smoothing_um', 'must not be given for a table; ' // &
+                        'smooth its profiles (faststrip profile --smooth-wavelength)', '')
+    end subroutine refuse_dear_methods
 
     !> The one state of a case.
     subroutine read_state_group(content, case)

@@ -9,7 +9,8 @@ module faststrip_command_wheelset
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_result_t, &
-                                        side_right, side_left
+                                        side_right, side_left, most_contacts
+    use faststrip_kalker_methods, only: kalker_methods_t, add_kalker
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_command_program_console, only: fail, fail_on_error, note, progress, tell_held, &
@@ -74,6 +75,7 @@ contains
         type(command_t) :: command
         type(wheelset_case_t) :: case
         type(run_t) :: run
+        type(kalker_methods_t), allocatable, target :: kalker(:, :, :)
         type(csv_table_t) :: table
         type(state_columns_t) :: columns
         type(given_state_t) :: state
@@ -132,8 +134,11 @@ contains
         run%wants_profiles = given(command, '--profiles')
         run%is_drawn = given(command, '--plot')
         run%profiles_of = option_text(command, '--profiles-of', '')
+        allocate (kalker(most_contacts, 2, size(run%workspaces)))
         do i = 1, merge(2, 1, run%beside > 0.0_wp)
-            call reserve_wheelset(run%workspaces(i), run%model, status)
+            call enter_kalker(run%workspaces(i), kalker(:, :, i), status)
+            if (.not. is_error(status)) &
+                call reserve_wheelset(run%workspaces(i), run%model, status)
             call fail_on_error(status)
         end do
         if (.not. case%has_state) then
@@ -189,6 +194,23 @@ contains
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(table%n_rows) // ' states failed')
     end subroutine run_wheelset
+
+    ! NORM and TANG for each contact that a wheel may have.
+    subroutine enter_kalker(workspace, kalker, status)
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(kalker_methods_t), intent(inout), target :: kalker(:, :) ! contact, side
+        type(status_t), intent(out) :: status
+
+        integer :: side, i
+
+        do side = side_right, side_left
+            allocate (workspace%wheel(side)%contact(size(kalker, 1)))
+            do i = 1, size(kalker, 1)
+                call add_kalker(workspace%wheel(side)%contact(i), kalker(i, side), status)
+                if (is_error(status)) return
+            end do
+        end do
+    end subroutine enter_kalker
 
     subroutine close_drawn(run)
         type(run_t), intent(inout) :: run

@@ -19,23 +19,21 @@ module faststrip_contact_auto
                                      st_fewer_strips
     use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
-    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
-    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
-    use faststrip_contact_grids, only: grid_step_t, plan_of_finer, first_grid, next_grid
+    use faststrip_contact_grids, only: plan_of_finer, follow_on
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
                                         tangential_method_t, tangential_method_of
     use faststrip_contact_methods, only: contact_methods_t, normal_strip, normal_hertz, &
                                          normal_norm, tangential_none, tangential_faststrip, &
-                                         tangential_tang, start_last
-    use faststrip_contact_parts, only: check_contact_friction, find_pressures, find_forces
+                                         tangential_tang
+    use faststrip_contact_parts, only: check_contact_friction, find_pressures, add_forces
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, check_wanted, needs_forces, margin, &
                                         others_across, others_time, auto_step_t, auto_steps_t, &
-                                        unknown_error, most_steps, target_pmax, target_area
+                                        clear_steps, unknown_error
     implicit none
     private
 
@@ -119,7 +117,6 @@ contains
             !! for `normal_auto`; limitation `st_target_missed`
 
         type(search_t) :: search
-        type(auto_steps_t) :: taken
         type(lap_t) :: lap
         real(wp) :: us, cpu
 
@@ -132,22 +129,22 @@ contains
         call check_case(workspace, case, search%wanted, method, status)
         if (is_error(status)) return
         call begin_search(case, search)
-        call climb(search, workspace, case%warm_start, taken, status)
-        if (.not. is_error(status)) call finish(search, workspace, case, taken, status)
+        call climb(search, workspace, case%warm_start, status)
+        if (.not. is_error(status)) call finish(search, workspace, case, status)
         if (is_error(status)) then
             workspace%solved_by = 0
+            call clear_steps(workspace%steps)
             return
         end if
         search%best%gap_change = result%gap_change
         search%best%times = result%times
         result = search%best
-        workspace%steps = taken
-        workspace%methods = taken%steps(taken%best)%methods
+        workspace%methods = workspace%steps%steps(workspace%steps%best)%methods
         if (.not. case%asked%times) return
         us = 0.0_wp
         cpu = 0.0_wp
         call add_lap(.true., lap, us, cpu)
-        associate (times => result%times, steps => taken%steps(:taken%n))
+        associate (times => result%times, steps => workspace%steps%steps(:workspace%steps%n))
             us = sum(steps%normal_us)/max(sum(steps%normal_us + steps%tangential_us), &
                                           tiny(us))
             times%normal_us = times%normal_us + sum(steps%normal_us)
@@ -206,62 +203,60 @@ contains
     end function wants_strip_forces
 
     !> Take steps until the estimate is met or nothing more would help.
-    subroutine climb(search, workspace, warm_start, taken, status)
+    subroutine climb(search, workspace, warm_start, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         logical, intent(in) :: warm_start
-        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(inout) :: status
 
         integer :: n
 
-        call try_ellipse(search, workspace, taken)
-        if (taken%is_met .or. is_left(search, workspace, taken) &
-            .or. is_spent(search, taken)) return
+        call try_ellipse(search, workspace)
+        if (workspace%steps%is_met .or. is_left(search, workspace) &
+            .or. is_spent(search, workspace%steps)) return
         n = first_strips
         if (warm_start .and. workspace%first_strips > 0) n = workspace%first_strips
         n = min(n, search%wanted%most_strips)
         search%case%warm_start = warm_start
         do
-            call solve_step(search, workspace, normal_strip, n, taken, status)
-            if (is_error(status) .and. taken%n > 0) then
+            call solve_step(search, workspace, normal_strip, n, status)
+            if (is_error(status) .and. workspace%steps%n > 0) then
                 ! What was found before stands.
                 call clear_status(status)
                 return
             end if
-            if (is_error(status) .or. taken%is_met .or. taken%n == most_own_steps) return
+            if (is_error(status) .or. workspace%steps%is_met &
+                .or. workspace%steps%n == most_own_steps) return
             search%case%warm_start = .true.
-            n = next_strips(search, workspace, taken)
+            n = next_strips(search, workspace)
             if (n == 0) return
         end do
     end subroutine climb
 
     !> Take the Hertz ellipse, with more strips if they are all that is missing, where its error is
     !> estimated.
-    subroutine try_ellipse(search, workspace, taken)
+    subroutine try_ellipse(search, workspace)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
-        type(auto_steps_t), intent(inout) :: taken
 
         type(status_t) :: status
         integer :: n
 
         n = hertz_strips
-        do while (n > 0 .and. taken%n < 2)
-            call solve_step(search, workspace, normal_hertz, n, taken, status)
-            if (is_error(status) .or. taken%n == 0 .or. taken%is_met) return
-            n = next_strips(search, workspace, taken)
+        do while (n > 0 .and. workspace%steps%n < 2)
+            call solve_step(search, workspace, normal_hertz, n, status)
+            if (is_error(status) .or. workspace%steps%n == 0 .or. workspace%steps%is_met) return
+            n = next_strips(search, workspace)
         end do
     end subroutine try_ellipse
 
     !> Is it known after an ellipse that strips cannot do, and is somebody there to follow?
-    logical function is_left(search, workspace, taken)
+    logical function is_left(search, workspace)
         type(search_t), intent(in) :: search
         type(workspace_t), intent(in) :: workspace
-        type(auto_steps_t), intent(in) :: taken
 
         is_left = .false.
-        if (taken%n == 0 .or. search%wanted%others%one_us <= 0.0_wp) return
+        if (workspace%steps%n == 0 .or. search%wanted%others%one_us <= 0.0_wp) return
         if (.not. needs_forces(search%wanted%target)) return
         ! An ellipse that is far off is no start for others.
         if (search%last%certificate%est_err_area > nearly_ellipse) return
@@ -292,11 +287,10 @@ contains
 
     !> Solve by some methods, and keep the solution if it is the best; an ellipse without estimate
     !> is no step.
-    subroutine solve_step(search, workspace, normal, strips, taken, status)
+    subroutine solve_step(search, workspace, normal, strips, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         integer, intent(in) :: normal, strips ! method, and how many
-        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(out) :: status
 
         type(auto_step_t) :: step
@@ -319,7 +313,9 @@ contains
             search%idle_us = 0.0_wp
             before = now()
             if (needs_forces(search%wanted%target)) then
-                call add_forces_to(search, workspace, last, status)
+                call add_forces(workspace, search%case, &
+                                tangential_method_of(workspace, step%methods%tangential), last, &
+                                status)
                 if (is_error(status)) then
                     search%idle_us = step%normal_us + since(before)
                     return
@@ -332,52 +328,50 @@ contains
             step%across = step%methods%strips_per_patch
         end associate
         search%last_status = status
-        call add_step(search, workspace, step, taken)
+        call add_step(search, workspace, step)
     end subroutine solve_step
 
     !> Add a step; the best so far is kept.
-    subroutine add_step(search, workspace, step, taken)
+    subroutine add_step(search, workspace, step)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         type(auto_step_t), intent(in) :: step
-        type(auto_steps_t), intent(inout) :: taken
 
-        taken%n = taken%n + 1
-        taken%steps(taken%n) = step
-        if (taken%first == 0 .and. step%methods%normal == normal_strip) then
-            taken%first = taken%n
-            taken%first_across = narrow_across(workspace%strips)
+        workspace%steps%n = workspace%steps%n + 1
+        workspace%steps%steps(workspace%steps%n) = step
+        if (workspace%steps%first == 0 .and. step%methods%normal == normal_strip) then
+            workspace%steps%first = workspace%steps%n
+            workspace%steps%first_across = narrow_across(workspace%strips)
         end if
-        if (taken%best > 0 .and. step%estimate >= taken%estimate) return
-        taken%best = taken%n
-        taken%estimate = step%estimate
-        taken%is_met = step%estimate <= search%wanted%tolerance
+        if (workspace%steps%best > 0 .and. step%estimate >= workspace%steps%estimate) return
+        workspace%steps%best = workspace%steps%n
+        workspace%steps%estimate = step%estimate
+        workspace%steps%is_met = step%estimate <= search%wanted%tolerance
         search%best = search%last
         search%best_status = search%last_status
         search%best_solved_by = workspace%solved_by
         search%is_best = .true.
-        if (.not. taken%is_met) call copy_strips(workspace%strips, workspace%best_strips)
+        if (.not. workspace%steps%is_met) call copy_strips(workspace%strips, workspace%best_strips)
     end subroutine add_step
 
     !> How many strips the next step takes; 0: none, nothing more would help or fit the budget.
-    integer function next_strips(search, workspace, taken) result(n)
+    integer function next_strips(search, workspace) result(n)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(in) :: workspace
-        type(auto_steps_t), intent(in) :: taken
 
         type(fall_t) :: fall
         real(wp) :: growth, most, aim
         logical :: does_not_grow
 
         n = 0
-        associate (step => taken%steps(taken%n), wanted => search%wanted)
+        associate (step => workspace%steps%steps(workspace%steps%n), wanted => search%wanted)
             fall = fall_of(search, workspace, step)
             does_not_grow = search%before%normal == fall%normal &
                             .and. search%before%across >= fall%across
             search%before = fall
             ! More were asked for and did not settle.
             if (does_not_grow) return
-            most = most_growth(search, taken, fall)
+            most = most_growth(search, workspace%steps, fall)
             growth = most
             if (fall%estimate >= unknown_error) then
                 ! Given: twice as many.
@@ -545,11 +539,10 @@ contains
 
     !> Take the best solution, or a better one by Kalker's methods, and what else the case asks for
     !> on it; say what is missing.
-    subroutine finish(search, workspace, case, taken, status)
+    subroutine finish(search, workspace, case, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
-        type(auto_steps_t), intent(inout) :: taken
         type(status_t), intent(out) :: status
 
         integer(int64) :: before
@@ -558,18 +551,19 @@ contains
         if (.not. search%is_best) call copy_strips(workspace%best_strips, workspace%strips)
         workspace%solved_by = search%best_solved_by
         workspace%is_ellipse = search%best_solved_by == normal_hertz
-        if (taken%steps(taken%best)%methods%normal == normal_strip) &
-            workspace%first_strips = strips_next_time(search, taken)
+        if (workspace%steps%steps(workspace%steps%best)%methods%normal == normal_strip) &
+            workspace%first_strips = strips_next_time(search, workspace%steps)
         is_finer = .false.
-        if (search%has_finer .and. .not. taken%is_met) &
-            call follow_on(search, workspace, case, taken, status, is_finer)
+        if (search%has_finer .and. .not. workspace%steps%is_met) &
+            call follow_on(workspace, case, search%wanted, search%case, search%best, &
+                           search%best_solved_by, status, is_finer)
         if (is_finer) return
         before = now()
         status = search%best_status
         ! Nobody asked for a number of strips.
         if (status%code == st_more_strips .or. status%code == st_fewer_strips) &
             call clear_status(status)
-        search%case%methods = taken%steps(taken%best)%methods
+        search%case%methods = workspace%steps%steps(workspace%steps%best)%methods
         search%case%asked%field = case%asked%field
         if (.not. needs_forces(search%wanted%target)) then
             search%case%methods%tangential = case%methods%tangential
@@ -581,148 +575,19 @@ contains
             search%case%methods%dx_is_given = case%methods%dx_is_given
             search%case%methods%dy_is_given = case%methods%dy_is_given
             search%case%methods%max_elements = case%methods%max_elements
-            call add_forces(search, workspace, status)
+            call add_best_forces(search, workspace, status)
         else if (case%asked%field .or. wants_strip_forces(case) .and. .not. search%is_best) then
-            call add_forces(search, workspace, status)
+            call add_best_forces(search, workspace, status)
         end if
         if (is_error(status)) return
-        associate (step => taken%steps(taken%best))
+        associate (step => workspace%steps%steps(workspace%steps%best))
             step%methods = search%case%methods
             step%tangential_us = step%tangential_us + since(before)
         end associate
-        call name_target(search%wanted, taken%estimate, limit_of(search, case), status)
+        call name_target(search%wanted, workspace%steps%estimate, &
+                         merge(case%force_limit, case%resolution_limit, &
+                               needs_forces(search%wanted%target)), status)
     end subroutine finish
-
-    !> Largest error that is called resolved, of what the target is of.
-    pure real(wp) function limit_of(search, case) result(limit)
-        type(search_t), intent(in) :: search
-        type(contact_case_t), intent(in) :: case
-
-        limit = merge(case%force_limit, case%resolution_limit, needs_forces(search%wanted%target))
-    end function limit_of
-
-    !> Solve by Kalker's methods, on finer grids if their own estimates ask for it, and take what is
-    !> better than the core's solution.
-    subroutine follow_on(search, workspace, case, taken, status, is_taken)
-        type(search_t), intent(inout) :: search
-        type(workspace_t), intent(inout) :: workspace
-        type(contact_case_t), intent(in) :: case
-        type(auto_steps_t), intent(inout) :: taken
-        type(status_t), intent(out) :: status
-        logical, intent(out) :: is_taken ! was a solution taken?
-
-        type(contact_result_t) :: trial
-        type(status_t) :: tried
-        type(contact_strips_t) :: strips
-        type(strip_forces_t) :: strip_forces
-        type(tangential_field_t) :: field
-        type(grid_step_t) :: grid
-        type(auto_step_t) :: step
-
-        is_taken = .false.
-        strips = workspace%strips
-        grid = first_grid(search%wanted, taken, case%methods%max_elements, search%best%normal, &
-                          strips, time_of(taken))
-        do while (grid%across > 0.0_wp .and. taken%n < most_steps)
-            trial = contact_result_t()
-            workspace%strips = strips
-            call solve_on_grid(search, workspace, case, grid, trial, step, tried)
-            if (.not. is_error(tried)) step%estimate = max(step%estimate, &
-                contradiction(search%wanted%target, search%best%normal, taken%estimate, &
-                              trial%normal))
-            taken%n = taken%n + 1
-            taken%steps(taken%n) = step
-            if (.not. is_error(tried) .and. step%estimate < taken%estimate) then
-                is_taken = .true.
-                search%best = trial
-                taken%best = taken%n
-                taken%estimate = step%estimate
-                taken%is_met = step%estimate <= search%wanted%tolerance
-                strips = workspace%strips
-                if (case%asked%field) field = workspace%field
-                if (wants_strip_forces(case)) strip_forces = workspace%strip_forces
-                status = tried
-                call name_target(search%wanted, taken%estimate, limit_of(search, case), status)
-            end if
-            if (is_error(tried) .or. taken%is_met) exit
-            grid = next_grid(search%wanted, grid, step, time_of(taken))
-        end do
-        workspace%strips = strips
-        workspace%solved_by = merge(normal_norm, search%best_solved_by, is_taken)
-        workspace%is_ellipse = workspace%solved_by == normal_hertz
-        if (.not. is_taken) return
-        if (case%asked%field) workspace%field = field
-        if (wants_strip_forces(case)) workspace%strip_forces = strip_forces
-    end subroutine follow_on
-
-    !> Time of all steps so far, us.
-    pure real(wp) function time_of(taken) result(us)
-        type(auto_steps_t), intent(in) :: taken
-
-        us = sum(taken%steps(:taken%n)%normal_us + taken%steps(:taken%n)%tangential_us)
-    end function time_of
-
-    !> By how much more two solutions differ than the error that is told of the first: an error of
-    !> one of them that nobody told.
-    pure real(wp) function contradiction(target, first, error, second)
-        integer, intent(in) :: target
-        type(normal_result_t), intent(in) :: first, second
-        real(wp), intent(in) :: error ! relative
-
-        contradiction = 0.0_wp
-        if (target == target_pmax) contradiction = difference(first%pmax, second%pmax) - error
-        if (target == target_area) contradiction = difference(first%area, second%area) - error
-    end function contradiction
-
-    !> Difference of two figures over the larger.
-    pure real(wp) function difference(a, b)
-        real(wp), intent(in) :: a, b
-
-        difference = abs(a - b)/max(a, b)
-    end function difference
-
-    !> Both problems on one grid, and how wrong the target is.
-    subroutine solve_on_grid(search, workspace, case, grid, trial, step, status)
-        type(search_t), intent(inout) :: search
-        type(workspace_t), intent(inout) :: workspace ! with strips to start from
-        type(contact_case_t), intent(in) :: case
-        type(grid_step_t), intent(in) :: grid
-        type(contact_result_t), intent(inout) :: trial
-        type(auto_step_t), intent(out) :: step
-        type(status_t), intent(out) :: status
-
-        integer(int64) :: before
-
-        associate (methods => search%case%methods)
-            methods = case%methods
-            methods%normal = normal_norm
-            if (needs_forces(search%wanted%target)) methods%tangential = tangential_tang
-            methods%element_dx = grid%dx
-            methods%element_dy = grid%dy
-            methods%dx_is_given = .true.
-            methods%dy_is_given = .true.
-            methods%error_target = 0.0_wp
-            methods%norm_start = start_last
-            step%methods = methods
-        end associate
-        step%across = nint(grid%across)
-        search%case%asked%field = case%asked%field
-        before = now()
-        call find_pressures(workspace, search%case, normal_method_of(workspace, normal_norm), &
-                            trial, status)
-        step%normal_us = since(before)
-        before = now()
-        if (.not. is_error(status)) then
-            if (step%methods%tangential /= tangential_none) &
-                call add_forces_to(search, workspace, trial, status)
-        end if
-        step%tangential_us = since(before)
-        if (is_error(status)) then
-            step%code = status%code
-        else
-            step%estimate = target_error(search%wanted%target, search%case, trial)
-        end if
-    end subroutine solve_on_grid
 
     !> Strips that a contact like this one begins with in a warm start.
     pure integer function strips_next_time(search, taken) result(n)
@@ -737,31 +602,15 @@ contains
     end function strips_next_time
 
     !> Forces on the solution that is taken.
-    subroutine add_forces(search, workspace, status)
+    subroutine add_best_forces(search, workspace, status)
         type(search_t), intent(inout) :: search
         type(workspace_t), intent(inout) :: workspace
         type(status_t), intent(inout) :: status ! changed by an error
 
         if (search%case%methods%tangential == tangential_none) return
-        call add_forces_to(search, workspace, search%best, status)
-    end subroutine add_forces
+        call add_forces(workspace, search%case, &
+                        tangential_method_of(workspace, search%case%methods%tangential), &
+                        search%best, status)
+    end subroutine add_best_forces
 
-    !> Forces, and how wrong they are.
-    subroutine add_forces_to(search, workspace, result, status)
-        type(search_t), intent(in) :: search
-        type(workspace_t), intent(inout) :: workspace
-        type(contact_result_t), intent(inout) :: result
-        type(status_t), intent(inout) :: status
-
-        class(tangential_method_t), pointer :: method
-        type(status_t) :: forces
-
-        method => tangential_method_of(workspace, search%case%methods%tangential)
-        call find_forces(workspace, search%case, method, result, forces)
-        if (is_error(forces)) then
-            status = forces
-        else if (result%is_estimated) then
-            call method%estimate(workspace, search%case, result, status)
-        end if
-    end subroutine add_forces_to
 end module faststrip_contact_auto

@@ -1,15 +1,26 @@
-!> Which grid Kalker's methods take where auto finds that strips cannot do, and the next ones.
+!> What Kalker's methods do where auto finds that strips cannot: grids, finer and finer ones.
 module faststrip_contact_grids
+    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_contact_method, only: normal_method_t
+    use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_clock, only: now, since
+    use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_t, &
+                                        normal_method_of, tangential_method_of
+    use faststrip_contact_methods, only: normal_hertz, normal_norm, tangential_none, &
+                                         tangential_tang, start_last
+    use faststrip_contact_parts, only: find_pressures, add_forces
+    use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, others_t, others_across, others_time, margin, &
-                                        auto_step_t, auto_steps_t, unknown_error, target_area
+                                        needs_forces, auto_step_t, auto_steps_t, unknown_error, &
+                                        most_steps, target_area, target_pmax
     implicit none
     private
 
-    public :: grid_step_t, plan_of_finer, first_grid, next_grid
+    public :: plan_of_finer, follow_on
 
     ! Tuned [grids]: that are tried for one contact. Origin: chosen for the time.
     integer, parameter :: most_grids = 3
@@ -130,4 +141,133 @@ contains
         grid%dx = last%dx/growth
         grid%dy = last%dy/growth
     end function next_grid
+
+    !> Solve by Kalker's methods, on finer grids if their own estimates ask for it, and take what is
+    !> better than the core's solution.
+    subroutine follow_on(workspace, case, wanted, steps_case, best, solved_by, status, is_taken)
+        type(workspace_t), intent(inout) :: workspace   !! with the core's solution; its steps go on
+        type(contact_case_t), intent(in) :: case        !! as the caller has it
+        type(wanted_t), intent(in) :: wanted            !! target, tolerance, budget
+        type(contact_case_t), intent(inout) :: steps_case !! the same without gap, for the steps
+        type(contact_result_t), intent(inout) :: best   !! of the core; a better one
+        integer, intent(in) :: solved_by                !! normal method of the core's solution
+        type(status_t), intent(out) :: status           !! of a solution that was taken
+        logical, intent(out) :: is_taken                !! was one?
+
+        type(contact_result_t) :: trial
+        type(status_t) :: tried
+        type(contact_strips_t) :: strips
+        type(strip_forces_t) :: strip_forces
+        type(tangential_field_t) :: field
+        type(grid_step_t) :: grid
+        type(auto_step_t) :: step
+
+        is_taken = .false.
+        strips = workspace%strips
+        grid = first_grid(wanted, workspace%steps, case%methods%max_elements, best%normal, strips, &
+                          time_of(workspace%steps))
+        do while (grid%across > 0.0_wp .and. workspace%steps%n < most_steps)
+            trial = contact_result_t()
+            workspace%strips = strips
+            call solve_on_grid(workspace, case, wanted, steps_case, grid, trial, step, tried)
+            if (.not. is_error(tried)) step%estimate = max(step%estimate, &
+                contradiction(wanted%target, best%normal, workspace%steps%estimate, trial%normal))
+            workspace%steps%n = workspace%steps%n + 1
+            workspace%steps%steps(workspace%steps%n) = step
+            if (.not. is_error(tried) .and. step%estimate < workspace%steps%estimate) then
+                is_taken = .true.
+                best = trial
+                workspace%steps%best = workspace%steps%n
+                workspace%steps%estimate = step%estimate
+                workspace%steps%is_met = step%estimate <= wanted%tolerance
+                strips = workspace%strips
+                if (case%asked%field) field = workspace%field
+                if (steps_case%asked%strip_forces) strip_forces = workspace%strip_forces
+                status = tried
+                call name_target(wanted, workspace%steps%estimate, &
+                                 merge(case%force_limit, case%resolution_limit, &
+                                       needs_forces(wanted%target)), status)
+            end if
+            if (is_error(tried) .or. workspace%steps%is_met) exit
+            grid = next_grid(wanted, grid, step, time_of(workspace%steps))
+        end do
+        workspace%strips = strips
+        workspace%solved_by = merge(normal_norm, solved_by, is_taken)
+        workspace%is_ellipse = workspace%solved_by == normal_hertz
+        if (.not. is_taken) return
+        if (case%asked%field) workspace%field = field
+        if (steps_case%asked%strip_forces) workspace%strip_forces = strip_forces
+    end subroutine follow_on
+
+    !> Time of all steps so far, us.
+    pure real(wp) function time_of(taken) result(us)
+        type(auto_steps_t), intent(in) :: taken
+
+        us = sum(taken%steps(:taken%n)%normal_us + taken%steps(:taken%n)%tangential_us)
+    end function time_of
+
+    !> By how much more two solutions differ than the error that is told of the first: an error of
+    !> one of them that nobody told.
+    pure real(wp) function contradiction(target, first, error, second)
+        integer, intent(in) :: target
+        type(normal_result_t), intent(in) :: first, second
+        real(wp), intent(in) :: error ! relative
+
+        contradiction = 0.0_wp
+        if (target == target_pmax) contradiction = difference(first%pmax, second%pmax) - error
+        if (target == target_area) contradiction = difference(first%area, second%area) - error
+    end function contradiction
+
+    !> Difference of two figures over the larger.
+    pure real(wp) function difference(a, b)
+        real(wp), intent(in) :: a, b
+
+        difference = abs(a - b)/max(a, b)
+    end function difference
+
+    !> Both problems on one grid, and how wrong the target is.
+    subroutine solve_on_grid(workspace, case, wanted, steps_case, grid, trial, step, status)
+        type(workspace_t), intent(inout) :: workspace ! with strips to start from
+        type(contact_case_t), intent(in) :: case
+        type(wanted_t), intent(in) :: wanted
+        type(contact_case_t), intent(inout) :: steps_case
+        type(grid_step_t), intent(in) :: grid
+        type(contact_result_t), intent(inout) :: trial
+        type(auto_step_t), intent(out) :: step
+        type(status_t), intent(out) :: status
+
+        integer(int64) :: before
+
+        associate (methods => steps_case%methods)
+            methods = case%methods
+            methods%normal = normal_norm
+            if (needs_forces(wanted%target)) methods%tangential = tangential_tang
+            methods%element_dx = grid%dx
+            methods%element_dy = grid%dy
+            methods%dx_is_given = .true.
+            methods%dy_is_given = .true.
+            methods%error_target = 0.0_wp
+            methods%norm_start = start_last
+            step%methods = methods
+        end associate
+        step%across = nint(grid%across)
+        steps_case%asked%field = case%asked%field
+        before = now()
+        call find_pressures(workspace, steps_case, normal_method_of(workspace, normal_norm), &
+                            trial, status)
+        step%normal_us = since(before)
+        before = now()
+        if (.not. is_error(status)) then
+            if (step%methods%tangential /= tangential_none) &
+                call add_forces(workspace, steps_case, &
+                                tangential_method_of(workspace, step%methods%tangential), trial, &
+                                status)
+        end if
+        step%tangential_us = since(before)
+        if (is_error(status)) then
+            step%code = status%code
+        else
+            step%estimate = target_error(wanted%target, steps_case, trial)
+        end if
+    end subroutine solve_on_grid
 end module faststrip_contact_grids

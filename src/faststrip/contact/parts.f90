@@ -16,6 +16,7 @@ module faststrip_contact_parts
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
+    use faststrip_contact_cut, only: solve_cut
     use faststrip_contact_method, only: contact_result_t, workspace_t, normal_method_t, &
                                         tangential_method_t, normal_method_of, tangential_method_of
     use faststrip_contact_methods, only: contact_methods_t, method_t, normal_auto, &
@@ -26,7 +27,7 @@ module faststrip_contact_parts
 
     public :: find_normal_method, find_tangential_method, check_methods, refuse_elements
     public :: check_contact, check_contact_friction, set_case_gap
-    public :: find_pressures, find_forces
+    public :: find_pressures, add_forces
 
 contains
 
@@ -164,7 +165,6 @@ contains
         type(contact_result_t), intent(inout) :: result !! gets its tangential part
         type(status_t), intent(out) :: status           !! those of the method
 
-        type(contact_case_t) :: slower
         type(creepage_t) :: creepage
         type(lap_t) :: lap
         real(wp) :: share
@@ -181,16 +181,7 @@ contains
         if (.not. share < 1.0_wp .or. .not. method%cuts_creepages) then
             call method%solve(workspace, case, result, status)
         else
-            slower%material = case%material
-            slower%mu = case%mu
-            slower%methods = case%methods
-            slower%asked = case%asked
-            slower%wear_law%n = case%wear_law%n
-            slower%friction = case%friction
-            slower%friction%speed = case%friction%speed/share
-            slower%creepage = creepage
-            call method%solve(workspace, slower, result, status)
-            if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
+            call solve_cut(workspace, case, method, creepage, share, result, status)
         end if
         if (is_error(status)) return
         call add_lap(case%asked%times, lap, result%times%tangential_us, &
@@ -199,6 +190,25 @@ contains
         result%has_forces = case%methods%tangential /= tangential_none
         result%knows_stick = result%has_forces .and. method%about%gives_stick
     end subroutine find_forces
+
+    !> Forces, and how wrong they are, where that is known of the pressures and wanted; an error
+    !> becomes the contact's.
+    subroutine add_forces(workspace, case, method, result, status)
+        type(workspace_t), intent(inout) :: workspace   !! with a normal solution
+        type(contact_case_t), intent(in) :: case        !! material, friction, creepages
+        class(tangential_method_t), intent(in) :: method !! that of the case
+        type(contact_result_t), intent(inout) :: result !! gets its tangential part
+        type(status_t), intent(inout) :: status         !! limitations so far; changed by an error
+
+        type(status_t) :: forces
+
+        call find_forces(workspace, case, method, result, forces)
+        if (is_error(forces)) then
+            status = forces
+        else if (case%estimate .and. result%is_estimated) then
+            call method%estimate(workspace, case, result, status)
+        end if
+    end subroutine add_forces
 
     !> Refuse what a tangential method cannot do.
     pure subroutine check_forces(workspace, case, about, status)
@@ -224,21 +234,4 @@ contains
         call set_status(status, st_bad_argument, trim(about%name) // &
                         ' gives forces only, no tractions element by element')
     end subroutine refuse_elements
-
-    !> What goes with the size of slip, of creepages that were cut.
-    pure subroutine scale_slip(workspace, result, factor)
-        type(workspace_t), intent(inout) :: workspace
-        type(contact_result_t), intent(inout) :: result
-        real(wp), intent(in) :: factor
-
-        result%tangential%friction_power = result%tangential%friction_power*factor
-        associate (field => workspace%field, forces => workspace%strip_forces)
-            if (field%n > 0) then
-                field%sx(:field%n) = field%sx(:field%n)*factor
-                field%sy(:field%n) = field%sy(:field%n)*factor
-            end if
-            if (forces%n > 0) forces%friction_power(:forces%n) = &
-                forces%friction_power(:forces%n)*factor
-        end associate
-    end subroutine scale_slip
 end module faststrip_contact_parts

@@ -9,7 +9,7 @@ module faststrip_contact_reserve
     use faststrip_tangential_types, only: reserve_field
     use faststrip_contact_method, only: workspace_t, normal_method_t, tangential_method_t
     use faststrip_contact_method_capacity, only: strip_capacity, reserve_for_strips, &
-                                                 try_memory
+                                                 try_memory, per_point, per_strip
     use faststrip_contact_method_core, only: enter_core_methods
     use faststrip_contact_methods, only: contact_methods_t, normal_auto, normal_strip
     use faststrip_contact_parts, only: find_normal_method, check_methods, refuse_elements
@@ -23,9 +23,8 @@ module faststrip_contact_reserve
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
-    ! Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip, an
-    ! element. Origin: counted from the components of the workspaces, with a margin.
-    integer(int64), parameter :: per_point = 20, per_strip = 110, per_element = 9
+    ! Tuned [numbers]: memory of an element, tried before it is taken. Origin: counted.
+    integer(int64), parameter :: per_element = 9
 
 contains
 

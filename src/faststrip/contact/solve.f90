@@ -19,8 +19,8 @@ module faststrip_contact_solve
     use faststrip_contact_methods, only: tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
-                                       find_pressures, find_forces
-    use faststrip_contact_wanted, only: auto_steps_t
+                                       find_pressures, add_forces
+    use faststrip_contact_wanted, only: clear_steps
     use faststrip_contact_wear, only: find_wear
     implicit none
     private
@@ -44,7 +44,7 @@ contains
 
         call hold_environment(environment)
         workspace%solved_by = 0
-        if (workspace%steps%n > 0) workspace%steps = auto_steps_t()
+        call clear_steps(workspace%steps)
         call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status, inclination)
         call restore_environment(environment)
     end subroutine set_contact_gap
@@ -82,7 +82,7 @@ contains
         workspace%solved_by = 0
         workspace%field%n = 0
         workspace%strip_forces%n = 0
-        if (workspace%steps%n > 0) workspace%steps = auto_steps_t()
+        call clear_steps(workspace%steps)
         call check_contact(workspace, case, normal, tangential, status)
         if (.not. is_error(status)) then
             call start_lap(case%asked%times, lap)
@@ -116,27 +116,8 @@ contains
 
         call find_pressures(workspace, case, normal, result, status)
         if (is_error(status) .or. case%methods%tangential == tangential_none) return
-        call solve_forces(workspace, case, tangential, result, status)
+        call add_forces(workspace, case, tangential, result, status)
     end subroutine solve_by_methods
-
-    ! Forces and how wrong they are, where that is known of the pressures; an error becomes the
-    ! contact's.
-    subroutine solve_forces(workspace, case, method, result, status)
-        type(workspace_t), intent(inout) :: workspace
-        type(contact_case_t), intent(in) :: case
-        class(tangential_method_t), intent(in) :: method
-        type(contact_result_t), intent(inout) :: result
-        type(status_t), intent(inout) :: status
-
-        type(status_t) :: forces
-
-        call find_forces(workspace, case, method, result, forces)
-        if (is_error(forces)) then
-            status = forces
-        else if (case%estimate .and. result%is_estimated) then
-            call method%estimate(workspace, case, result, status)
-        end if
-    end subroutine solve_forces
 
     !> The tangential problem on the workspace's normal solution: other creepages, friction, method
     !> or resolution without solving the normal problem again.
@@ -152,7 +133,7 @@ contains
 
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
-        if (.not. is_error(status)) call solve_forces(workspace, case, tangential, result, status)
+        if (.not. is_error(status)) call add_forces(workspace, case, tangential, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
         call restore_environment(environment)
     end subroutine solve_contact_forces

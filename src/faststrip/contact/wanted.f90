@@ -12,7 +12,7 @@ module faststrip_contact_wanted
 
     public :: wanted_t, others_t, check_wanted, needs_forces, target_number, target_names
     public :: others_across, others_time
-    public :: auto_step_t, auto_steps_t
+    public :: auto_step_t, auto_steps_t, clear_steps
     public :: margin, unknown_error, most_steps
 
     ! Given: numbers of kinds, in the order of `target_names`; they stay for ever.
@@ -131,6 +131,17 @@ contains
 
         needs_forces = target == target_forces .or. target == target_power
     end function needs_forces
+
+    !> Forget all steps.
+    pure subroutine clear_steps(steps)
+        type(auto_steps_t), intent(inout) :: steps !! empty afterwards
+
+        steps%n = 0
+        steps%first = 0
+        steps%best = 0
+        steps%estimate = unknown_error
+        steps%is_met = .false.
+    end subroutine clear_steps
 
     !> Elements across that others need for the tolerance.
     pure real(wp) function others_across(wanted, strips, estimate) result(across)

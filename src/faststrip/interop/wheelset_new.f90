@@ -6,7 +6,6 @@ module faststrip_interop_wheelset_new
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument, st_not_finite
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: normal_auto
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_geometry_gauge_fit, only: find_back_spacing
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
@@ -88,11 +87,7 @@ contains
         allocate (wheel(2), rail(2))
         call take_dimensions(setup, wheelset, track, status)
         if (is_error(status)) return
-        if (case%methods%normal == normal_auto) then
-            call set_status(status, st_bad_argument, 'the normal method of a wheelset must not ' &
-                            // 'be auto')
-        end if
-        if (.not. is_error(status)) call make_profiles(wheels, body_wheel, 0.0_wp, wheel, status)
+        call make_profiles(wheels, body_wheel, 0.0_wp, wheel, status)
         if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
         if (.not. is_error(status)) &
             call make_wheelset(wheel, rail, wheelset, setup(2), track, case, handle%model, status)

@@ -103,6 +103,8 @@ module faststrip_wheelset_types
         integer :: n = 0                              !! contacts of the last solution, 0: none
         real(wp) :: approach = 0.0_wp                 !! of the last solution, from first touch, mm
         type(region_t) :: region(most_contacts)       !! of the last solution
+        logical :: is_guided = .false.
+            !! is a height being looked for by strips, for another method to take?
         type(wheelset_axes_t) :: axes                 !! of the outline
     end type wheel_workspace_t
 

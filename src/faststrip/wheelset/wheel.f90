@@ -5,7 +5,9 @@ module faststrip_wheelset_wheel
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact
-    use faststrip_contact_methods, only: tangential_linear
+    use faststrip_contact_methods, only: normal_auto, tangential_linear
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
                                                 in_track, along_normal
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
@@ -55,10 +57,11 @@ contains
         case%by_load = .false.
         case%estimate = .false.
         case%asked%strip_forces = .true.
+        if (workspace%is_guided) call take_guide(case)
         ! Named where the wheelset came to rest.
         case%yield = 0.0_wp
         case%strip_tolerance = min(case%strip_tolerance, strip_tolerance)
-        case%warm_start = workspace%n == n
+        case%warm_start = workspace%n == n .and. (workspace%is_guided .or. .not. needs_guide(case))
         workspace%n = n
         workspace%region(:n) = regions(:n)
         do i = 1, n
@@ -87,6 +90,8 @@ contains
         type(contact_case_t) :: case
         integer :: i
 
+        ! Auto knows them already.
+        if (model%case%methods%normal == normal_auto) return
         case = model%case
         case%by_load = .false.
         do i = 1, wheel%n
@@ -176,9 +181,13 @@ contains
                         workspace%gap, contact%status)
         if (is_error(contact%status)) return
         call turn_sheared_gap(workspace%gap)
-        associate (gap => workspace%gap)
-            call set_contact_gap(workspace%contact(i), gap%y(:gap%n), gap%h(:gap%n), &
-                                 gap%inv2r(:gap%n), contact%status, gap%inclination(:gap%n))
+        associate (gap => workspace%gap, n => workspace%gap%n)
+            if (case%smoothing > 0.0_wp) then
+                case%gap = gap_t(gap%y(:n), gap%h(:n), gap%inv2r(:n), gap%inclination(:n))
+            else
+                call set_contact_gap(workspace%contact(i), gap%y(:n), gap%h(:n), gap%inv2r(:n), &
+                                     contact%status, gap%inclination(:n))
+            end if
             case%penetration = gap%overlap
         end associate
         if (is_error(contact%status)) return

@@ -21,7 +21,7 @@ contains
 
         type(wheelset_case_t) :: case
 
-        call read_wheelset_case(path, case, model)
+        call read_wheelset_case(path, case, model, for_table=.true.)
         if (case%has_state) call fail(exit_bad_input, 'a lookup table is of all states: &state ' &
                                       // 'must not be given (' // path // ')')
         if (falls(case%friction) .or. case%friction%slope_factor < 1.0_wp .or. &

@@ -14,6 +14,7 @@ module faststrip_contact_method_capacity
     private
 
     public :: on_gap_t, on_strips_t
+    public :: per_point, per_strip
     public :: strip_capacity, check_capacity, ellipse_strips, reserve_for_strips, try_memory
 
     ! Strips of Hertz, KPEC and ANALYN where the number is left to the solver.
@@ -21,8 +22,10 @@ module faststrip_contact_method_capacity
     integer, parameter :: auto_ellipse_strips = 15
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
-    ! Tuned [numbers]: memory of the strip solver, tried before it is taken: of a pair of strips,
-    ! and the lattice. Origin: counted from the components of the workspaces, with a margin.
+    !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip.
+    !> Origin: counted from the components of the workspaces, with a margin.
+    integer(int64), parameter :: per_point = 20, per_strip = 110
+    ! Tuned [numbers]: the same of a pair of strips and of the lattice. Origin: counted.
     integer(int64), parameter :: per_pair = 8, at_least = 400000
 
     !> A normal method that needs the gap alone.
@@ -62,9 +65,10 @@ contains
         integer(int64) :: capacity
 
         capacity = strip_capacity(methods)
-        ! What the parts find missing would stop the program.
+        ! Tried as a whole: what the parts find missing would stop the program.
         if (workspace%solver%max_strips < capacity) &
-            call try_memory(per_pair*capacity*capacity + at_least, 'workspace', status)
+            call try_memory(per_point*max_points + per_strip*capacity &
+                            + per_pair*capacity*capacity + at_least, 'workspace', status)
         if (is_error(status)) return
         call reserve_strip_workspace(workspace%solver, int(capacity), max_points, status)
     end subroutine reserve_on_strips

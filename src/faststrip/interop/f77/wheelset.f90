@@ -89,7 +89,7 @@ contains
 
     !> CALL FSWNEW(IOPT, PAR, SETUP, NPROF, YPROF, ZPROF, IWORK, LIWORK, INFO)
     !>
-    !> Make a wheelset on its track. Methods but auto, IOPT(1) = 6.
+    !> Make a wheelset on its track. Methods of the library, IOPT(1) to IOPT(6).
     subroutine fswnew(iopt, par, setup, n_profile, y_profile, z_profile, iwork, liwork, info) &
         bind(c, name='fswnew_')
         integer(c_int), intent(in) :: iopt(n_iopt)     !! choices

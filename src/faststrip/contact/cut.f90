@@ -1,0 +1,56 @@
+!> Forces of creepages beyond what methods take: of creepages in the same proportions; what goes
+!> with the size of slip is told of them as they are. It is apart from its caller for the stack: a
+!> call needs what is here only where creepages are so large.
+module faststrip_contact_cut
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t
+    implicit none
+    private
+
+    public :: solve_cut
+
+contains
+
+    !> Solve for creepages that were cut.
+    subroutine solve_cut(workspace, case, method, creepage, share, result, status)
+        type(workspace_t), intent(inout) :: workspace    !! with a normal solution
+        type(contact_case_t), intent(in) :: case         !! with its creepages as they are
+        class(tangential_method_t), intent(in) :: method !! that of the case
+        type(creepage_t), intent(in) :: creepage         !! that is left
+        real(wp), intent(in) :: share                    !! of the case's
+        type(contact_result_t), intent(inout) :: result  !! gets its tangential part
+        type(status_t), intent(out) :: status            !! those of the method
+
+        type(contact_case_t) :: slower
+
+        slower%material = case%material
+        slower%mu = case%mu
+        slower%methods = case%methods
+        slower%asked = case%asked
+        slower%wear_law%n = case%wear_law%n
+        slower%friction = case%friction
+        slower%friction%speed = case%friction%speed/share
+        slower%creepage = creepage
+        call method%solve(workspace, slower, result, status)
+        if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
+    end subroutine solve_cut
+
+    pure subroutine scale_slip(workspace, result, factor)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_result_t), intent(inout) :: result
+        real(wp), intent(in) :: factor
+
+        result%tangential%friction_power = result%tangential%friction_power*factor
+        associate (field => workspace%field, forces => workspace%strip_forces)
+            if (field%n > 0) then
+                field%sx(:field%n) = field%sx(:field%n)*factor
+                field%sy(:field%n) = field%sy(:field%n)*factor
+            end if
+            if (forces%n > 0) forces%friction_power(:forces%n) = &
+                forces%friction_power(:forces%n)*factor
+        end associate
+    end subroutine scale_slip
+end module faststrip_contact_cut
