@@ -184,6 +184,8 @@ typedef struct faststrip_result {
     double overlap_outside; /* largest overlap beside them over penetration - h_lowest */
     int forces_are_estimated; /* 1: the three below are known; 0: zero, not asked for, of a method
                                * without, or because is_estimated is 0 */
+    int limitations;       /* all of them, of which the status is the first: 1 << status of each,
+                            * added up */
     double est_err_fx;     /* estimated error of fx over mu load, not negative */
     double est_err_fy;     /* estimated error of fy over mu load, not negative */
     double est_err_mz;     /* estimated error of mz over mu load sqrt(area/pi), not negative */
@@ -561,6 +563,7 @@ typedef struct faststrip_wheelset_contact {
     double est_err_fx;
     double est_err_fy;
     double est_err_mz;
+    int limitations;       /* as in faststrip_result */
 } faststrip_wheelset_contact;
 
 /* What the contacts of each wheel come to, right and left; zero for one that was not asked for. */
@@ -581,7 +584,8 @@ typedef struct faststrip_wheelset faststrip_wheelset;
 int faststrip_default_wheelset(faststrip_wheelset_setup *setup, size_t length);
 
 /* Make a wheelset of its profiles, right and left; of the case material, friction, methods and
- * estimates count. FASTSTRIP_NORMAL_AUTO is refused. *wheelset is null when there is an error;
+ * estimates count. With FASTSTRIP_NORMAL_AUTO strips find the height, and the load is corrected
+ * until what auto takes carries it to 1e-4. *wheelset is null when there is an error;
  * text, if not null, says why. */
 int faststrip_wheelset_new(const faststrip_wheelset_setup *setup,
                            const faststrip_profile wheels[2], const faststrip_profile rails[2],

@@ -47,6 +47,7 @@ GROUPS = (
         ("Validation", "docs/validation.md", "validation.html"),
         ("Constants", "docs/constants.md", "constants.html"),
         ("Architecture", "docs/architecture.md", "architecture.html"),
+        ("Extending", "docs/extending.md", "extending.html"),
         ("References", "reference/README.md", "reference.html"))),
     ("Project", (
         ("Contributing", "CONTRIBUTING.md", "contributing.html"),

@@ -158,6 +158,7 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("est_err_fx", step, 0, r.est_err_fx);
     put("est_err_fy", step, 0, r.est_err_fy);
     put("est_err_mz", step, 0, r.est_err_mz);
+    put("limitations", step, 0, r.limitations);
     show_steps(workspace, &r, step);
     show_arrays(workspace, step);
     put("result_n_strips", step, 0, r.n_strips);

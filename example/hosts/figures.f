@@ -106,7 +106,7 @@ C       By default forces are wanted, with 0.02.
       END
 C     The first step by FSCONT, the others by FSSOLV.
       SUBROUTINE SOLVE(IW, IOPT, D, IC, IS, N, Y, H, A)
-      INTEGER IW(8), IOPT(9), IC, IS, N, INFO
+      INTEGER IW(8), IOPT(9), IC, IS, N, INFO, LSET
       DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14), ERR(7),
      &  FERR(4)
       CHARACTER*256 TEXT
@@ -156,6 +156,9 @@ C     The first step by FSCONT, the others by FSSOLV.
       CALL PUT('est_err_fy', IC, IS, 0, FERR(2))
       CALL PUT('est_err_mz', IC, IS, 0, FERR(3))
       CALL PUT('forces_are_estimated', IC, IS, 0, FERR(4))
+      CALL FSLSET(IW, LSET, INFO)
+      IF (INFO .NE. 0) STOP 10
+      CALL PUT('limitations', IC, IS, 0, DBLE(LSET))
       CALL STEPS(IW, IC, IS)
       CALL ARRAYS(IW, IC, IS)
       CALL PUT('result_n_strips', IC, IS, 0, RES(14))

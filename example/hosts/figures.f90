@@ -103,6 +103,7 @@ contains
         call put('est_err_fx', step, 0, result%force_errors%fx)
         call put('est_err_fy', step, 0, result%force_errors%fy)
         call put('est_err_mz', step, 0, result%force_errors%mz)
+        call put('limitations', step, 0, real(status%limitations, wp))
         call show_steps(workspace%steps, step)
         call show_arrays(workspace, step)
     end subroutine solve

@@ -618,8 +618,6 @@ static void wheelsets_that_are_none(void)
     rails[1].name = "a name that is longer than any";
     MAKES(FASTSTRIP_BAD_ARGUMENT, "must be uic60, 60e1 or 54e1, got a name that is l");
     rails[1].name = "54e1";
-    contact.normal = FASTSTRIP_NORMAL_AUTO;
-    MAKES(FASTSTRIP_BAD_ARGUMENT, "must not be auto");
     contact.normal = 99;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "normal");
     contact.normal = FASTSTRIP_NORMAL_STRIP;

@@ -31,8 +31,8 @@ static void show_contact(const faststrip_wheelset_contact *c)
     double place[9] = {0.0}, forces[7];
     int i;
 
-    printf("contact %d %d %d %d %d %d\n", c->side, c->status, c->n_patches, c->strips_across,
-           c->is_estimated, c->forces_are_estimated);
+    printf("contact %d %d %d %d %d %d %d\n", c->side, c->status, c->n_patches, c->strips_across,
+           c->is_estimated, c->forces_are_estimated, c->limitations);
     memcpy(place, c->place, sizeof c->place);
     place[3] = c->angle;
     memcpy(place + 4, c->rail, sizeof c->rail);

@@ -71,7 +71,7 @@ C         The rails have moved in the second half.
      &        (WRES(6 + 3*ISIDE + K), K = 1, 3),
      &        (WRES(12 + 3*ISIDE + K), K = 1, 3)
             DO 60 K = 1, N
-              IF (NINT(CONT(1, K)) .EQ. ISIDE) CALL SHOW(CONT(1, K))
+              IF (NINT(CONT(1, K)) .EQ. ISIDE) CALL SHOW(IWORK, K, CONT)
    60       CONTINUE
             S(2) = WRES(ISIDE)
             S(3) = WRES(3)
@@ -83,14 +83,17 @@ C         The rails have moved in the second half.
       END
 
 C     One contact, in the rows of the other languages' programs.
-      SUBROUTINE SHOW(C)
-      DOUBLE PRECISION C(47)
-      INTEGER I, K, LAST(11)
+      SUBROUTINE SHOW(IWORK, K, CONT)
+      INTEGER IWORK(8), K, I, M, LSET, INFO, LAST(11)
+      DOUBLE PRECISION CONT(47, 16)
       DATA LAST /15, 20, 23, 26, 29, 31, 38, 41, 43, 45, 47/
-      WRITE (*, '(A, 6(1X, I0))') 'contact', (NINT(C(I)), I = 1, 6)
-      K = 7
+      CALL FSWSET(IWORK, K, LSET, INFO)
+      IF (INFO .NE. 0) STOP 2
+      WRITE (*, '(A, 7(1X, I0))') 'contact',
+     &  (NINT(CONT(I, K)), I = 1, 6), LSET
+      M = 7
       DO 10 I = 1, 11
-        WRITE (*, '(9(Z16.16, :, 1X))') C(K:LAST(I))
-        K = LAST(I) + 1
+        WRITE (*, '(9(Z16.16, :, 1X))') CONT(M:LAST(I), K)
+        M = LAST(I) + 1
    10 CONTINUE
       END

@@ -106,9 +106,10 @@ contains
         type(wheel_contact_t), intent(in) :: contact
 
         associate (figures => contact%figures, creepage => contact%creepage)
-            print '(a, 6(1x, i0))', 'contact', side, contact%status%code, &
+            print '(a, 7(1x, i0))', 'contact', side, contact%status%code, &
                 figures%normal%n_patches, figures%normal%strips_across, &
-                merge(1, 0, figures%is_estimated), merge(1, 0, figures%forces_are_estimated)
+                merge(1, 0, figures%is_estimated), merge(1, 0, figures%forces_are_estimated), &
+                contact%status%limitations
             call show([contact%place, contact%angle, contact%rail, contact%wheel])
             call show([contact%radius, contact%speed, creepage%cksi, creepage%ceta, creepage%cphi])
             call show([figures%normal%load, figures%normal%penetration, figures%normal%area])

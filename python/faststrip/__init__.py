@@ -15,7 +15,13 @@ forces act on the rail.
 
 from ._contact import Contact, Material, fastsim, hertz, kalker, library_version
 from ._geometry import Conicity, ContactFunctions, conicity, contact_functions
-from ._library import FaststripError, ImplausibleWarning, LibraryNotFound, ProgramNotFound
+from ._library import (
+    FaststripError,
+    ImplausibleWarning,
+    LibraryNotFound,
+    ProgramNotFound,
+    limitation_words,
+)
 from ._lookup import LookedUp, Lookup
 from ._lookup_wheel import WheelContacts, WheelLookup
 from ._many import ManyResult, solve_many
@@ -60,6 +66,7 @@ __all__ = [
     "hertz",
     "kalker",
     "library_version",
+    "limitation_words",
     "plot_profiles",
     "profile_gap",
     "solve_many",

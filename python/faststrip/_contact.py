@@ -6,7 +6,7 @@ import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_void_p
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, fields
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
@@ -36,6 +36,7 @@ from ._library import (
     check,
     check_case,
     library,
+    limitation_words,
     warn_of_doubts,
     word_of,
 )
@@ -126,8 +127,7 @@ class Material:
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
 OF_FORCES = 3
-OF_AUTO = 3
-_names = [one.name for one in fields(Result)][:-OF_AUTO]
+_names = [one.name for one in fields(Result) if one.default is MISSING]
 _figures_of = operator.attrgetter(*_names[2:-ESTIMATES - OF_FORCES])
 _estimates_of = operator.attrgetter(*_names[-ESTIMATES - OF_FORCES:-OF_FORCES])
 _force_errors_of = operator.attrgetter(*_names[-OF_FORCES:])
@@ -484,7 +484,8 @@ class Contact:
                       *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
                       *(_force_errors_of(figures) if figures.forces_are_estimated
                         else _NO_FORCE_ERRORS),
-                      *(self._taken(figures) if figures.n_steps else ()))
+                      *(self._taken(figures) if figures.n_steps else (None, None, ())),
+                      limitation_words(figures.limitations))
 
     def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
         """What came of auto: estimated error of the target, is it met, the steps."""

@@ -85,6 +85,7 @@ class Figures(ctypes.Structure):
             "est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
             "overlap_outside")),
         ("forces_are_estimated", c_int),
+        ("limitations", c_int),
         *((name, c_double) for name in ("est_err_fx", "est_err_fy", "est_err_mz")),
         *((name, c_int) for name in ("n_steps", "best_step", "target_is_known", "target_is_met")),
         ("est_err_target", c_double),
@@ -201,6 +202,23 @@ def word_of(status: int) -> str:
     text = ctypes.create_string_buffer(TEXT)
     library.faststrip_message(status, text, TEXT)
     return text.value.decode("ascii")
+
+
+def limitation_words(limitations: int) -> Tuple[str, ...]:
+    """The words of a set of limitations, ``1 << status`` of each added up.
+
+    Parameters
+    ----------
+    limitations : int
+        As results of many contacts have it.
+
+    Returns
+    -------
+    tuple of str
+        In the order of the statuses.
+    """
+    return tuple(word_of(status) for status in range(int(limitations).bit_length())
+                 if limitations >> status & 1)
 
 
 def check(status: int, workspace: Optional[c_void_p] = None, **values: Any) -> int:

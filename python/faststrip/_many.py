@@ -92,6 +92,9 @@ class ManyResult(Shown):
         Estimated error of what ``normal="auto"`` was to know; nan by other methods.
     target_is_met : ndarray of bool
         Is it within the tolerance? False by other methods.
+    limitations : ndarray of int32
+        All of them as a set, of which `status` is the first: ``1 << status`` of each added up;
+        `limitation_words` names them.
     first_error : str
         Which contact is the first without a result, and why; empty if all have one.
     """
@@ -123,6 +126,7 @@ class ManyResult(Shown):
     est_err_mz: Array
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]
+    limitations: Whole
     first_error: str = ""
 
     @property

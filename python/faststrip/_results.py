@@ -105,6 +105,8 @@ class Result(Row):
         Is it within the tolerance? None without a tolerance, and by other methods.
     steps : tuple of Step
         What ``normal="auto"`` did; results are compared without, as it has times.
+    limitations : tuple of str
+        All of them, of which `word` is the first.
     """
 
     status: int
@@ -137,10 +139,12 @@ class Result(Row):
     est_err_target: Optional[float] = None
     target_is_met: Optional[bool] = None
     steps: Tuple[Step, ...] = field(default=(), compare=False)
+    limitations: Tuple[str, ...] = ()
 
     def _columns(self) -> Dict[str, Any]:
         columns = super()._columns()
         del columns["steps"]
+        columns["limitations"] = " ".join(self.limitations)
         columns["target_is_met"] = bool(self.target_is_met)
         return columns
 

@@ -38,6 +38,7 @@ QUANTITIES: Dict[str, Tuple[str, str]] = {
     "est_err_fy": ("1", "estimated error of fy over mu times the load"),
     "est_err_mz": ("1", "estimated error of mz over mu times the load times sqrt(area/pi)"),
     "est_err_target": ("1", "estimated error of the target"),
+    "limitations": ("1", "all limitations, 1 << status of each added up"),
     "y_left": ("mm", "left edge of the strip"),
     "y_right": ("mm", "right edge of the strip"),
     "half_length": ("mm", "half-length of the strip along x"),

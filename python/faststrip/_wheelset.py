@@ -21,10 +21,18 @@ from ._library import (
     TOO_SMALL,
     FaststripError,
     library,
+    limitation_words,
     warn_of_doubts,
     word_of,
 )
-from ._profile import FIRST_CAPACITY, Points, Profile, inclination_of, points_of, spacing_of
+from ._profile import (
+    FIRST_CAPACITY,
+    Points,
+    Profile,
+    inclination_of,
+    points_of,
+    spacing_of,
+)
 from ._record import Record, Table
 from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
 
@@ -86,6 +94,7 @@ class Row(ctypes.Structure):
         *((name, c_double) for name in (
             "est_err_penetration", "est_err_pmax", "est_err_area", "est_err_fx", "est_err_fy",
             "est_err_mz")),
+        ("limitations", c_int),
     ]
 
 
@@ -174,6 +183,8 @@ class WheelContact(Record):
     est_err_penetration, est_err_pmax, est_err_area, est_err_fx, est_err_fy, est_err_mz : float or \
 None
         As of a `Result`.
+    limitations : tuple of str
+        All of them, of which `word` is the first.
     """
 
     side: str
@@ -210,6 +221,7 @@ None
     est_err_fx: Optional[float]
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
+    limitations: Tuple[str, ...]
 
 
 _MOTION = operator.attrgetter("radius", "speed", "cksi", "ceta", "cphi", *FIGURES)
@@ -224,7 +236,8 @@ def _contact_of(row: Row) -> WheelContact:
         tuple(row.place), row.angle, tuple(row.rail), tuple(row.wheel), *_MOTION(row),
         tuple(row.force), tuple(row.force_wheelset), tuple(row.moment),
         *(_ESTIMATES(row) if row.is_estimated else _NONE),
-        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE))
+        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE),
+        limitation_words(row.limitations))
     return WheelContact(*figures)
 
 
@@ -295,6 +308,8 @@ class WheelsetResult(Table):
                     columns[f"{name}_{axis}"] = [value[k] for value in values]
             elif name.startswith("est_err"):
                 columns[name] = [float("nan") if value is None else value for value in values]
+            elif name == "limitations":
+                columns[name] = [" ".join(words) for words in values]
             else:
                 columns[name] = values
         return columns
@@ -389,10 +404,10 @@ estimate, resolution_limit, force_limit
         """Give the memory back; the wheelset cannot be used afterwards."""
         self._handle = None
 
-    def __enter__(self) -> "Wheelset":
+    def __enter__(self) -> Wheelset:
         return self
 
-    def __exit__(self, *problem: Any) -> None:
+    def __exit__(self, *problem: object) -> None:
         self.close()
 
     def __reduce__(self) -> Any:

@@ -6,17 +6,17 @@
 !> Each name comes from the module that makes it: so an installed library shows it to the linker.
 module faststrip
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word, message_length, st_ok, &
-                                     first_error, st_fallback_used, st_edge_of_data, &
-                                     st_fewer_strips, st_overlap_left, st_flat_along_x, &
-                                     st_conformal, st_target_missed, st_under_resolved, &
-                                     st_more_strips, st_beyond_yield, st_no_wave, &
-                                     st_no_finite_patch, st_bad_argument, &
+    use faststrip_base_status, only: status_t, is_error, status_word, limitation_words, &
+                                     message_length, st_ok, first_error, st_fallback_used, &
+                                     st_edge_of_data, st_fewer_strips, st_overlap_left, &
+                                     st_flat_along_x, st_conformal, st_target_missed, &
+                                     st_under_resolved, st_more_strips, st_beyond_yield, &
+                                     st_no_wave, st_no_finite_patch, st_bad_argument, &
                                      st_not_finite, st_not_increasing, st_too_few_points, &
                                      st_bad_material, st_bad_load, st_no_contact, &
                                      st_no_hertz_ellipse, st_no_convergence, st_out_of_range, &
-                                     st_workspace_too_small, st_linear_algebra, &
-                                     st_file_missing, st_file_format
+                                     st_workspace_too_small, st_linear_algebra, st_file_missing, &
+                                     st_file_format
     use faststrip_base_material, only: material_t, check_material, normal_compliance, &
                                        combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t

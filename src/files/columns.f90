@@ -42,6 +42,7 @@ module faststrip_files_columns
     ! What every contact has.
     type(column_t), parameter :: of_results(*) = [ &
         column_t('status', holds_text, 'ok, a limitation of the result, or an error'), &
+        column_t('limitations', holds_text, 'all limitations of the result'), &
         column_t('message', holds_text, 'what there is to say about the status'), &
         column_t('penetration_mm', holds_numbers, 'penetration'), &
         column_t('area_mm2', holds_numbers, 'contact area'), &

@@ -7,13 +7,12 @@ module faststrip_kalker_methods
     use faststrip_base_friction, only: falls, softened
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: normal_compliance
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
                                      message_length, st_bad_argument, st_under_resolved, &
                                      st_workspace_too_small
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: reserve_gap_curve
-    use faststrip_normal_limitations, only: name_resolution, name_force_resolution, &
-                                            add_limitation
+    use faststrip_normal_limitations, only: name_resolution, name_force_resolution
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field

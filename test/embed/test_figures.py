@@ -189,6 +189,12 @@ class Figures(HostTest):
                                == 3 for contact in range(1, len(self.contacts) + 1)), 5)
         statuses = {value for key, value in self.wanted.items() if key[0] == "status"}
         self.assertLessEqual({0.0, 2.0, 6.0, 8.0, 100.0, 105.0}, statuses)
+        # A set holds the status, and some hold more.
+        sets = [(value, self.wanted["status", *key[1:]])
+                for key, value in self.wanted.items() if key[0] == "limitations"]
+        for value, status in sets:
+            self.assertEqual(int(value) >> int(status) & 1 if 0 < status < 100 else value == 0.0, 1)
+        self.assertGreater(sum(value.bit_count() > 1 for value in (int(one) for one, _ in sets)), 0)
         self.assertGreater(sum(value not in (0.0, self.wanted["n_strips", *key[1:]])
                                for key, value in self.wanted.items() if key[0] == "strips_across"),
                            9)
@@ -314,15 +320,19 @@ class Figures(HostTest):
                 for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
                              "fy", "mz", "friction_power", "stick_fraction", "n_patches",
                              "iterations", "n_elements", "strips_across", "is_estimated",
-                             "forces_are_estimated", *ESTIMATES, *FORCE_ESTIMATES, *TAKEN):
+                             "forces_are_estimated", "limitations", *ESTIMATES, *FORCE_ESTIMATES,
+                             *TAKEN):
                     found[name, number, step, 0] = 0.0
             else:
                 self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
                 # Words of a limitation are not handed on.
                 found["message", number, step, 0] = self.wanted["message", number, step, 0]
                 for name, value in vars(result).items():
-                    if name not in ("word", "n_strips", "steps", *TAKEN):
+                    if name not in ("word", "n_strips", "steps", "limitations", *TAKEN):
                         found[name, number, step, 0] = 0.0 if value is None else value
+                found["limitations", number, step, 0] = float(sum(
+                    1 << status for status in range(1, 12)
+                    if self.wanted["word", 0, status, 0] in result.limitations))
                 for flag, names in (("is_estimated", ESTIMATES),
                                     ("forces_are_estimated", FORCE_ESTIMATES)):
                     known = {getattr(result, name) is not None for name in names}

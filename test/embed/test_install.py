@@ -16,8 +16,8 @@ FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
-                " fsferr fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast fsints"
-                " fswdft fswnew fsrail fswslv fswfre fsfric fswear fsstwr fscfun fsconi"
+                " fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast fsints"
+                " fswdft fswnew fsrail fswslv fswset fswfre fsfric fswear fsstwr fscfun fsconi"
                 " fslopn fslfre fslinf fslook fslwin fslcon fslwhl fsrdpr fsdoub".split())
 
 # What only the laboratory says, its modules' names and its commands, and where it reads.

@@ -5,9 +5,9 @@
 module faststrip_command_contact_point_spacing
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text, st_under_resolved
+    use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
+                                     st_under_resolved
     use faststrip_geometry_profile, only: thin_profile, profile_curve
-    use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_methods, only: normal_strip, tangential_faststrip
     use faststrip_command_settings_case_file, only: case_t
     use faststrip_contact_case, only: asked_t

@@ -1,7 +1,7 @@
 !> The columns every solved contact fills, in the same words for each subcommand.
 module faststrip_command_rows_result_csv
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word, number_text
+    use faststrip_base_status, only: status_t, is_error, status_word, limitation_words, number_text
     use faststrip_contact_method, only: contact_result_t, wear_figures_t
     use faststrip_contact_methods, only: normal_auto
     use faststrip_contact_wanted, only: auto_steps_t
@@ -33,13 +33,13 @@ module faststrip_command_rows_result_csv
         'wear_ug_per_m', 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km']
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(32) = [character(len=26) :: &
+    character(len=*), parameter :: result_columns(33) = [character(len=26) :: &
         'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
         'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
         'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
         'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
         'est_err_Mz', 'gap_change_um', &
-        'choice', 'strips_across', wear_columns]
+        'choice', 'strips_across', 'limitations', wear_columns]
 
 contains
 
@@ -101,6 +101,7 @@ contains
         else
             call put_cell(writer, '')
         end if
+        call put_cell(writer, trim(limitation_words(status%limitations)))
         call put_wear(writer, result%wear, result%has_forces)
     end subroutine put_result
 

@@ -1,7 +1,7 @@
 !> The table of a wheelset's contacts.
 module faststrip_command_wheelset_csv
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_status, only: status_t, is_error, status_word, limitation_words
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
@@ -17,7 +17,7 @@ module faststrip_command_wheelset_csv
     public :: put_wheelset_header, put_wheel, put_failed_state, put_strips_header, put_wheel_strips
 
     ! In the order of `put_contact`.
-    character(len=*), parameter :: names(47) = [character(len=19) :: &
+    character(len=*), parameter :: names(48) = [character(len=19) :: &
         'case', 'side', 'contact', 'status', 'x_track_mm', 'y_track_mm', 'z_track_mm', &
         'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', 'N_N', 'Fx_N', 'Fs_N', 'Mz_Nmm', &
         'penetration_mm', 'pmax_MPa', 'area_mm2', 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
@@ -25,7 +25,7 @@ module faststrip_command_wheelset_csv
         'radius_mm', 'rolling_speed_mm_s', 'Fx_wheelset_N', 'Fy_wheelset_N', 'Fz_wheelset_N', &
         'friction_power_N', 'stick_fraction', 'ymin_mm', 'ymax_mm', 'xmax_mm', 'n_patches', &
         'strips_across', 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', &
-        'est_err_Fy', 'est_err_Mz', 'message']
+        'est_err_Fy', 'est_err_Mz', 'message', 'limitations']
 
     ! Which solution it is, and where.
     character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
@@ -98,10 +98,11 @@ contains
         call put_cell(writer, side)
         call put_cell(writer, 0)
         call put_cell(writer, word)
-        do i = 5, size(names) - 1
+        do i = 5, size(names) - 2
             call put_cell(writer, '')
         end do
         call put_cell(writer, message)
+        call put_cell(writer, '')
         do i = 1, size(wear_columns)
             call put_cell(writer, '')
         end do
@@ -145,6 +146,7 @@ contains
         else
             call put_cell(writer, trim(contact%status%message))
         end if
+        call put_cell(writer, trim(limitation_words(contact%status%limitations)))
     end subroutine put_contact
 
     !> Names of the columns of strips: those of `contact`, and the places.

@@ -4,13 +4,13 @@ module faststrip_lab_fuzz_run
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used, &
-                                     st_out_of_range
+    use faststrip_base_status, only: status_t, is_error, add_limitation, st_no_finite_patch, &
+                                     st_fallback_used, st_out_of_range
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_estimate_certificate, only: certificate_t
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
-    use faststrip_normal_limitations, only: add_limitation, name_resolution, default_resolution
+    use faststrip_normal_limitations, only: name_resolution, default_resolution
     use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve_demand, &
                                       estimate_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips

@@ -4,6 +4,8 @@
 !> or from `first_error` on (there is no result). Every code has one short word, for a CSV column,
 !> and the status carries a message of fixed length that names the offending value. Nothing is
 !> allocated, printed or stopped.
+!>
+!> A result may have several limitations: the code is the first's, `limitations` is the set of all.
 module faststrip_base_status
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use faststrip_base_kinds, only: wp
@@ -11,6 +13,7 @@ module faststrip_base_status
     private
 
     public :: status_t, set_status, clear_status, is_error, status_word, number_text, count_text
+    public :: add_limitation, join_limitations, limitation_words
     public :: add_words, message_length, first_error
     public :: st_ok
     public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
@@ -63,6 +66,7 @@ module faststrip_base_status
     type :: status_t
         integer :: code = st_ok
         character(len=message_length) :: message = ''
+        integer :: limitations = 0 !! the set of all: bit `code` for each, so 2 to the code added up
     end type status_t
 
 contains
@@ -75,7 +79,52 @@ contains
 
         status%code = code
         status%message = message
+        if (code > st_ok .and. code < first_error) status%limitations = ibset(0, code)
     end subroutine set_status
+
+    !> Add a limitation to a status: the first one gives the code, the words are strung together.
+    pure subroutine add_limitation(status, code, words)
+        type(status_t), intent(inout) :: status !! limitations so far, no error
+        integer, intent(in) :: code             !! of the further one
+        character(len=*), intent(in) :: words   !! about it
+
+        if (status%code == st_ok) then
+            call set_status(status, code, words)
+            return
+        end if
+        status%limitations = ibset(status%limitations, code)
+        if (len_trim(status%message) + 2 + len_trim(words) > message_length) return
+        call add_words(status%message, ';')
+        status%message(len_trim(status%message) + 2:) = words
+    end subroutine add_limitation
+
+    !> Add all limitations of another status: its words as those of one.
+    pure subroutine join_limitations(status, other)
+        type(status_t), intent(inout) :: status !! limitations so far, no error
+        type(status_t), intent(in) :: other     !! no error
+
+        if (other%code == st_ok) return
+        call add_limitation(status, other%code, other%message)
+        status%limitations = ior(status%limitations, other%limitations)
+    end subroutine join_limitations
+
+    !> The words of a set of limitations with blanks between, in the order of their codes.
+    pure function limitation_words(limitations) result(words)
+        integer, intent(in) :: limitations      !! of a status
+        character(len=message_length) :: words  !! empty if there is none
+
+        integer :: code
+
+        words = ''
+        do code = 1, bit_size(limitations) - 2
+            if (.not. btest(limitations, code)) cycle
+            if (words == '') then
+                words = status_word(code)
+            else
+                call add_words(words, ' ' // status_word(code))
+            end if
+        end do
+    end function limitation_words
 
     !> Set a status to "all is well".
     pure subroutine clear_status(status)

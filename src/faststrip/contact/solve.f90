@@ -7,10 +7,10 @@
 !> for steps that are taken back. Memory of methods outside the core is not copied, but shared.
 module faststrip_contact_solve
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text, st_beyond_yield
+    use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
+                                     st_beyond_yield
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap_curve, only: gap_curve_t, set_gap_curve_points, copy_gap_curve
-    use faststrip_normal_limitations, only: add_limitation
     use faststrip_contact_auto, only: solve_auto
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap

@@ -2,9 +2,9 @@
 module faststrip_contact_target
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, set_status, number_text, add_words, &
-                                     message_length, st_ok, st_target_missed, st_under_resolved
-    use faststrip_normal_limitations, only: add_limitation
+    use faststrip_base_status, only: status_t, set_status, add_limitation, join_limitations, &
+                                     number_text, add_words, message_length, st_target_missed, &
+                                     st_under_resolved
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_wanted, only: unknown_error, target_forces, target_pmax, &
@@ -86,7 +86,7 @@ contains
         if (wanted%tolerance > 0.0_wp) then
             before = status
             call set_status(status, st_target_missed, words)
-            if (before%code /= st_ok) call add_limitation(status, before%code, before%message)
+            call join_limitations(status, before)
         else
             call add_limitation(status, st_under_resolved, words)
         end if

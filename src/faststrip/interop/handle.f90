@@ -36,6 +36,7 @@ module faststrip_interop_handle
         type(contact_result_t) :: result  !! figures of the last contact
         type(wear_room_t) :: wear         !! of the strips whose wear was asked for
         type(status_t) :: status          !! of the last call
+        integer :: limitations = 0        !! of the last contact, as `status_t` has them
         type(gap_size_t) :: gap_size      !! of the gap
         type(doubts_t) :: doubts          !! what was outside of practice in the last contact
     end type handle_t
@@ -126,6 +127,7 @@ contains
         type(environment_t) :: environment
 
         handle%result = contact_result_t()
+        handle%limitations = 0
         handle%doubts%n = 0
         handle%gap_size = gap_size_t()
         call set_contact_gap(handle%workspace, y, h, inv2r, handle%status, inclination)
@@ -143,6 +145,7 @@ contains
         type(environment_t) :: environment
 
         handle%workspace%field%n = 0
+        handle%limitations = 0
         handle%doubts%n = 0
         call hold_environment(environment)
         call find_doubts(handle%case, handle%gap_size, case_names_t(), handle%doubts)
@@ -153,6 +156,7 @@ contains
         handle%case%asked%strip_forces = .true.
         call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         if (is_error(handle%status)) return
+        handle%limitations = handle%status%limitations
         call hold_environment(environment)
         call doubt_pressure('pmax', handle%result%normal%pmax, handle%doubts)
         call restore_environment(environment)
@@ -193,6 +197,7 @@ contains
         to%contact_angle = from%contact_angle
         to%wear = from%wear
         to%result = from%result
+        to%limitations = from%limitations
         to%gap_size = from%gap_size
         to%doubts = from%doubts
         call clear_status(to%status)

@@ -58,7 +58,7 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_handle_t
     public :: n_setup, n_state, n_rails, n_choices, n_loads, n_counts, n_numbers, n_totals, n_sums
     public :: allocate_wheelset, free_wheelset, find_wheelset, wheelset_solve
-    public :: contact_count, contact_place, read_contact, read_totals
+    public :: contact_count, contact_place, read_contact, contact_limitations, read_totals
 
     !> Lengths of the rows.
     !> Given: by the faces.
@@ -205,6 +205,17 @@ contains
         call contact_row(handle%result%wheel(side)%contact(k), counts, numbers)
         counts(1) = side
     end subroutine read_contact
+
+    !> All limitations of a contact of the last solution, as a set.
+    pure integer(c_int) function contact_limitations(handle, i)
+        type(wheelset_handle_t), intent(in) :: handle !! with so many contacts
+        integer, intent(in) :: i                      !! from 1 on
+
+        integer :: side, k
+
+        call contact_place(handle, i, side, k)
+        contact_limitations = handle%result%wheel(side)%contact(k)%status%limitations
+    end function contact_limitations
 
     pure subroutine contact_row(contact, counts, numbers)
         type(wheel_contact_t), intent(in) :: contact

@@ -19,8 +19,8 @@
 !> Heights count from anywhere, and the penetration with them: it may be of either sign. A contact
 !> on fill values below the gap is an error.
 !>
-!> Of several limitations the status has the code of the first that applies here, and all of the
-!> words there is capacity for:
+!> Of several limitations the status has the code of the first that applies here, the set of all,
+!> and all of the words there is capacity for:
 !>
 !>     fallback_used, overlap_left, edge_of_data, flat_along_x, conformal, more_strips,
 !>     fewer_strips, under_resolved
@@ -31,9 +31,10 @@ module faststrip_normal_limitations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     add_words, message_length, st_bad_argument, st_edge_of_data, &
-                                     st_flat_along_x, st_conformal, st_under_resolved, &
-                                     st_no_finite_patch, st_ok, st_out_of_range, first_error
+                                     add_limitation, add_words, message_length, st_bad_argument, &
+                                     st_edge_of_data, st_flat_along_x, st_conformal, &
+                                     st_under_resolved, st_no_finite_patch, st_out_of_range, &
+                                     first_error
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, inclination_change, &
                                             largest_step
@@ -42,7 +43,7 @@ module faststrip_normal_limitations
     private
 
     public :: check_curvature, check_depth, check_lowest, name_limitations, name_steps, name_step
-    public :: name_resolution, name_force_resolution, add_limitation
+    public :: name_resolution, name_force_resolution
     public :: default_resolution, check_resolution
 
     !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 %
@@ -343,18 +344,4 @@ contains
         call add_words(words, ' must be above 0, got '//number_text(limit))
         call set_status(status, st_bad_argument, words)
     end subroutine check_resolution
-
-    !> Add a limitation to a status: the first one gives the code, the words are strung together.
-    pure subroutine add_limitation(status, code, words)
-        type(status_t), intent(inout) :: status !! limitations so far, no error
-        integer, intent(in) :: code             !! of the further one
-        character(len=*), intent(in) :: words   !! about it
-
-        if (status%code == st_ok) then
-            call set_status(status, code, words)
-        else if (len_trim(status%message) + 2 + len_trim(words) <= message_length) then
-            call add_words(status%message, ';')
-            status%message(len_trim(status%message) + 2:) = words
-        end if
-    end subroutine add_limitation
 end module faststrip_normal_limitations

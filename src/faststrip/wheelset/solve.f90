@@ -7,8 +7,9 @@
 module faststrip_wheelset_solve
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     st_bad_argument, st_workspace_too_small, st_target_missed
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     join_limitations, number_text, st_bad_argument, &
+                                     st_workspace_too_small, st_target_missed
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_reserve, only: reserve_workspace
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -18,7 +19,6 @@ module faststrip_wheelset_solve
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state
-    use faststrip_normal_limitations, only: add_limitation
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, usual_approach
     use faststrip_wheelset_balance, only: solve_for_balance
@@ -404,7 +404,7 @@ contains
                     status = wheel%status
                 else if (jump%code /= 0) then
                     do i = 1, wheel%n
-                        call add_limitation(wheel%contact(i)%status, jump%code, jump%message)
+                        call join_limitations(wheel%contact(i)%status, jump)
                     end do
                     wheel%status = jump
                 else if (status%code == 0) then

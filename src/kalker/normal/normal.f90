@@ -12,7 +12,7 @@
 module faststrip_kalker_normal
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
+    use faststrip_base_status, only: status_t, set_status, add_limitation, is_error, number_text, &
                                      st_bad_argument, st_edge_of_data, st_no_contact, &
                                      st_no_convergence, st_not_finite, st_out_of_range, &
                                      st_overlap_left, st_workspace_too_small
@@ -33,7 +33,7 @@ module faststrip_kalker_normal
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
     use faststrip_normal_estimate_certificate, only: certificate_t, richardson_estimate
-    use faststrip_normal_limitations, only: check_depth, check_lowest, name_step, add_limitation
+    use faststrip_normal_limitations, only: check_depth, check_lowest, name_step
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t, demand_t, above_lowest
     implicit none

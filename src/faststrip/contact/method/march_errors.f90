@@ -5,10 +5,10 @@ module faststrip_contact_method_march_errors
     use faststrip_base_friction, only: falls, softened
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
-    use faststrip_base_status, only: status_t, is_error, st_under_resolved
+    use faststrip_base_status, only: status_t, is_error, add_limitation, st_under_resolved
     use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_normal_estimate_certificate, only: certificate_t
-    use faststrip_normal_limitations, only: name_force_resolution, add_limitation
+    use faststrip_normal_limitations, only: name_force_resolution
     use faststrip_tangential_force_errors, only: estimate_force_errors
     use faststrip_tangential_motion, only: cut_creepage
     use faststrip_contact_case, only: contact_case_t

@@ -1,10 +1,10 @@
 !> Strips as a method of a contact, with their own error estimate, and ellipses in their place.
 module faststrip_contact_method_strip
     use faststrip_base_material, only: normal_compliance
-    use faststrip_base_status, only: status_t, clear_status, is_error, message_length, &
-                                     st_under_resolved
+    use faststrip_base_status, only: status_t, clear_status, is_error, add_limitation, &
+                                     message_length, st_under_resolved
     use faststrip_normal_simple_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
-    use faststrip_normal_limitations, only: name_resolution, add_limitation
+    use faststrip_normal_limitations, only: name_resolution
     use faststrip_normal_strip, only: strip_options_t, strip_solve_demand, estimate_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t

@@ -278,6 +278,7 @@ contains
         figures%counts = 0
         figures%errors = 0
         figures%forces_are_estimated = 0
+        figures%limitations = 0
         figures%force_errors = 0
         figures%taken = 0
         figures%target_error = 0

@@ -55,6 +55,7 @@ contains
                                  budget_us=fields%budget_us)
         call handle_solve(handle, wants_elements(fields%choices))
         call read_result(handle, figures%figures, figures%counts, figures%errors)
+        figures%limitations = handle%limitations
         call read_force_errors(handle, figures%forces_are_estimated, figures%force_errors)
         call read_taken(handle, figures%taken, figures%target_error)
     end subroutine solve_fields

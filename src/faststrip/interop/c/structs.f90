@@ -43,7 +43,7 @@ module faststrip_interop_c_structs
         integer(c_int) :: counts(n_counts)   !! `n_patches` to `strips_across`
         real(c_double) :: errors(n_errors)   !! `est_err_penetration` to `overlap_outside`
         integer(c_int) :: forces_are_estimated
-        integer(c_int) :: unused = 0         !! where C leaves four bytes
+        integer(c_int) :: limitations        !! all, of which the status is the first
         real(c_double) :: force_errors(n_forces) !! `est_err_fx` to `est_err_mz`
         integer(c_int) :: taken(n_taken)     !! `n_steps` to `target_is_met`
         real(c_double) :: target_error       !! `est_err_target`

@@ -16,7 +16,7 @@ module faststrip_interop_c_wheelset
                                                  n_choices, n_loads, n_counts, n_numbers, &
                                                  n_totals, n_sums, free_wheelset, find_wheelset, &
                                                  wheelset_solve, contact_count, read_contact, &
-                                                 read_totals
+                                                 contact_limitations, read_totals
     use faststrip_interop_wheelset_new, only: profile_source_t, source_name_length, &
                                               default_setup, new_wheelset
     implicit none
@@ -51,6 +51,7 @@ module faststrip_interop_c_wheelset
     type, bind(c) :: c_contact_t
         integer(c_int) :: counts(n_counts)
         real(c_double) :: numbers(n_numbers)
+        integer(c_int) :: limitations
     end type c_contact_t
 
     !> `faststrip_wheelset_result` of the header.
@@ -188,6 +189,7 @@ contains
         else
             do i = 1, number
                 call read_contact(handle, i, contact(i)%counts, contact(i)%numbers)
+                contact(i)%limitations = contact_limitations(handle, i)
             end do
         end if
         call read_totals(handle, wheels%sums, wheels%totals)

@@ -42,6 +42,7 @@
 !> TAKN(1) steps that auto took     TAKN(2) the best of them, whose solution is the result
 !> TAKN(3) estimated error of what was wanted          TAKN(4) 1: it is known, 0: TAKN(3) is zero
 !> TAKN(5) 1: it is within the tolerance
+!> LSET   all limitations of the contact: 2**INFO of each, added up
 !> ```
 !>
 !> FSSOLV estimates errors unless FSLIMT switched that off, and says 8, under_resolved, where one of
@@ -73,7 +74,7 @@ module faststrip_interop_f77
     private
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
-    public :: fslimt, fserrs, fsferr, fscopy, fsfree, fsmsg, fslast, fsprof
+    public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof
     public :: fswant, fstakn, fsstep, fsints
     public :: n_iopt, n_par, n_iwork, check_choices, set_number, number_of
 
@@ -411,6 +412,22 @@ contains
         call read_force_errors(handle, are_known, errors)
         ferr = [errors, real(are_known, c_double)]
     end subroutine fsferr
+
+    !> CALL FSLSET(IWORK, LSET, INFO)
+    !>
+    !> All limitations of the last contact, of which INFO of FSSOLV is the first; zero if there was
+    !> none.
+    subroutine fslset(iwork, lset, info) bind(c, name='fslset_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! with a solution
+        integer(c_int), intent(out) :: lset          !! 2**INFO of each, added up
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+
+        lset = 0
+        call find(iwork, handle, info)
+        if (associated(handle)) lset = handle%limitations
+    end subroutine fslset
 
     !> CALL FSWANT(IWORK, ITARG, TOL, BUDGET, INFO)
     !>

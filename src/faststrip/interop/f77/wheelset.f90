@@ -59,12 +59,12 @@ module faststrip_interop_f77_wheelset
                                                  n_state, n_rails, n_choices, n_loads, n_counts, &
                                                  n_numbers, n_totals, n_sums, free_wheelset, &
                                                  find_wheelset, wheelset_solve, contact_count, &
-                                                 read_contact, read_totals
+                                                 read_contact, contact_limitations, read_totals
     use faststrip_interop_wheelset_new, only: profile_source_t, default_setup, new_wheelset
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fswslv, fswfre
+    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswfre
     public :: n_setup, read_sources
 
     integer, parameter :: n_setup = n_dimensions + 1
@@ -216,6 +216,32 @@ contains
         wres(n_totals + 1:) = sums
         info = handle%status%code
     end subroutine fswslv
+
+    !> CALL FSWSET(IWORK, K, LSET, INFO)
+    !>
+    !> All limitations of a contact of the last solution, of which CONT(2,K) is the first.
+    subroutine fswset(iwork, k, lset, info) bind(c, name='fswset_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW, with a solution
+        integer(c_int), intent(in) :: k              !! column of CONT
+        integer(c_int), intent(out) :: lset          !! 2**INFO of each, added up
+        integer(c_int), intent(out) :: info          !! status; 100: no such contact
+
+        type(wheelset_handle_t), pointer :: handle
+        type(status_t) :: status
+
+        lset = 0
+        call find_wheelset(number_of(iwork), handle, status)
+        info = status%code
+        if (is_error(status)) return
+        if (k < 1 .or. k > contact_count(handle)) then
+            call set_status(handle%status, st_bad_argument, 'K must be 1 to ' // &
+                            trim(count_text(contact_count(handle))) // ', the contacts, got ' // &
+                            count_text(k))
+            info = handle%status%code
+        else
+            lset = contact_limitations(handle, k)
+        end if
+    end subroutine fswset
 
     !> CALL FSWFRE(IWORK, INFO)
     !>

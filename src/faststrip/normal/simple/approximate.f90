@@ -7,12 +7,13 @@ module faststrip_normal_simple_approximate
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_material, only: check_compliance
-    use faststrip_base_status, only: status_t, set_status, is_error, number_text, count_text, &
-                                     st_bad_argument, st_bad_load, st_not_finite, st_no_contact, &
-                                     st_no_convergence, st_workspace_too_small, st_under_resolved
+    use faststrip_base_status, only: status_t, set_status, add_limitation, is_error, number_text, &
+                                     count_text, st_bad_argument, st_bad_load, st_not_finite, &
+                                     st_no_contact, st_no_convergence, st_workspace_too_small, &
+                                     st_under_resolved
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
-                                            name_limitations, name_steps, add_limitation
+                                            name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_types, only: demand_t, normal_result_t
     implicit none

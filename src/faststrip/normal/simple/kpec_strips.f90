@@ -14,12 +14,12 @@
 !> not feel the first, and a strip that would pull keeps a hundredth of KPEC's pressure.
 module faststrip_normal_simple_kpec_strips
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, st_fallback_used, st_under_resolved
+    use faststrip_base_status, only: status_t, is_error, add_limitation, st_fallback_used, &
+                                     st_under_resolved
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_influence_row, only: center_influence_column
     use faststrip_normal_simple_approximate, only: lowest_between
     use faststrip_normal_simple_kpec, only: kpec_solve
-    use faststrip_normal_limitations, only: add_limitation
     use faststrip_normal_patch_curves, only: curve_peak
     use faststrip_normal_strip_newton, only: newton_workspace_t
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch, strip_load

@@ -19,15 +19,16 @@
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     count_text, add_words, message_length, st_bad_argument, &
-                                     st_bad_load, st_not_finite, st_no_contact, st_fewer_strips, &
-                                     st_overlap_left, st_more_strips, st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
+                                     number_text, count_text, add_words, message_length, &
+                                     st_bad_argument, st_bad_load, st_not_finite, st_no_contact, &
+                                     st_fewer_strips, st_overlap_left, st_more_strips, &
+                                     st_workspace_too_small
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips
     use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
-                                            name_limitations, name_steps, add_limitation
+                                            name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_strip_ends, only: overlap_left
     use faststrip_normal_strip_levels, only: strip_options_t, strips_auto, strips_auto_most, &
