@@ -19,11 +19,8 @@
  * 64 kB of stack. No function stops, prints, writes a file, changes the locale, or leaves
  * floating-point flags, traps or rounding other than it found them.
  *
- * The structs may grow in later releases, at their ends. A program compiled with an older header
- * goes on: what its case lacks is as faststrip_default_case would have it, and of a result no more
- * is written than its header knows. A case larger than the library knows is refused (100). Also for
- * an older program errors are estimated, of pressures and of forces, and too large ones named
- * (FASTSTRIP_UNDER_RESOLVED). */
+ * Of structs with a size a function sets it, to that of the header the program was compiled with;
+ * one of another header is refused (100). */
 #ifndef FASTSTRIP_H
 #define FASTSTRIP_H
 
@@ -117,7 +114,7 @@ enum faststrip_friction {
 
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {
-    size_t size;          /* of this struct as the caller knows it; set by faststrip_default_case */
+    size_t size;          /* of this struct; set by faststrip_default_case */
     int normal;           /* enum faststrip_normal */
     int tangential;       /* enum faststrip_tangential */
     int strips_per_patch; /* 1 to 1000 across the largest patch, or 0: left to the solver */
@@ -157,7 +154,7 @@ typedef struct faststrip_case {
 
 /* Figures of one contact. */
 typedef struct faststrip_result {
-    size_t size;           /* bytes written, set by faststrip_solve: what the case's header knows */
+    size_t size;           /* of this struct; set by faststrip_solve */
     double load;           /* N */
     double penetration;    /* mm */
     double area;           /* mm^2 */
@@ -214,7 +211,7 @@ int faststrip_last_message(const faststrip_workspace *workspace, char *text, siz
 int faststrip_doubt(const faststrip_workspace *workspace, int i, char *text, size_t length);
 
 /* Steel on steel, mu = 0.3, strips and FASTSTRIP, no load: to be filled in further.
- * length is sizeof(faststrip_case): how much of it the caller knows. */
+ * length is sizeof(faststrip_case). */
 int faststrip_default_case(faststrip_case *contact, size_t length);
 
 /* What faststrip_new would return for the same case and capacity; text, if not null, says why. */
@@ -359,10 +356,8 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
 /* A wheelset on a track: from its position and velocity to the forces of every contact. x ahead, y
  * to the right, z down, in the track, in the wheelset and in the contacts of both sides, which are
  * turned about x by their contact angle. A wheelset has the rules of a workspace: one thread at a
- * time, freed ones are told, faststrip_wheelset_new allocates, solutions do not.
- *
- * The five structs may grow in later releases, at their ends; the setup's size says which of them
- * the caller was compiled with. */
+ * time, freed ones are told, faststrip_wheelset_new allocates, solutions do not. The setup's size
+ * stands for all structs of wheelsets. */
 
 /* The rail inclination is the tangent of the angle by which a rail leans to the track's centre:
  * 0.025 for 1:40, 0 for points that lie as in the track. This stands where none was said: rails by
@@ -372,7 +367,7 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
 /* Dimensions, mm. Fill it in with faststrip_default_wheelset first. A wheelset and a track that do
  * not fit, as the gauge 1435 and flange backs 1440 apart, are refused by name. */
 typedef struct faststrip_wheelset_setup {
-    size_t size;          /* of this struct as the caller knows it */
+    size_t size;          /* of this struct; set by faststrip_default_wheelset */
     double radius_right;  /* nominal radius at the tape circle, y = 0 of the wheel's profile */
     double radius_left;
     double back_spacing;  /* distance of the flange backs; 0: that which belongs to the gauge, 1360
@@ -382,15 +377,7 @@ typedef struct faststrip_wheelset_setup {
     double gauge_depth;   /* below the crown, where it is measured */
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
                            * gauge */
-#if defined(__cplusplus) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L)
-    union {
-        double inclination; /* of both rails */
-        double cant;        /* its older name */
-    };
-#else
-    double inclination;   /* of both rails; cant where the compiler knows nameless unions */
-#endif
-    size_t state_size;    /* of faststrip_wheelset_state, which had no rails before this was here */
+    double inclination;   /* of both rails */
 } faststrip_wheelset_setup;
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
@@ -564,6 +551,8 @@ typedef struct faststrip_wheelset_contact {
     double est_err_fy;
     double est_err_mz;
     int limitations;       /* as in faststrip_result */
+    int n_strips;
+    int n_elements;
 } faststrip_wheelset_contact;
 
 /* What the contacts of each wheel come to, right and left; zero for one that was not asked for. */
@@ -583,10 +572,10 @@ typedef struct faststrip_wheelset faststrip_wheelset;
 /* Standard gauge, wheels of 460 mm, FASTSTRIP_INCLINATION_UNSET. length is sizeof setup. */
 int faststrip_default_wheelset(faststrip_wheelset_setup *setup, size_t length);
 
-/* Make a wheelset of its profiles, right and left; of the case material, friction, methods and
- * estimates count. With FASTSTRIP_NORMAL_AUTO strips find the height, and the load is corrected
- * until what auto takes carries it to 1e-4. *wheelset is null when there is an error;
- * text, if not null, says why. */
+/* Make a wheelset of its profiles, right and left; of the case material, friction, methods,
+ * estimates, what auto is to know, and with_elements count. With FASTSTRIP_NORMAL_AUTO strips find
+ * the height, and the load is corrected until what auto takes carries it to 1e-4. *wheelset is null
+ * when there is an error; text, if not null, says why. */
 int faststrip_wheelset_new(const faststrip_wheelset_setup *setup,
                            const faststrip_profile wheels[2], const faststrip_profile rails[2],
                            const faststrip_case *contact, faststrip_wheelset **wheelset,
@@ -603,9 +592,21 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
                              faststrip_wheelset_contact *contacts,
                              faststrip_wheelset_result *result);
 
-/* Wear and fatigue of a contact of the last solution, contacts[i], as faststrip_get_wear. */
+/* Strips, elements, wear and fatigue of a contact of the last solution, contacts[i], as
+ * faststrip_get_strips, faststrip_get_elements, faststrip_get_wear and faststrip_get_strip_wear
+ * have them; x and y from its reference point, in its tangent plane, ahead and to the right. */
+int faststrip_wheelset_get_strips(faststrip_wheelset *wheelset, int i, int capacity, int *n,
+                                  double *y_left, double *y_right, double *half_length, double *p0,
+                                  int *patch);
+int faststrip_wheelset_get_elements(faststrip_wheelset *wheelset, int i, int capacity, int *n,
+                                    double *x, double *y, double *area, double *pn, double *px,
+                                    double *py, double *sx, double *sy, int *state);
 int faststrip_wheelset_get_wear(faststrip_wheelset *wheelset, int i, const faststrip_wear_law *law,
                                 double yield_shear, double figures[6]);
+int faststrip_wheelset_get_strip_wear(faststrip_wheelset *wheelset, int i,
+                                      const faststrip_wear_law *law, int capacity, int *n,
+                                      double *fx, double *fy, double *friction_power,
+                                      double *t_gamma_per_area, double *wear, double *pass_depth);
 
 /* The gap of contacts[i] of the last solution about its place, for faststrip_set_gap: capacity is
  * the length of the arrays; *n becomes the points of the gap, even if these are more (110). */

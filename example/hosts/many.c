@@ -167,9 +167,9 @@ static void errors(void)
     one_wrong("contacts[40]: a Hertz contact", 40, FASTSTRIP_NOT_FINITE);
     cases[40] = kept;
     cases[40].size -= 8;
-    one_wrong("contacts[40]: all contacts must have the size", 40, FASTSTRIP_BAD_ARGUMENT);
+    one_wrong("contacts[40]: the case must have the", 40, FASTSTRIP_BAD_ARGUMENT);
     cases[40].size = 3;
-    one_wrong("contacts[40]: the case must have the size", 40, FASTSTRIP_BAD_ARGUMENT);
+    one_wrong("contacts[40]: the case must have the", 40, FASTSTRIP_BAD_ARGUMENT);
     cases[40] = kept;
     cases[40].strips_per_patch = 1000;
     cases[40].normal = FASTSTRIP_NORMAL_STRIP;
@@ -208,7 +208,7 @@ static void errors(void)
     refused(CALL(CONTACTS, cases, 1, gaps, NULL, NULL, statuses), "must be there");
     refused(CALL(CONTACTS, cases, 1, gaps, NULL, results, NULL), "must be there");
     cases[0].size = 5;
-    refused(many(1, 2), "the case must have the size");
+    refused(many(1, 2), "the case must have the");
     cases[0].size = sizeof cases[0];
     cases[0].strips_per_patch = 5000;
     refused(many(1, 2), "strips");

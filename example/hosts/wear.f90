@@ -37,6 +37,7 @@ contains
 
         here = case
         here%wear_law = law
+        here%yield_shear = yield_shear
         here%mu = friction_at_angle(case%friction, case%mu, angle)
         here%load = 8.0e4_wp
         here%creepage = creepage_t(4.0e-3_wp, -2.0e-3_wp, 2.0e-4_wp)
@@ -47,7 +48,7 @@ contains
         print '(a, 1x, i0)', 'contact', status%code
         if (is_error(status)) return
         call show([result%tangential%fx, result%tangential%fy, result%tangential%mz])
-        call show_figures(result, here%creepage, result%wear%wear, workspace%strip_forces%n > 0)
+        call show_figures(result, workspace%strip_forces%n > 0)
         associate (forces => workspace%strip_forces, worn => workspace%strip_wear)
             do k = 1, forces%n
                 call show([forces%fx(k), forces%fy(k), forces%friction_power(k), &
@@ -63,15 +64,14 @@ contains
         type(wheelset_state_t) :: state
         type(wheelset_demand_t) :: demand
         type(profile_t) :: wheels(2), rails(2)
-        type(wheel_strips_t) :: found
-        type(wear_t) :: worn
-        real(wp), allocatable :: densities(:), mass(:), depth(:)
         integer :: k, side
 
         call make_wheel_profile('s1002', wheels(1), status)
         call make_rail_profile('60e1', standard_cant, rails(1), status)
         wheels(2) = wheels(1)
         rails(2) = rails(1)
+        case%wear_law = law
+        case%yield_shear = yield_shear
         call make_wheelset(wheels, rails, wheelset_t(), 460.0_wp, track_t(), case, model, status)
         call reserve_wheelset(workspace, model, status)
         state%y = 6.2_wp
@@ -87,31 +87,22 @@ contains
                 associate (contact => result%wheel(side)%contact(k))
                     call show([contact%figures%tangential%fx, contact%figures%tangential%fy, &
                                contact%figures%tangential%mz])
-                    call find_wheel_strips(model, workspace, result, side, k, found, status)
-                    allocate (densities(size(found%forces%fx)), mass(size(found%forces%fx)), &
-                              depth(size(found%forces%fx)))
-                    if (found%forces%n > 0) &
-                        call find_strip_wear(law, found%strips, found%forces, densities, mass, &
-                                             depth, worn, status)
-                    call show_figures(contact%figures, contact%creepage, worn, found%forces%n > 0)
-                    deallocate (densities, mass, depth)
+                    call show_figures(contact%figures, &
+                                      workspace%wheel(side)%contact(k)%strip_forces%n > 0)
                 end associate
             end do
         end do
     end subroutine solve_both_wheels
 
-    subroutine show_figures(result, creepage, worn, has_strips)
+    subroutine show_figures(result, has_strips)
         type(contact_result_t), intent(in) :: result
-        type(creepage_t), intent(in) :: creepage
-        type(wear_t), intent(in) :: worn
         logical, intent(in) :: has_strips
 
-        call show([t_gamma(result%tangential, creepage), &
-                   t_gamma_with_spin(result%tangential, creepage), &
-                   t_gamma(result%tangential, creepage)/result%normal%area, &
-                   surface_fatigue_index(result%tangential, result%normal%load, &
-                                         result%normal%area, yield_shear)])
-        if (has_strips) call show([worn%mass, worn%volume])
+        associate (figures => result%wear)
+            call show([figures%t_gamma, figures%t_gamma_spin, figures%t_gamma_per_area, &
+                       figures%fatigue_index])
+            if (has_strips) call show([figures%wear%mass, figures%wear%volume])
+        end associate
     end subroutine show_figures
 
     !> Numbers as bits.

@@ -50,6 +50,31 @@ static void show_contact(const faststrip_wheelset_contact *c)
     }
 }
 
+enum { MOST_STRIPS = 400, MOST_ELEMENTS = 8000 };
+
+/* The second strip of a contact, and an element in its first half. */
+static void show_parts(faststrip_wheelset *wheelset, int k)
+{
+    static double a[8][MOST_ELEMENTS];
+    static int patch[MOST_STRIPS], state[MOST_ELEMENTS];
+    int n, m, i, j, status;
+
+    status = faststrip_wheelset_get_strips(wheelset, k, MOST_STRIPS, &n, a[0], a[1], a[2], a[3],
+                                           patch);
+    status += faststrip_wheelset_get_strip_wear(wheelset, k, NULL, MOST_STRIPS, &n, a[4], a[5],
+                                                a[6], a[7], a[7] + MOST_STRIPS,
+                                                a[7] + 2 * MOST_STRIPS);
+    for (i = 0; i < 7; i++) a[0][i] = a[i][1];
+    status += faststrip_wheelset_get_elements(wheelset, k, MOST_ELEMENTS, &m, a[0] + 7, a[1], a[2],
+                                              a[3], a[4], a[5], a[6], a[7], state);
+    j = m / 3;
+    printf("parts %d %d %d %d %d\n", status, n, m, patch[1], state[j]);
+    show(7, a[0]);
+    a[0][0] = a[0][7 + j];
+    for (i = 1; i < 8; i++) a[0][i] = a[i][j];
+    show(8, a[0]);
+}
+
 int main(void)
 {
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
@@ -81,8 +106,11 @@ int main(void)
                 memcpy(sums + 5, result.force_wheelset[side - 1], sizeof result.force[0]);
                 memcpy(sums + 8, result.moment[side - 1], sizeof result.force[0]);
                 show(11, sums);
-                for (k = 0; k < n; k++)
-                    if (contacts[k].side == side) show_contact(&contacts[k]);
+                for (k = 0; k < n; k++) {
+                    if (contacts[k].side != side) continue;
+                    show_contact(&contacts[k]);
+                    show_parts(wheelset, k);
+                }
             }
         }
         /* What came between does not count where nothing starts warm. */

@@ -15,6 +15,7 @@ C     as bits.
         CALL FSWDFT(SETUP)
         PAR(5) = 0.35D0
         IOPT(3) = 9
+        IOPT(9) = 1
         SETUP(2) = 460.25D0
         SETUP(8) = 0.05D0
         DO 10 I = 1, 4
@@ -71,7 +72,10 @@ C         The rails have moved in the second half.
      &        (WRES(6 + 3*ISIDE + K), K = 1, 3),
      &        (WRES(12 + 3*ISIDE + K), K = 1, 3)
             DO 60 K = 1, N
-              IF (NINT(CONT(1, K)) .EQ. ISIDE) CALL SHOW(IWORK, K, CONT)
+              IF (NINT(CONT(1, K)) .EQ. ISIDE) THEN
+                CALL SHOW(IWORK, K, CONT)
+                CALL PARTS(IWORK, K)
+              END IF
    60       CONTINUE
             S(2) = WRES(ISIDE)
             S(3) = WRES(3)
@@ -96,4 +100,25 @@ C     One contact, in the rows of the other languages' programs.
         WRITE (*, '(9(Z16.16, :, 1X))') CONT(M:LAST(I), K)
         M = LAST(I) + 1
    10 CONTINUE
+      END
+
+C     The second strip of a contact, and an element in its first half.
+      SUBROUTINE PARTS(IWORK, K)
+      INTEGER MS, ME
+      PARAMETER (MS = 400, ME = 8000)
+      INTEGER IWORK(8), K, N, M, I, J, INFO, IPATCH(MS), ISTATE(ME)
+      DOUBLE PRECISION S(MS, 10), E(ME, 8), REGIM(4, 1)
+      CALL FSWSTR(IWORK, K, MS, N, S(1, 1), S(1, 2), S(1, 3), S(1, 4),
+     &  IPATCH, INFO)
+      IF (INFO .NE. 0) STOP 3
+      CALL FSWSTW(IWORK, K, 0, REGIM, 0.0D0, MS, N, S(1, 5), S(1, 6),
+     &  S(1, 7), S(1, 8), S(1, 9), S(1, 10), INFO)
+      IF (INFO .NE. 0) STOP 4
+      CALL FSWELM(IWORK, K, ME, M, E(1, 1), E(1, 2), E(1, 3), E(1, 4),
+     &  E(1, 5), E(1, 6), E(1, 7), E(1, 8), ISTATE, INFO)
+      J = M/3 + 1
+      WRITE (*, '(A, 5(1X, I0))') 'parts', INFO, N, M, IPATCH(2),
+     &  ISTATE(J)
+      WRITE (*, '(7(Z16.16, :, 1X))') (S(2, I), I = 1, 7)
+      WRITE (*, '(8(Z16.16, :, 1X))') (E(J, I), I = 1, 8)
       END

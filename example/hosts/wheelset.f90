@@ -8,6 +8,8 @@ program wheelsets
     type(wheelset_result_t) :: result
     type(wheelset_demand_t) :: demand
     type(wheelset_state_t) :: state
+    type(wheel_strips_t) :: found
+    type(tangential_field_t) :: field
     type(status_t) :: status
     integer :: setup, i, side, k
 
@@ -29,6 +31,7 @@ program wheelsets
                                wheel%moment])
                     do k = 1, wheel%n
                         call show_contact(side, wheel%contact(k))
+                        call show_parts(side, k)
                     end do
                     state%z = wheel%z
                     state%roll = wheel%roll
@@ -51,6 +54,7 @@ contains
 
         case%mu = 0.35_wp
         case%methods%strips_per_patch = 9
+        case%asked%field = .true.
         if (setup == 1) then
             call make_wheel_profile('s1002', wheels(1), status)
             call make_rail_profile('60e1', 0.05_wp, rails(1), status)
@@ -123,6 +127,26 @@ contains
             call show([figures%force_errors%fy, figures%force_errors%mz])
         end associate
     end subroutine show_contact
+
+    !> The second strip of a contact, and an element in its first half.
+    subroutine show_parts(side, k)
+        integer, intent(in) :: side, k
+        type(status_t) :: status
+        integer :: j
+
+        call find_wheel_strips(model, workspace, result, side, k, found, status)
+        if (.not. is_error(status)) &
+            call find_wheel_field(workspace, result, side, k, field, status)
+        j = field%n/3 + 1
+        associate (strips => found%strips, forces => found%forces)
+            print '(a, 5(1x, i0))', 'parts', status%code, strips%n, field%n, strips%patch(2), &
+                field%state(j)
+            call show([strips%y_left(2), strips%y_right(2), strips%half_length(2), strips%p0(2), &
+                       forces%fx(2), forces%fy(2), forces%friction_power(2)])
+        end associate
+        call show([field%x(j), field%y(j), field%area(j), field%pn(j), field%px(j), field%py(j), &
+                   field%sx(j), field%sy(j)])
+    end subroutine show_parts
 
     !> Numbers as bits.
     subroutine show(numbers)

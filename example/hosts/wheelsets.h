@@ -35,6 +35,7 @@ static faststrip_wheelset *make_wheelset(int of_points)
     faststrip_default_wheelset(&setup, sizeof setup);
     contact.mu = 0.35;
     contact.strips_per_patch = 9;
+    contact.with_elements = 1;
     setup.radius_left = 460.25;
     setup.inclination = 0.05;
     memset(wheels, 0, sizeof wheels);

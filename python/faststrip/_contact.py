@@ -224,6 +224,30 @@ def _addresses(arrays: list) -> list:
     return [c_void_p(array.ctypes.data) for array in arrays]
 
 
+def fetch(call: Any, function: Any, doubles: int, *first: int) -> list:
+    """As many numbers as a function of the library has, in so many arrays, and one of integers."""
+    n = c_int()
+    arrays = _arrays(0, doubles)
+    try:
+        call(function, *first, 0, ctypes.byref(n), *_addresses(arrays))
+    except FaststripError as problem:
+        if problem.status != TOO_SMALL:
+            raise
+    arrays = _arrays(n.value, doubles)
+    call(function, *first, n.value, ctypes.byref(n), *_addresses(arrays))
+    return arrays
+
+
+def strip_wear(call: Any, function: Any, n_strips: int, law: Optional[WearLaw],
+               *first: int) -> StripWear:
+    """Forces and wear of so many strips."""
+    question = WearQuestion(law, None)
+    n, arrays = c_int(), np.empty((6, n_strips))
+    call(function, *first, question.law, n_strips, ctypes.byref(n), *_addresses(list(arrays)))
+    return StripWear(*(row.copy() for row in arrays[:4]),
+                     *((row.copy() if law is not None else None) for row in arrays[4:]))
+
+
 class _Workspace:
     """A workspace of the library, freed with the last that holds it: so not during a call."""
 
@@ -480,12 +504,13 @@ class Contact:
         finally:
             if self._workspace is not None:
                 warn_of_doubts(self._workspace.handle)
-        return Result(status, word_of(status), *_figures_of(figures),
-                      *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
-                      *(_force_errors_of(figures) if figures.forces_are_estimated
-                        else _NO_FORCE_ERRORS),
-                      *(self._taken(figures) if figures.n_steps else (None, None, ())),
-                      limitation_words(figures.limitations))
+        found: Tuple[Any, ...] = (
+            status, word_of(status), *_figures_of(figures),
+            *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
+            *(_force_errors_of(figures) if figures.forces_are_estimated else _NO_FORCE_ERRORS),
+            *(self._taken(figures) if figures.n_steps else (None, None, ())),
+            limitation_words(figures.limitations))
+        return Result(*found)
 
     def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
         """What came of auto: estimated error of the target, is it met, the steps."""
@@ -512,7 +537,7 @@ class Contact:
         Strips
             Edges, half-lengths and pressures, patch by patch; empty before the first solution.
         """
-        return Strips(*self._fetch(library.faststrip_get_strips, 4))
+        return Strips(*fetch(self._call, library.faststrip_get_strips, 4))
 
     def elements(self) -> Elements:
         """The elements of the last contact.
@@ -522,7 +547,7 @@ class Contact:
         Elements
             Pressures, tractions, slip and states; empty unless the Contact was made with_elements.
         """
-        return Elements(*self._fetch(library.faststrip_get_elements, 8))
+        return Elements(*fetch(self._call, library.faststrip_get_elements, 8))
 
     def wear(self, law: Optional[WearLaw] = None, *,
              yield_shear: Optional[float] = None) -> Wear:
@@ -562,24 +587,7 @@ class Contact:
         FaststripError
             Where tangential is not ``faststrip`` or ``faststrip-plain``.
         """
-        question = WearQuestion(law, None)
-        n, arrays = c_int(), np.empty((6, len(self.strips().p0)))
-        self._call(library.faststrip_get_strip_wear, question.law, arrays.shape[1],
-                   ctypes.byref(n), *_addresses(list(arrays)))
-        return StripWear(*(row.copy() for row in arrays[:4]),
-                         *((row.copy() if law is not None else None) for row in arrays[4:]))
-
-    def _fetch(self, function: Any, doubles: int) -> list:
-        n = c_int()
-        arrays = _arrays(0, doubles)
-        try:
-            self._call(function, 0, ctypes.byref(n), *_addresses(arrays))
-        except FaststripError as problem:
-            if problem.status != TOO_SMALL:
-                raise
-        arrays = _arrays(n.value, doubles)
-        self._call(function, n.value, ctypes.byref(n), *_addresses(arrays))
-        return arrays
+        return strip_wear(self._call, library.faststrip_get_strip_wear, len(self.strips().p0), law)
 
     def plot(self, figure: Any = None) -> Any:
         """Draw the last contact with matplotlib: the patch with its strips and pressures, pressures

@@ -13,7 +13,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, flag, number, numbers, several, whole
-from ._contact import MOST_STRIPS, Material, new_case, number_of, take_material
+from ._contact import (
+    MOST_STRIPS,
+    Material,
+    fetch,
+    new_case,
+    number_of,
+    strip_wear,
+    take_material,
+    want,
+)
 from ._library import (
     BAD_ARGUMENT,
     FIRST_ERROR,
@@ -34,7 +43,8 @@ from ._profile import (
     spacing_of,
 )
 from ._record import Record, Table
-from ._wear import CONSTANT, Friction, Wear, WearLaw, WearQuestion, take_friction
+from ._results import Elements, Strips
+from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
 Array = npt.NDArray[np.float64]
 WHEELS = {"both": 0, "right": 1, "left": 2}
@@ -52,7 +62,7 @@ class Setup(ctypes.Structure):
 
     _fields_ = [("size", c_size_t), *((name, c_double) for name in (
         "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-        "rail_distance", "inclination")), ("state_size", c_size_t)]
+        "rail_distance", "inclination"))]
 
 
 class Rail(ctypes.Structure):
@@ -94,7 +104,7 @@ class Row(ctypes.Structure):
         *((name, c_double) for name in (
             "est_err_penetration", "est_err_pmax", "est_err_area", "est_err_fx", "est_err_fy",
             "est_err_mz")),
-        ("limitations", c_int),
+        *((name, c_int) for name in ("limitations", "n_strips", "n_elements")),
     ]
 
 
@@ -251,8 +261,7 @@ def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any
         ("radius", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
          "rail_distance", "inclination"),
         (radius, left, spacing_of(back_spacing), tread_line, gauge, gauge_depth, distance,
-         inclination_of(inclination, cant))),
-        ctypes.sizeof(State))
+         inclination_of(inclination, cant))))
     wheels = (Points * 2)(points_of("wheel", wheel, "wheel"), Points() if wheel_left is None
                           else points_of("wheel_left", wheel_left, "wheel"))
     rails = (Points * 2)(points_of("rail", rail, "rail"), Points() if rail_left is None
@@ -315,6 +324,10 @@ class WheelsetResult(Table):
         return columns
 
 
+def _counted(contact: Any) -> int:
+    return whole("contact", contact, 0, MOST_CONTACTS)
+
+
 class _Handle:
     """A wheelset of the library, freed with the last that holds it: so not during a call."""
 
@@ -358,7 +371,7 @@ class Wheelset:
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
-estimate, resolution_limit, force_limit
+with_elements, estimate, resolution_limit, force_limit, target, tolerance, budget_us
         As of `Contact` and `Contact.solve`.
 
     Examples
@@ -379,16 +392,19 @@ estimate, resolution_limit, force_limit
                  friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
-                 estimate: bool = True, resolution_limit: float = 0.1,
-                 force_limit: float = 0.1) -> None:
+                 with_elements: bool = False, estimate: bool = True, resolution_limit: float = 0.1,
+                 force_limit: float = 0.1, target: Optional[str] = None,
+                 tolerance: Optional[float] = None, budget_us: Optional[float] = None) -> None:
         self._handle: Optional[_Handle] = None
         self._n_contacts = 0
         case = new_case(normal, tangential, whole("strips_per_patch", strips_per_patch, 1,
                                                   MOST_STRIPS), points_per_strip, fastsim_grid,
                         estimate, resolution_limit, force_limit)
+        case.with_elements = flag("with_elements", with_elements)
         case.mu = number("mu", mu)
         take_friction(case, friction)
         take_material(case, material)
+        want(case, target, tolerance, budget_us)
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
                                         rail_distance, inclination, cant)
@@ -524,6 +540,60 @@ estimate, resolution_limit, force_limit
             found.append(question.answer())
         return tuple(found)
 
+    def strips(self, contact: int) -> Strips:
+        """The strips of a contact of the last solution, y from its place.
+
+        Parameters
+        ----------
+        contact : int
+            Counted from 0, those of the right wheel first.
+
+        Returns
+        -------
+        Strips
+        """
+        return Strips(*fetch(self._call, library.faststrip_wheelset_get_strips, 4,
+                             _counted(contact)))
+
+    def elements(self, contact: int) -> Elements:
+        """The elements of a contact of the last solution, x and y from its place.
+
+        Parameters
+        ----------
+        contact : int
+            Counted from 0, those of the right wheel first.
+
+        Returns
+        -------
+        Elements
+            Empty unless the Wheelset was made with_elements.
+        """
+        return Elements(*fetch(self._call, library.faststrip_wheelset_get_elements, 8,
+                               _counted(contact)))
+
+    def strip_wear(self, contact: int, law: Optional[WearLaw] = None) -> StripWear:
+        """Forces and wear of the strips of a contact of the last solution.
+
+        Parameters
+        ----------
+        contact : int
+            Counted from 0, those of the right wheel first.
+        law : WearLaw, optional
+            Without one there are forces alone.
+
+        Returns
+        -------
+        StripWear
+            In the order of `strips`.
+
+        Raises
+        ------
+        FaststripError
+            Where tangential is not ``faststrip`` or ``faststrip-plain``.
+        """
+        return strip_wear(self._call, library.faststrip_wheelset_get_strip_wear,
+                          len(self.strips(contact).p0), law, _counted(contact))
+
     def gap(self, contact: int) -> Tuple[Array, Array, Array, Array]:
         """The gap of a contact of the last solution about its place, for `Contact.set_gap`.
 
@@ -541,8 +611,7 @@ estimate, resolution_limit, force_limit
         while True:
             arrays = np.zeros((4, capacity))
             try:
-                self._call(library.faststrip_wheelset_get_gap, whole("contact", contact, 0,
-                                                                     MOST_CONTACTS), capacity,
+                self._call(library.faststrip_wheelset_get_gap, _counted(contact), capacity,
                            ctypes.byref(n), *(row.ctypes.data for row in arrays))
             except FaststripError as problem:
                 if problem.status != TOO_SMALL or n.value <= capacity:

@@ -111,6 +111,7 @@ module faststrip
                                         demand_axle_load
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
     use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
+    use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel, &
                                       n_contact_numbers, most_slots

@@ -62,7 +62,9 @@ class Faces(HostTest):
                     lines.append((len(mine), result.n_solutions[side]))
                     lines.append(bits(z, roll, *result.force[side], *result.force_wheelset[side],
                                       *result.moment[side]))
-                    lines += [row for one in mine for row in rows_of(one)]
+                    for k, one in enumerate(contacts):
+                        if one.side == name:
+                            lines += [*rows_of(one), *parts_of(wheelset, k)]
         wanted = [line for line in self.lines if not line.startswith("contact")]
         wanted = [tuple(map(int, line.split()[2:])) if line.startswith("wheel") else line
                   for line in wanted]
@@ -102,48 +104,80 @@ class Faces(HostTest):
                 self.assertEqual(float(row[name]), number, (one.side, name))
         self.assertNotEqual(result.roll, wheelset.solve(**state).roll)
 
-    def test_a_header_without_rails_goes_on(self):
+    def test_a_setup_of_another_header_is_refused(self):
         package = self.import_package()
         parts = package._wheelset
         library, point = parts.library, ctypes.byref
-        loads = {"y": 3.0, "yaw": 0.002, "speed": 2e4, "pitch_rate": -43.0}
-        known = parts.Setup()
-        self.assertEqual(library.faststrip_default_wheelset(point(known), 80), 0)
-        self.assertEqual((known.size, known.state_size), (80, ctypes.sizeof(parts.State)))
-        demand = parts.Demand(kind=1, wheels=1, load_right=8e4)
-        forces = {}
-        for size in (72, 80):
-            setup = parts.Setup(state_size=12345)
-            self.assertEqual(library.faststrip_default_wheelset(point(setup), size), 0)
-            self.assertEqual(setup.state_size, 12345 if size == 72 else known.state_size)
-            # An old caller has something else where the rails would be.
-            state = parts.State(**loads)
-            state.right_rail.y = math.nan if size == 72 else 0.25
-            wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
-            rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
-            case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
-            handle = ctypes.c_void_p()
-            self.assertEqual(library.faststrip_wheelset_new(
-                point(setup), wheels, rails, point(case), point(handle), None, 0), 0)
-            rows, totals, n = (parts.Row * 16)(), parts.Totals(), ctypes.c_int()
-            self.assertEqual(library.faststrip_wheelset_solve(
-                handle, point(state), point(demand), 16, point(n), rows, point(totals)), 0)
-            forces[size] = list(totals.force[0])
-            self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
-        solver = package.Wheelset(strips_per_patch=9, estimate=False)
-        for size, rail in ((72, package.RailState()), (80, package.RailState(y=0.25))):
-            wanted = solver.solve(load=8e4, wheels="right", roll=0.0, right_rail=rail, **loads)
-            self.assertEqual(list(wanted.force[0]), forces[size])
-        self.assertNotEqual(forces[72], forces[80])
-        for change in ({"size": 76}, {"size": 88}, {"state_size": 88}):
+        wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
+        rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
+        case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
+        for size in (0, 64, 71, 72, 76, 80):
+            setup, handle = parts.Setup(gauge=1.0), ctypes.c_void_p()
             text = ctypes.create_string_buffer(256)
-            setup = parts.Setup()
-            library.faststrip_default_wheelset(point(setup), 80)
-            for name, value in change.items():
-                setattr(setup, name, value)
+            known = size == ctypes.sizeof(parts.Setup)
+            self.assertEqual(library.faststrip_default_wheelset(point(setup), size),
+                             0 if known else 100)
+            self.assertEqual((setup.size, setup.gauge), (72, 1435.0) if known else (0, 1.0))
+            library.faststrip_default_wheelset(point(setup), 72)
+            setup.size = size
             self.assertEqual(library.faststrip_wheelset_new(
-                point(setup), wheels, rails, point(case), point(handle), text, 256), 100)
-            self.assertIn(b"bytes" if change.get("size") != 76 else b"size", text.value)
+                point(setup), wheels, rails, point(case), point(handle), text, 256),
+                0 if known else 100)
+            self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
+            if not known:
+                self.assertRegex(text.value.decode(), rf"72 bytes .*got {size}: the header is "
+                                 + ("newer" if size > 72 else "older"))
+
+    def test_elements_and_strips_add_up_as_those_of_the_program(self):
+        package = self.import_package()
+        self.write("parts.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n/\n"
+                   "&material\n  mu = 0.3\n/\n&numerics\n  strips_per_patch = 9\n/\n")
+        self.write("parts.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
+                   "one,both,-6,,0.003,-20000,43.5,120000\n")
+        self.shell(f"'{self.installed.prefix}/bin/faststrip' wheelset parts.nml --states parts.csv"
+                   " -o parts_out.csv --fields parts_fields.csv --strips parts_strips.csv")
+        rows = {name: list(csv.DictReader(
+            line for line in (self.folder / f"parts_{name}.csv").read_text("utf-8").splitlines()
+            if line[0] != "#")) for name in ("fields", "strips")}
+        state = {"y": -6.0, "yaw": 0.003, "speed": -2e4, "pitch_rate": 43.5, "axle_load": 1.2e5}
+        with package.Wheelset(strips_per_patch=9, with_elements=True) as wheelset:
+            contacts = wheelset.solve(**state).contacts
+            self.assertEqual({one.side for one in contacts}, {"right", "left"})
+            numbers = {"right": 0, "left": 0}
+            for k, one in enumerate(contacts):
+                numbers[one.side] += 1
+                which = {"side": one.side, "contact": str(numbers[one.side])}
+                elements, strips = wheelset.elements(k), wheelset.strips(k)
+                for name, mine, column in (
+                        ("fields", elements.x, "x_mm"), ("fields", elements.y, "y_mm"),
+                        ("fields", elements.py, "py_MPa"), ("fields", elements.sx, "sx"),
+                        ("strips", strips.y_left, "y_left_mm"), ("strips", strips.p0, "p0_MPa"),
+                        ("strips", wheelset.strip_wear(k).fx, "Fx_N")):
+                    theirs = [float(row[column]) for row in rows[name]
+                              if which.items() <= row.items()]
+                    self.assertEqual(mine.tolist(), theirs, (which, column))
+                self.assertAlmostEqual(float(elements.px @ elements.area), one.fx, delta=1e-6)
+                self.assertAlmostEqual(float(elements.py @ elements.area), one.fy, delta=1e-6)
+                self.assertAlmostEqual(float(wheelset.strip_wear(k).fy.sum()), one.fy, delta=1e-6)
+            with self.assertRaisesRegex(package.FaststripError, "no such contact: "):
+                wheelset.strips(len(contacts))
+        with package.Wheelset(strips_per_patch=9) as wheelset:
+            wheelset.solve(**state)
+            self.assertEqual(len(wheelset.elements(0).x), 0)
+        with self.assertRaisesRegex(package.FaststripError, "element by element"):
+            package.Wheelset(tangential="polach", with_elements=True)
+
+    def test_auto_takes_what_is_wanted(self):
+        package = self.import_package()
+        errors = []
+        for tolerance in (0.2, 0.02):
+            with package.Wheelset(normal="auto", target="pmax", tolerance=tolerance) as wheelset:
+                found = wheelset.solve(load=8e4, y=6.0).contacts
+            errors.append(max(one.est_err_pmax for one in found))
+            self.assertLessEqual(errors[-1], tolerance)
+        self.assertLess(errors[1], errors[0])
+        with self.assertRaisesRegex(package.FaststripError, "target must be None"):
+            package.Wheelset(target="pmax")
 
     def test_python_refuses_by_name(self):
         package = self.import_package()
@@ -172,7 +206,8 @@ class Faces(HostTest):
             one, other = (each.solve(load=5e4, y=2.0) for each in (chosen, wheelset))
             for carried in one.force[:, 2]:
                 self.assertAlmostEqual(float(carried), 5e4, delta=5.1)
-            self.assertAlmostEqual(one.z, other.z, delta=0.01)
+            for mine, theirs in zip(one.z, other.z):
+                self.assertAlmostEqual(mine, theirs, delta=0.01)
         with wheelset:
             self.assertEqual(wheelset.solve(z=-5.0).contacts, ())
         with self.assertRaisesRegex(package.FaststripError, "closed"):
@@ -194,6 +229,17 @@ def rows_of(one):
             bits(*estimates[:2]), bits(*estimates[2:4]), bits(*estimates[4:]))
 
 
+def parts_of(wheelset, k):
+    """The second strip and an element in the first half."""
+    strips, elements = wheelset.strips(k), wheelset.elements(k)
+    wear, j = wheelset.strip_wear(k), len(elements.x) // 3
+    return (f"parts 0 {len(strips.p0)} {len(elements.x)} {strips.patch[1]} {elements.state[j]}",
+            bits(*(getattr(strips, name)[1] for name in ("y_left", "y_right", "half_length", "p0")),
+                 wear.fx[1], wear.fy[1], wear.friction_power[1]),
+            bits(*(getattr(elements, name)[j] for name in
+                   ("x", "y", "area", "pn", "px", "py", "sx", "sy"))))
+
+
 def make(package, of_points):
     wheel, rail, more = "s1002", "60e1", {}
     if of_points:
@@ -202,7 +248,7 @@ def make(package, of_points):
         rail = package.Profile(y, [k * k / 600.0 for k in y])
         more = {"rail_distance": 1500.0, "wheel_left": "cone40"}
     return package.Wheelset(wheel, rail, radius_left=460.25, cant=0.05, mu=0.35,
-                            strips_per_patch=9, **more)
+                            strips_per_patch=9, with_elements=True, **more)
 
 
 def ask(package, i, z, roll):

@@ -12,7 +12,8 @@ MOST_LINES = 500       # of a file
 MOST_PROCEDURE = 80    # lines of a procedure, from its first line to its `end`
 MOST_ARGUMENTS = 11
 # What a host's C or F77 prescribes takes as many as it takes.
-FACES = {"faststrip_get_elements", "faststrip_fastsim", "fstsim", "fselem", "fsprof", "fsstwr",
+FACES = {"faststrip_wheelset_get_elements", "fswelm", "fswstw",
+         "faststrip_get_elements", "faststrip_fastsim", "fstsim", "fselem", "fsprof", "fsstwr",
          "faststrip_profile_gap", "faststrip_pair_gap"}
 # Written out for speed; the gain stands beside them.
 WRITTEN_OUT = {"far_sums", "near_sums"}

@@ -45,8 +45,10 @@ class Release(unittest.TestCase):
                 shutil.copy(ROOT / name, cls.folder / name)
         with open(cls.folder / "fpm.toml", "rb") as file:
             cls.version = tomllib.load(file)["version"]
-        cls.change("CHANGELOG.md", "## [Unreleased]\n", f"## [Unreleased]\n\n## [{cls.version}]"
-                                                        f" - {DATE}\n")
+        changes = re.sub(r"## \[Unreleased\]\n(\n## \[[\d.]+\] - .*\n)?",
+                         f"## [Unreleased]\n\n## [{cls.version}] - {DATE}\n",
+                         (cls.folder / "CHANGELOG.md").read_text(encoding="utf-8"), count=1)
+        cls.write("CHANGELOG.md", changes)
         citation = (cls.folder / "CITATION.cff").read_text(encoding="utf-8")
         citation = re.sub(r"date-released:.*\n", "", citation)
         cls.write("CITATION.cff", citation + f"date-released: {DATE}\n")

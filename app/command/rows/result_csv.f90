@@ -17,6 +17,11 @@ module faststrip_command_rows_result_csv
 
     public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear, no_wear
     public :: wear_columns, put_wear, put_wear_source, strip_columns, put_strip
+    public :: element_columns, put_element
+
+    !> Names of the columns of an element, in the order of `put_element`.
+    character(len=*), parameter :: element_columns(10) = [character(len=9) :: &
+        'x_mm', 'y_mm', 'area_mm2', 'state', 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa']
 
     !> Begins what is said where there is no wear in spite of a law.
     character(len=*), parameter :: no_wear = 'no wear: '
@@ -233,7 +238,7 @@ contains
         end if
     end subroutine put_known
 
-    !> The elements of a contact, one row an element.
+    !> Write the elements of a contact.
     subroutine put_field(writer, case_name, field)
         type(csv_writer_t), intent(inout) :: writer   !! an open file
         character(len=*), intent(in) :: case_name     !! for the column `case`
@@ -242,21 +247,29 @@ contains
         integer :: i
 
         call put_origin(writer)
-        call put_header(writer, [character(len=9) :: 'case', 'x_mm', 'y_mm', 'area_mm2', 'state', &
-                                 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa'])
+        call put_header(writer, [character(len=len(element_columns)) :: 'case', element_columns])
         do i = 1, field%n
             call put_cell(writer, case_name)
-            call put_cell(writer, field%x(i))
-            call put_cell(writer, field%y(i))
-            call put_cell(writer, field%area(i))
-            call put_cell(writer, field%state(i))
-            call put_cell(writer, field%pn(i))
-            call put_cell(writer, field%px(i))
-            call put_cell(writer, field%py(i))
-            call put_cell(writer, field%sx(i))
-            call put_cell(writer, field%sy(i))
-            call put_cell(writer, field_power(field, i))
+            call put_element(writer, field, i)
             call end_row(writer)
         end do
     end subroutine put_field
+
+    !> The cells of an element, in the order of `element_columns`.
+    subroutine put_element(writer, field, i)
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+        type(tangential_field_t), intent(in) :: field !! mm, MPa
+        integer, intent(in) :: i                      !! one of its elements
+
+        call put_cell(writer, field%x(i))
+        call put_cell(writer, field%y(i))
+        call put_cell(writer, field%area(i))
+        call put_cell(writer, field%state(i))
+        call put_cell(writer, field%pn(i))
+        call put_cell(writer, field%px(i))
+        call put_cell(writer, field%py(i))
+        call put_cell(writer, field%sx(i))
+        call put_cell(writer, field%sy(i))
+        call put_cell(writer, field_power(field, i))
+    end subroutine put_element
 end module faststrip_command_rows_result_csv

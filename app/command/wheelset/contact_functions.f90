@@ -1,7 +1,7 @@
 !> The contact geometry of the wheelset of a case over its lateral shift.
 module faststrip_command_wheelset_contact_functions
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text, st_no_contact
+    use faststrip_base_status, only: status_t, number_text, st_no_contact
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
     use faststrip_geometry_contact_functions, only: side_t, contact_functions_t, &

@@ -3,18 +3,21 @@ module faststrip_command_wheelset_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, limitation_words
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_tangential_types, only: tangential_field_t
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
     use faststrip_command_program_console, only: put_origin, tell_held
     use faststrip_command_rows_result_csv, only: put_wear, put_wear_source, wear_columns, &
-                                                 put_strip, strip_columns
+                                                 put_strip, strip_columns, &
+                                                 put_element, element_columns
     use faststrip_command_settings_methods, only: settings_t
     use faststrip_command_rows_wear_figures, only: strip_wear_t, make_strip_wear
     use faststrip_tangential_wear_law, only: wear_law_t
     implicit none
     private
 
-    public :: put_wheelset_header, put_wheel, put_failed_state, put_strips_header, put_wheel_strips
+    public :: put_wheelset_header, put_wheel, put_failed_state
+    public :: put_strips_header, put_wheel_strips, put_fields_header, put_wheel_field
 
     ! In the order of `put_contact`.
     character(len=*), parameter :: names(48) = [character(len=19) :: &
@@ -185,6 +188,34 @@ contains
             call end_row(writer)
         end do
     end subroutine put_wheel_strips
+
+    !> Names of the columns of elements: those of `contact`.
+    subroutine put_fields_header(writer)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+
+        call put_origin(writer)
+        call put_header(writer, [character(len=len(element_columns)) :: 'case', 'side', &
+                                 'contact', element_columns])
+    end subroutine put_fields_header
+
+    !> One row an element of a contact.
+    subroutine put_wheel_field(writer, case, side, i, field)
+        type(csv_writer_t), intent(inout) :: writer   !! an open file
+        character(len=*), intent(in) :: case          !! name of the state
+        character(len=*), intent(in) :: side          !! left or right
+        integer, intent(in) :: i                      !! contact of the wheel
+        type(tangential_field_t), intent(in) :: field !! of the contact
+
+        integer :: k
+
+        do k = 1, field%n
+            call put_cell(writer, case)
+            call put_cell(writer, side)
+            call put_cell(writer, i)
+            call put_element(writer, field, k)
+            call end_row(writer)
+        end do
+    end subroutine put_wheel_field
 
     subroutine put_numbers(writer, numbers)
         type(csv_writer_t), intent(inout) :: writer

@@ -12,6 +12,8 @@ module faststrip_command_wheelset
                                         side_right, side_left, most_contacts
     use faststrip_kalker_methods, only: kalker_methods_t, add_kalker
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_tangential_types, only: tangential_field_t
+    use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_command_program_console, only: fail, fail_on_error, note, progress, tell_held, &
                                                  usage_error, exit_bad_input
@@ -28,7 +30,8 @@ module faststrip_command_wheelset
     use faststrip_command_wheelset_doubts, only: hold_wheelset_doubts
     use faststrip_command_wheelset_jump, only: is_jump
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
-                                              put_strips_header, put_wheel_strips
+                                              put_strips_header, put_wheel_strips, &
+                                              put_fields_header, put_wheel_field
     use faststrip_command_wheelset_profiles, only: put_profiles_header, put_wheelset_profiles
     use faststrip_command_wheelset_states, only: given_state_t, state_columns_t, &
                                                  find_state_columns, read_state_row, take_state
@@ -38,8 +41,8 @@ module faststrip_command_wheelset
     public :: run_wheelset
 
     !> The options that name files to write.
-    character(len=*), parameter :: outputs(3) = [character(len=10) :: &
-        '-o', '--strips', '--profiles']
+    character(len=*), parameter :: outputs(4) = [character(len=10) :: &
+        '-o', '--strips', '--profiles', '--fields']
     character(len=*), parameter :: side_names(2) = [character(len=5) :: 'right', 'left']
 
     !> What people are shown.
@@ -58,6 +61,8 @@ module faststrip_command_wheelset
         type(wheelset_workspace_t) :: workspaces(2)      !! one for each state beside; first: state
         type(wheel_strips_t) :: strips                   !! of the last contact
         logical :: wants_strips = .false.
+        type(tangential_field_t) :: field                !! of the last contact
+        logical :: wants_fields = .false.
         logical :: wants_profiles = .false.
         logical :: is_drawn = .false.                    !! is there to be a picture?
         type(csv_writer_t) :: drawn                      !! profiles that it is drawn from
@@ -105,6 +110,8 @@ contains
                      // new_line('a') // 'FILE.nc', writes=.true.), &
             option_t('--strips', 'FILE', 'write the strips of all contacts there, with their ' // &
                      'places', writes=.true.), &
+            option_t('--fields', 'FILE', 'write pressure, tractions and slip per element ' // &
+                     'there', writes=.true.), &
             option_t('--profiles', 'FILE', 'write wheels and rails in the track there, of one ' // &
                      'state', writes=.true.), &
             plot_option, &
@@ -131,6 +138,8 @@ contains
         run%model%case%wear_law = case%wear_law
         run%beside = um*option_number(command, '--near-jumps', 0.0_wp, least=0)
         run%wants_strips = given(command, '--strips')
+        run%wants_fields = given(command, '--fields')
+        run%model%case%asked%field = run%wants_fields
         run%wants_profiles = given(command, '--profiles')
         run%is_drawn = given(command, '--plot')
         run%profiles_of = option_text(command, '--profiles-of', '')
@@ -153,6 +162,7 @@ contains
         call put_wheelset_header(run%writer(1), case)
         if (run%wants_strips) call put_strips_header(run%writer(2), case)
         if (run%wants_profiles) call put_profiles_header(run%writer(3))
+        if (run%wants_fields) call put_fields_header(run%writer(4))
         if (run%is_drawn) then
             call open_csv(run%drawn, plot_file('profiles.csv'), status)
             call fail_on_error(status)
@@ -361,7 +371,7 @@ contains
         if (wants(side_right)) call put_side(run, name, side_right, result, solution)
     end subroutine put_sides
 
-    ! The contacts of one wheel, and the strips of the state itself if they are wanted.
+    ! The contacts of one wheel, and strips and elements of the state itself if they are wanted.
     subroutine put_side(run, name, side, result, solution)
         type(run_t), intent(inout) :: run
         character(len=*), intent(in) :: name
@@ -381,12 +391,19 @@ contains
                 call note_wear(run%workspaces(w)%wheel(side)%contact(i)%wear_status, name // ', ' &
                                // trim(side_names(side)) // ', contact ' // integer_text(i) &
                                // ': ')
-                if (.not. run%wants_strips .or. solution /= 1) cycle
-                call find_wheel_strips(run%model, run%workspaces(w), result, side, i, run%strips, &
-                                       status)
-                call fail_on_error(status)
-                call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
-                                      contact%radius, run%strips, run%model%case%wear_law)
+                if (solution /= 1) cycle
+                if (run%wants_strips) then
+                    call find_wheel_strips(run%model, run%workspaces(w), result, side, i, &
+                                           run%strips, status)
+                    call fail_on_error(status)
+                    call put_wheel_strips(run%writer(2), name, trim(side_names(side)), i, &
+                                          contact%radius, run%strips, run%model%case%wear_law)
+                end if
+                if (run%wants_fields) then
+                    call find_wheel_field(run%workspaces(w), result, side, i, run%field, status)
+                    call fail_on_error(status)
+                    call put_wheel_field(run%writer(4), name, trim(side_names(side)), i, run%field)
+                end if
             end associate
         end do
         wheel = result%wheel(side)

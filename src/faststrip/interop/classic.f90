@@ -10,7 +10,6 @@ module faststrip_interop_classic
     use faststrip_tangential_fastsim, only: fastsim_coefficients_solve
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_interop_flat, only: flat_material
     implicit none
     private
 
@@ -53,7 +52,7 @@ contains
         type(hertz_t) :: hertz
 
         call hold_environment(environment)
-        material = flat_material(numbers)
+        material = material_t(numbers(1), numbers(2), numbers(3), numbers(4))
         call check_material(material, status)
         if (.not. is_error(status)) call hertz_solve(normal_compliance(material), inv2r_x, &
                                                      inv2r_y, load, hertz, status)

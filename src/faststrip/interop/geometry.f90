@@ -20,8 +20,8 @@ module faststrip_interop_geometry
     use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: body_wheel, body_rail
-    use faststrip_interop_wheelset_handle, only: n_setup
-    use faststrip_interop_wheelset_new, only: profile_source_t, make_profiles, take_dimensions
+    use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, make_profiles, &
+                                              take_dimensions
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     implicit none
     private
@@ -35,10 +35,10 @@ module faststrip_interop_geometry
 contains
 
     !> The contact of both wheels over the lateral shift.
-    subroutine table_functions(wheels, rails, setup, with_roll, y, functions, states, status)
+    subroutine table_functions(wheels, rails, dimensions, with_roll, y, functions, states, status)
         type(profile_source_t), intent(in) :: wheels(2) !! right and left, both as a right wheel
         type(profile_source_t), intent(in) :: rails(2)  !! right and left, both as a right rail
-        real(c_double), intent(in) :: setup(n_setup)    !! dimensions of a wheelset
+        type(dimensions_t), intent(in) :: dimensions    !! of a wheelset, mm
         logical, intent(in) :: with_roll                !! until both wheels touch; else level
         real(c_double), intent(in) :: y(:)              !! shifts to the right, mm
         real(c_double), intent(inout) :: functions(:, :) !! as above; zeros without contact
@@ -52,16 +52,17 @@ contains
         functions = 0.0_c_double
         states = 0
         if (all(ieee_is_finite(y))) then
-            call tabulate(wheels, rails, setup, with_roll, y, functions, states, status)
+            call tabulate(wheels, rails, dimensions, with_roll, y, functions, states, status)
         else
             call set_status(status, st_not_finite, 'the shifts must be finite')
         end if
         call restore_environment(environment)
     end subroutine table_functions
 
-    subroutine tabulate(wheels, rails, setup, with_roll, y, functions, states, status)
+    subroutine tabulate(wheels, rails, dimensions, with_roll, y, functions, states, status)
         type(profile_source_t), intent(in) :: wheels(2), rails(2)
-        real(c_double), intent(in) :: setup(n_setup), y(:)
+        type(dimensions_t), intent(in) :: dimensions
+        real(c_double), intent(in) :: y(:)
         logical, intent(in) :: with_roll
         real(c_double), intent(inout) :: functions(:, :)
         integer(c_int), intent(inout) :: states(:)
@@ -75,15 +76,15 @@ contains
         type(status_t) :: state
         integer :: i
 
-        call take_dimensions(setup, wheelset, track, status)
+        call take_dimensions(dimensions, wheelset, track, status)
         if (is_error(status)) return
         allocate (wheel(2), rail(2), sides(2))
         call make_profiles(wheels, body_wheel, 0.0_c_double, wheel, status)
-        if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
+        if (.not. is_error(status)) &
+            call make_profiles(rails, body_rail, dimensions%inclination, rail, status)
         if (is_error(status)) return
-        do i = 1, 2
-            sides(i) = side_t(wheel(i), rail(i), setup(i))
-        end do
+        sides(1) = side_t(wheel(1), rail(1), dimensions%radius_right)
+        sides(2) = side_t(wheel(2), rail(2), dimensions%radius_left)
         do i = 1, size(y)
             call find_contact_functions(sides(1), sides(2), wheelset, track, y(i), with_roll, &
                                         found, state)

@@ -17,14 +17,10 @@ module faststrip_interop_handle
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
                                           kind_contact
     use faststrip_base_kinds, only: wp
-    use faststrip_interop_wear_room, only: wear_room_t, reserve_wear_room
     implicit none
     private
 
     public :: handle_t, new_handle, free_handle, find_handle, handle_gap, handle_solve, copy_handle
-
-    ! Tuned [numbers]: memory of a strip's wear, with a margin. Origin: counted.
-    integer, parameter :: per_strip = 10
 
     !> One caller's workspace.
     type :: handle_t
@@ -34,7 +30,6 @@ module faststrip_interop_handle
                                           !! and what is wanted of auto once
         real(wp) :: contact_angle = 0.0_wp !! for friction of tread and flange, rad
         type(contact_result_t) :: result  !! figures of the last contact
-        type(wear_room_t) :: wear         !! of the strips whose wear was asked for
         type(status_t) :: status          !! of the last call
         integer :: limitations = 0        !! of the last contact, as `status_t` has them
         type(gap_size_t) :: gap_size      !! of the gap
@@ -65,31 +60,10 @@ contains
         call reserve_workspace(handle%workspace, methods, max_points, status)
         if (with_field .and. .not. is_error(status)) &
             call reserve_contact_field(handle%workspace, methods, status)
-        if (.not. is_error(status)) call reserve_wear(handle, status)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_contact, number, status)
         if (is_error(status)) deallocate (handle)
     end subroutine new_handle
-
-    subroutine reserve_wear(handle, status)
-        type(handle_t), intent(inout) :: handle
-        type(status_t), intent(out) :: status
-
-        real(wp), allocatable :: trial(:)
-        integer :: failure
-
-        call clear_status(status)
-        associate (capacity => size(handle%workspace%strips%p0))
-            ! Tried as a whole first: what the parts find missing would stop the program.
-            allocate (trial(per_strip*capacity), stat=failure)
-            if (failure /= 0) then
-                call set_status(status, st_workspace_too_small, 'not enough memory for a workspace')
-                return
-            end if
-            deallocate (trial)
-            call reserve_wear_room(handle%wear, capacity)
-        end associate
-    end subroutine reserve_wear
 
     !> Free a handle; nothing happens to what is none.
     subroutine free_handle(number, status)
@@ -138,9 +112,8 @@ contains
     end subroutine handle_gap
 
     !> Solve the handle's case on the gap that was handed over; its result has the figures.
-    subroutine handle_solve(handle, with_field)
+    subroutine handle_solve(handle)
         type(handle_t), intent(inout) :: handle !! its status tells how it ended
-        logical, intent(in) :: with_field       !! are the elements wanted?
 
         type(environment_t) :: environment
 
@@ -152,7 +125,6 @@ contains
         call restore_environment(environment)
         call take_angle(handle)
         if (is_error(handle%status)) return
-        handle%case%asked%field = with_field
         handle%case%asked%strip_forces = .true.
         call solve_contact(handle%workspace, handle%case, handle%result, handle%status)
         if (is_error(handle%status)) return
@@ -195,7 +167,6 @@ contains
         to%workspace = from%workspace
         to%case = from%case
         to%contact_angle = from%contact_angle
-        to%wear = from%wear
         to%result = from%result
         to%limitations = from%limitations
         to%gap_size = from%gap_size

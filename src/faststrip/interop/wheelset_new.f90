@@ -4,7 +4,7 @@ module faststrip_interop_wheelset_new
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_bad_argument, st_not_finite
+                                     st_not_finite
     use faststrip_contact_case, only: contact_case_t
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_geometry_gauge_fit, only: find_back_spacing
@@ -13,21 +13,32 @@ module faststrip_interop_wheelset_new
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
     use faststrip_interop_register, only: enter_register, kind_wheelset
-    use faststrip_interop_wear_room, only: reserve_wear_room
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, n_setup
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset
-    use faststrip_wheelset_strips, only: reserve_wheel_strips
     use faststrip_wheelset_types, only: side_right, side_left
     implicit none
     private
 
-    public :: profile_source_t, source_name_length, default_setup, new_wheelset, &
+    public :: dimensions_t, profile_source_t, source_name_length, default_dimensions, &
+              new_wheelset, &
               take_dimensions, make_profiles, make_profile
 
     !> Characters of a profile's name.
     !> Given: capacity.
     integer, parameter :: source_name_length = 16
+
+    !> Dimensions of a wheelset on its track, in the order of the header and of F77's SETUP.
+    type, bind(c) :: dimensions_t
+        real(c_double) :: radius_right, radius_left !! nominal, mm
+        real(c_double) :: back_spacing  !! of the flange backs, mm; 0: as belongs to the gauge
+        real(c_double) :: tread_line    !! flange back to tape circle, mm
+        real(c_double) :: gauge         !! mm
+        real(c_double) :: gauge_depth   !! below the crown, mm
+        real(c_double) :: rail_distance !! of the rails' origins, mm; 0: as the gauge says
+        real(c_double) :: inclination
+            !! of the rails, its tangent; 999: not said, 1:40 of names, an error of points
+    end type dimensions_t
 
     !> Where a profile comes from: a name, or points; neither for one that is as the right one.
     type :: profile_source_t
@@ -39,21 +50,20 @@ module faststrip_interop_wheelset_new
 contains
 
     !> Standard gauge, wheels of 460 mm, no word of the rails' inclination.
-    pure subroutine default_setup(setup)
-        real(c_double), intent(out) :: setup(n_setup) !! dimensions
-
+    pure type(dimensions_t) function default_dimensions() result(dimensions)
         type(wheelset_t) :: wheelset
         type(track_t) :: track
 
-        setup = [wheelset%radius, wheelset%radius, wheelset%back_spacing, wheelset%tread_line, &
-                 track%gauge, track%gauge_depth, track%rail_distance, unset_inclination]
-    end subroutine default_setup
+        dimensions = dimensions_t(wheelset%radius, wheelset%radius, wheelset%back_spacing, &
+                                  wheelset%tread_line, track%gauge, track%gauge_depth, &
+                                  track%rail_distance, unset_inclination)
+    end function default_dimensions
 
     !> Make a wheelset on its track. The one allocation.
-    subroutine new_wheelset(wheels, rails, setup, case, number, status)
+    subroutine new_wheelset(wheels, rails, dimensions, case, number, status)
         type(profile_source_t), intent(in) :: wheels(2) !! right and left, both as a right wheel
         type(profile_source_t), intent(in) :: rails(2)  !! right and left, both as a right rail
-        real(c_double), intent(in) :: setup(n_setup)    !! dimensions
+        type(dimensions_t), intent(in) :: dimensions    !! mm
         type(contact_case_t), intent(in) :: case        !! material, friction, methods
         integer(c_intptr_t), intent(out) :: number      !! of the handle; 0 when there is an error
         type(status_t), intent(out) :: status
@@ -66,16 +76,16 @@ contains
         call allocate_wheelset(handle, status)
         if (is_error(status)) return
         call hold_environment(environment)
-        call fill_handle(wheels, rails, setup, case, handle, status)
+        call fill_handle(wheels, rails, dimensions, case, handle, status)
         call restore_environment(environment)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_wheelset, number, status)
         if (is_error(status)) deallocate (handle)
     end subroutine new_wheelset
 
-    subroutine fill_handle(wheels, rails, setup, case, handle, status)
+    subroutine fill_handle(wheels, rails, dimensions, case, handle, status)
         type(profile_source_t), intent(in) :: wheels(2), rails(2)
-        real(c_double), intent(in) :: setup(n_setup)
+        type(dimensions_t), intent(in) :: dimensions
         type(contact_case_t), intent(in) :: case
         type(wheelset_handle_t), intent(inout) :: handle
         type(status_t), intent(out) :: status
@@ -85,38 +95,40 @@ contains
         type(track_t) :: track
 
         allocate (wheel(2), rail(2))
-        call take_dimensions(setup, wheelset, track, status)
+        call take_dimensions(dimensions, wheelset, track, status)
         if (is_error(status)) return
         call make_profiles(wheels, body_wheel, 0.0_wp, wheel, status)
-        if (.not. is_error(status)) call make_profiles(rails, body_rail, setup(8), rail, status)
         if (.not. is_error(status)) &
-            call make_wheelset(wheel, rail, wheelset, setup(2), track, case, handle%model, status)
+            call make_profiles(rails, body_rail, dimensions%inclination, rail, status)
+        if (.not. is_error(status)) &
+            call make_wheelset(wheel, rail, wheelset, dimensions%radius_left, track, case, &
+                               handle%model, status)
         if (.not. is_error(status)) &
             call reserve_wheelset(handle%workspace, handle%model, status)
-        if (is_error(status)) return
-        associate (capacity => size(handle%workspace%wheel(side_right)%contact(1)%strips%p0))
-            call reserve_wheel_strips(handle%strips, capacity, status)
-            if (.not. is_error(status)) call reserve_wear_room(handle%wear, capacity)
-        end associate
     end subroutine fill_handle
 
     !> Wheelset and track of a setup.
-    pure subroutine take_dimensions(setup, wheelset, track, status)
-        real(c_double), intent(in) :: setup(n_setup)  !! dimensions
+    pure subroutine take_dimensions(dimensions, wheelset, track, status)
+        type(dimensions_t), intent(in) :: dimensions  !! mm
         type(wheelset_t), intent(out) :: wheelset     !! mm; its radius is that of the right wheel
         type(track_t), intent(out) :: track           !! mm
         type(status_t), intent(out) :: status
             !! `st_not_finite`; `st_bad_argument`: no distance of the flange backs is known
 
         call clear_status(status)
-        if (.not. all(ieee_is_finite(setup))) then
-            call set_status(status, st_not_finite, 'the setup must be finite numbers')
-            return
-        end if
-        wheelset = wheelset_t(setup(3), setup(4), setup(1))
-        track = track_t(setup(5), setup(6), setup(7))
-        if (.not. abs(setup(3)) > 0.0_wp) &
-            call find_back_spacing(track%gauge, track%rail_distance, wheelset%back_spacing, status)
+        associate (d => dimensions)
+            if (.not. all(ieee_is_finite([d%radius_right, d%radius_left, d%back_spacing, &
+                                          d%tread_line, d%gauge, d%gauge_depth, d%rail_distance, &
+                                          d%inclination]))) then
+                call set_status(status, st_not_finite, 'the setup must be finite numbers')
+                return
+            end if
+            wheelset = wheelset_t(d%back_spacing, d%tread_line, d%radius_right)
+            track = track_t(d%gauge, d%gauge_depth, d%rail_distance)
+            if (.not. abs(d%back_spacing) > 0.0_wp) &
+                call find_back_spacing(track%gauge, track%rail_distance, wheelset%back_spacing, &
+                                       status)
+        end associate
     end subroutine take_dimensions
 
     !> The right and the left profile of one body.

@@ -11,7 +11,7 @@ module faststrip_wheelset_solve
                                      join_limitations, number_text, st_bad_argument, &
                                      st_workspace_too_small, st_target_missed
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_reserve, only: reserve_workspace
+    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
     use faststrip_geometry_gap, only: gap_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
@@ -101,6 +101,8 @@ contains
                     if (is_error(status)) return
                     call reserve_workspace(wheel%contact(i), model%case%methods, size(pair%y), &
                                            status)
+                    if (model%case%asked%field .and. .not. is_error(status)) &
+                        call reserve_contact_field(wheel%contact(i), model%case%methods, status)
                     if (is_error(status)) return
                 end do
             end associate

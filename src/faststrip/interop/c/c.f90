@@ -4,15 +4,16 @@
 !> here; numbers are checked by the procedures that take them.
 module faststrip_interop_c
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
-                                           c_null_char, c_associated, c_f_pointer
-    use faststrip_base_status, only: status_t, status_word, set_status, is_error, count_text, &
+                                           c_null_char, c_associated, c_f_pointer, c_sizeof
+    use faststrip_base_status, only: status_t, status_word, set_status, clear_status, is_error, &
                                      st_ok, st_bad_argument, st_workspace_too_small
+    use faststrip_contact_method, only: workspace_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, copy_handle
-    use faststrip_interop_flat, only: flat_methods, wants_elements, read_steps, &
-                                      strip_count, read_strips, read_elements
+    use faststrip_interop_solution, only: mirror_t, read_steps, strip_count, read_strips, &
+                                          read_elements
     use faststrip_interop_c_solve, only: take_gap, solve_fields
-    use faststrip_interop_c_structs, only: c_case_t, c_result_t, write_default_case, read_case, &
-                                           write_result
+    use faststrip_interop_c_structs, only: c_case_t, c_result_t, default_case, find_case, &
+                                           check_size, methods_of
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_geometry_gap, only: gap_t
@@ -25,7 +26,7 @@ module faststrip_interop_c
     public :: faststrip_last_message
     public :: faststrip_fastsim, faststrip_hertz, faststrip_kalker
     public :: faststrip_profile_gap
-    public :: put_text, check_capacity, numbers_at
+    public :: put_text, check_capacity, numbers_at, write_strips, write_elements
 
     character(len=*), parameter :: version = '0.1.0'
 
@@ -69,9 +70,14 @@ contains
         integer(c_size_t), value :: length   !! its size as the caller knows it
 
         type(status_t) :: status
+        type(c_case_t), pointer :: fields
 
-        call write_default_case(case, length, status)
+        call check_size('the case', 'faststrip_default_case', case, c_sizeof(fields), status, &
+                        length)
         code = status%code
+        if (is_error(status)) return
+        call c_f_pointer(case, fields)
+        fields = default_case()
     end function faststrip_default_case
 
     !> What `faststrip_new` has to say of a case: nothing when it can make the workspace.
@@ -166,21 +172,21 @@ contains
         type(c_ptr), value :: result    !! a `faststrip_result`, written
 
         type(handle_t), pointer :: handle
-        type(c_case_t) :: fields
-        type(c_result_t) :: figures
+        type(c_case_t), pointer :: fields
+        type(c_result_t), pointer :: figures
         type(status_t) :: status
 
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        call read_case(case, fields, handle%status)
+        call find_case(case, fields, handle%status)
         if (.not. (is_error(handle%status) .or. c_associated(result))) &
             call set_status(handle%status, st_bad_argument, 'the result is missing')
         code = handle%status%code
         if (is_error(handle%status)) return
+        call c_f_pointer(result, figures)
         call solve_fields(handle, fields, figures)
         code = handle%status%code
-        call write_result(figures, fields%size, result)
     end function faststrip_solve
 
     !> The strips of the last contact.
@@ -195,18 +201,13 @@ contains
 
         type(handle_t), pointer :: handle
         type(status_t) :: status
-        integer :: count
 
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        count = strip_count(handle)
-        call check_capacity(handle, capacity, count, n, [y_left, y_right, half_length, p0, patch])
+        call write_strips(handle%workspace, mirror_t(), capacity, n, &
+                          [y_left, y_right, half_length, p0, patch], handle%status)
         code = handle%status%code
-        if (is_error(handle%status)) return
-        call read_strips(handle, numbers_at(y_left, count), numbers_at(y_right, count), &
-                         numbers_at(half_length, count), numbers_at(p0, count), &
-                         integers_at(patch, count))
     end function faststrip_get_strips
 
     !> The elements of the last contact, if they were asked for.
@@ -225,20 +226,13 @@ contains
 
         type(handle_t), pointer :: handle
         type(status_t) :: status
-        integer :: count
 
         call find_handle(workspace, handle, status)
         code = status%code
         if (is_error(status)) return
-        count = handle%workspace%field%n
-        call check_capacity(handle, capacity, count, n, [x, y, area, pn, px, py, sx, sy, state])
+        call write_elements(handle%workspace, mirror_t(), capacity, n, &
+                            [x, y, area, pn, px, py, sx, sy, state], handle%status)
         code = handle%status%code
-        if (is_error(handle%status) .or. count == 0) return
-        call read_elements(handle, numbers_at(x, count), numbers_at(y, count), &
-                           numbers_at(area, count), numbers_at(pn, count), &
-                           numbers_at(px, count), numbers_at(py, count), &
-                           numbers_at(sx, count), numbers_at(sy, count), &
-                           integers_at(state, count))
     end function faststrip_get_elements
 
     !> The steps of the last contact by auto.
@@ -263,13 +257,14 @@ contains
         code = status%code
         if (is_error(status)) return
         count = handle%workspace%steps%n
-        call check_capacity(handle, capacity, count, n, &
+        call check_capacity(capacity, count, n, &
                             [normal, tangential, strips, points, estimate, normal_us, &
-                             tangential_us])
+                             tangential_us], handle%status)
         code = handle%status%code
         if (is_error(handle%status)) return
-        call read_steps(handle, integers_at(normal, count), integers_at(tangential, count), &
-                        integers_at(strips, count), integers_at(points, count), &
+        call read_steps(handle%workspace, integers_at(normal, count), &
+                        integers_at(tangential, count), integers_at(strips, count), &
+                        integers_at(points, count), &
                         numbers_at(estimate, count), numbers_at(normal_us, count), &
                         numbers_at(tangential_us, count))
     end function faststrip_get_steps
@@ -367,40 +362,80 @@ contains
         integer(c_intptr_t), intent(out) :: number
         type(status_t), intent(out) :: status
 
-        type(c_case_t) :: fields
+        type(c_case_t), pointer :: fields
 
         number = 0
-        call read_case(case, fields, status)
+        call find_case(case, fields, status)
         if (is_error(status)) return
-        call new_handle(flat_methods(fields%choices), max_points, wants_elements(fields%choices), &
-                        number, status)
+        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, number, status)
     end subroutine make_workspace
 
+    !> The strips of a solution, into a caller's five arrays.
+    subroutine write_strips(workspace, mirror, capacity, n, arrays, status)
+        type(workspace_t), intent(in) :: workspace !! of the solution
+        type(mirror_t), intent(in) :: mirror       !! that it was solved in
+        integer(c_int), intent(in) :: capacity     !! length of the arrays
+        type(c_ptr), intent(in) :: n               !! number of strips, written
+        type(c_ptr), intent(in) :: arrays(5)       !! in the order of `faststrip_get_strips`
+        type(status_t), intent(out) :: status      !! those of `check_capacity`
+
+        integer :: count
+
+        count = strip_count(workspace)
+        call check_capacity(capacity, count, n, arrays, status)
+        if (is_error(status)) return
+        call read_strips(workspace, mirror, numbers_at(arrays(1), count), &
+                         numbers_at(arrays(2), count), numbers_at(arrays(3), count), &
+                         numbers_at(arrays(4), count), integers_at(arrays(5), count))
+    end subroutine write_strips
+
+    !> The elements of a solution, into a caller's nine arrays.
+    subroutine write_elements(workspace, mirror, capacity, n, arrays, status)
+        type(workspace_t), intent(in) :: workspace !! of the solution
+        type(mirror_t), intent(in) :: mirror       !! that it was solved in
+        integer(c_int), intent(in) :: capacity     !! length of the arrays
+        type(c_ptr), intent(in) :: n               !! number of elements, written
+        type(c_ptr), intent(in) :: arrays(9)       !! in the order of `faststrip_get_elements`
+        type(status_t), intent(out) :: status      !! those of `check_capacity`
+
+        integer :: count
+
+        count = workspace%field%n
+        call check_capacity(capacity, count, n, arrays, status)
+        if (is_error(status) .or. count == 0) return
+        call read_elements(workspace, mirror, numbers_at(arrays(1), count), &
+                           numbers_at(arrays(2), count), numbers_at(arrays(3), count), &
+                           numbers_at(arrays(4), count), numbers_at(arrays(5), count), &
+                           numbers_at(arrays(6), count), numbers_at(arrays(7), count), &
+                           numbers_at(arrays(8), count), integers_at(arrays(9), count))
+    end subroutine write_elements
+
     !> Tell how many there are, and refuse arrays that are missing or too short.
-    subroutine check_capacity(handle, capacity, count, n, arrays)
-        type(handle_t), intent(inout) :: handle
-        integer(c_int), intent(in) :: capacity
-        integer, intent(in) :: count
-        type(c_ptr), intent(in) :: n, arrays(:)
+    subroutine check_capacity(capacity, count, n, arrays, status)
+        integer(c_int), intent(in) :: capacity !! length of the arrays
+        integer, intent(in) :: count           !! how many there are
+        type(c_ptr), intent(in) :: n           !! where the number goes, or null
+        type(c_ptr), intent(in) :: arrays(:)   !! of the caller
+        type(status_t), intent(out) :: status  !! `st_bad_argument`, `st_workspace_too_small`
 
         integer(c_int), pointer :: number
         integer :: i
 
-        handle%status = status_t()
+        call clear_status(status)
         if (c_associated(n)) then
             call c_f_pointer(n, number)
             number = count
         else
-            call set_status(handle%status, st_bad_argument, 'nowhere to put the number')
+            call set_status(status, st_bad_argument, 'nowhere to put the number')
             return
         end if
         if (capacity < count) then
-            call set_status(handle%status, st_workspace_too_small, 'the arrays are too short')
+            call set_status(status, st_workspace_too_small, 'the arrays are too short')
             return
         end if
         do i = 1, size(arrays)
             if (c_associated(arrays(i))) cycle
-            call set_status(handle%status, st_bad_argument, 'an array is missing')
+            call set_status(status, st_bad_argument, 'an array is missing')
             return
         end do
     end subroutine check_capacity

@@ -43,8 +43,8 @@ contains
         if (.not. is_error(status)) then
             call c_f_pointer(functions, rows, [n_function, n])
             call c_f_pointer(states, codes, [n])
-            call table_functions(sources(:, 1), sources(:, 2), fields%numbers, with_roll /= 0, &
-                                 numbers_at(y, n), rows, codes, status)
+            call table_functions(sources(:, 1), sources(:, 2), fields%dimensions, &
+                                 with_roll /= 0, numbers_at(y, n), rows, codes, status)
         end if
         code = status%code
         if (c_associated(text)) code = max(code, put_text(trim(status%message), text, length))

@@ -4,18 +4,15 @@
 !> from the contact before it; a chain is one thread's, and its first contact starts from nothing.
 !> So it does not matter which contacts a workspace was for before, and not which thread is faster.
 module faststrip_interop_c_many
-    use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_intptr_t, c_char, c_ptr, &
+    use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_intptr_t, c_ptr, c_sizeof, &
                                            c_null_ptr, c_loc, c_associated, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument
-    use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_reserve, only: most_gap_points
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_interop_c, only: put_text
     use faststrip_interop_c_solve, only: take_gap, solve_fields
-    use faststrip_interop_c_structs, only: c_case_t, c_result_t, read_case, write_result, &
-                                           result_size
-    use faststrip_interop_flat, only: flat_methods, wants_elements
+    use faststrip_interop_c_structs, only: c_case_t, c_result_t, find_case, methods_of
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle
     use faststrip_interop_threads, only: mutex_t, lock_mutex, unlock_mutex, run_threads
     implicit none
@@ -34,14 +31,11 @@ module faststrip_interop_c_many
         integer(c_size_t) :: n = 0           ! contacts
         integer(c_size_t) :: chain = 1       ! contacts of a chain
         integer(c_size_t) :: turn = 1        ! contacts that a thread takes at a time, whole chains
-        integer(c_size_t) :: case_size = 0   ! bytes
-        integer(c_size_t) :: result_size = 0 ! bytes
-        character(kind=c_char), pointer :: cases(:) => null(), results(:) => null() ! their bytes
+        type(c_case_t), pointer :: cases(:) => null()
+        type(c_result_t), pointer :: results(:) => null()
         type(c_gap_t), pointer :: gaps(:) => null()
         integer(c_int), pointer :: gap_of(:) => null() ! from 0 on; null: in order, or one for all
         integer(c_int), pointer :: statuses(:) => null()
-        type(contact_methods_t) :: methods
-        logical :: with_elements = .false.
         integer :: max_points = 0
         type(mutex_t) :: mutex               ! of all that follows
         integer(c_size_t) :: taken = 0       ! contacts that a thread has taken
@@ -116,7 +110,7 @@ contains
         ! Tuned [contacts]: of a turn at most. Origin: 1 ms of the fastest methods.
         integer, parameter :: longest_turn = 256
 
-        type(c_case_t) :: fields
+        type(c_case_t), pointer :: first
 
         call clear_status(status)
         if (n < 0 .or. n >= ishft(huge(n), -10)) then
@@ -136,15 +130,11 @@ contains
                             'or one of each contact, got '//count_text(n_gaps))
         end if
         if (is_error(status) .or. n == 0) return
-        call read_case(cases, fields, status)
+        call find_case(cases, first, status)
         if (is_error(status)) return
         many%n = n
-        many%case_size = fields%size
-        many%result_size = result_size(fields%size)
-        many%methods = flat_methods(fields%choices)
-        many%with_elements = wants_elements(fields%choices)
-        call c_f_pointer(cases, many%cases, [n*many%case_size])
-        call c_f_pointer(results, many%results, [n*many%result_size])
+        call c_f_pointer(cases, many%cases, [n])
+        call c_f_pointer(results, many%results, [n])
         call c_f_pointer(statuses, many%statuses, [n])
         call c_f_pointer(gaps, many%gaps, [n_gaps])
         if (c_associated(gap_of)) call c_f_pointer(gap_of, many%gap_of, [n])
@@ -179,7 +169,8 @@ contains
 
         nothing = c_null_ptr
         call c_f_pointer(shared, many)
-        call new_handle(many%methods, many%max_points, many%with_elements, number, status)
+        call new_handle(methods_of(many%cases(1)), many%max_points, &
+                        many%cases(1)%with_elements /= 0, number, status)
         call lock_mutex(many%mutex)
         if (is_error(status)) then
             many%no_workspace = status
@@ -216,27 +207,22 @@ contains
         type(worker_t), intent(inout) :: worker
         integer(c_size_t), intent(in) :: i
 
+        type(c_case_t), pointer :: ignored
         type(c_case_t) :: fields
-        type(c_result_t) :: figures
         type(status_t) :: status
         logical :: follows
 
-        call read_case(c_loc(many%cases((i - 1)*many%case_size + 1)), fields, status)
-        if (.not. is_error(status) .and. fields%size /= many%case_size) &
-            call set_status(status, st_bad_argument, 'all contacts must have the size of the ' // &
-                            'first one: fill each in with faststrip_default_case')
+        call find_case(c_loc(many%cases(i)), ignored, status)
         if (.not. is_error(status)) call hand_gap_over(many, worker, i, status)
         if (.not. is_error(status)) then
             follows = mod(i - 1, many%chain) > 0 .and. worker%solved == i - 1
-            ! `warm_start` is one of the choices.
-            if (.not. follows) fields%choices(8) = 0
-            call solve_fields(worker%handle, fields, figures)
+            fields = many%cases(i)
+            if (.not. follows) fields%warm_start = 0
+            call solve_fields(worker%handle, fields, many%results(i))
             status = worker%handle%status
         else
-            figures = nothing_found()
+            many%results(i) = c_result_t(size=c_sizeof(many%results(i)))
         end if
-        call write_result(figures, many%case_size, &
-                          c_loc(many%results((i - 1)*many%result_size + 1)))
         many%statuses(i) = status%code
         if (.not. is_error(status)) then
             worker%solved = i
@@ -272,17 +258,6 @@ contains
         end if
         status = worker%gap_status
     end subroutine hand_gap_over
-
-    type(c_result_t) function nothing_found() result(figures)
-        figures%figures = 0
-        figures%counts = 0
-        figures%errors = 0
-        figures%forces_are_estimated = 0
-        figures%limitations = 0
-        figures%force_errors = 0
-        figures%taken = 0
-        figures%target_error = 0
-    end function nothing_found
 
     !> The words of the first contact without a result; what does not fit is cut.
     subroutine tell_failure(many, text, length)

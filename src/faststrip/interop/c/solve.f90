@@ -1,11 +1,8 @@
 !> A gap and a case of the C face, handed to a handle: for one contact and for many.
 module faststrip_interop_c_solve
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
-    use faststrip_base_status, only: set_status, is_error, count_text, st_bad_argument
-    use faststrip_contact_wanted, only: wanted_t
-    use faststrip_interop_c_structs, only: c_case_t, c_result_t
-    use faststrip_interop_flat, only: fill_case, fill_friction, wants_elements, read_result, &
-                                      read_force_errors, read_taken
+    use faststrip_base_status, only: set_status, count_text, st_bad_argument
+    use faststrip_interop_c_structs, only: c_case_t, c_result_t, fill_case, fill_result
     use faststrip_interop_handle, only: handle_t, handle_gap, handle_solve
     implicit none
     private
@@ -41,22 +38,12 @@ contains
 
     !> Solve one contact on the gap of the handle.
     subroutine solve_fields(handle, fields, figures)
-        type(handle_t), intent(inout) :: handle  !! its status tells how it ended
-        type(c_case_t), intent(in) :: fields     !! not yet checked
-        type(c_result_t), intent(out) :: figures !! zeros with an error; without `size`
+        type(handle_t), intent(inout) :: handle    !! its status tells how it ended
+        type(c_case_t), intent(in) :: fields       !! not yet checked
+        type(c_result_t), intent(inout) :: figures !! zeros with an error
 
-        call fill_case(fields%choices, fields%numbers, handle%case)
-        handle%case%estimate = fields%estimate /= 0
-        handle%case%resolution_limit = fields%resolution_limit
-        handle%case%force_limit = fields%force_limit
-        call fill_friction(fields%friction_kind, fields%friction, handle%case%friction, &
-                           handle%contact_angle)
-        handle%case%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
-                                 budget_us=fields%budget_us)
-        call handle_solve(handle, wants_elements(fields%choices))
-        call read_result(handle, figures%figures, figures%counts, figures%errors)
-        figures%limitations = handle%limitations
-        call read_force_errors(handle, figures%forces_are_estimated, figures%force_errors)
-        call read_taken(handle, figures%taken, figures%target_error)
+        call fill_case(fields, handle%case, handle%contact_angle)
+        call handle_solve(handle)
+        call fill_result(handle, figures)
     end subroutine solve_fields
 end module faststrip_interop_c_solve

@@ -1,166 +1,226 @@
-!> The structs of the C face, `faststrip_case` and `faststrip_result` of the header, which grow from
-!> release to release without a caller being compiled anew.
+!> The structs of the C face, `faststrip_case` and `faststrip_result` of the header, and what they
+!> are in Fortran: nowhere else is it said which member is which component.
 !>
-!> `size` of a case says how much of it the caller's header knows. What that leaves out is as
-!> `faststrip_default_case` would have it; a case larger than this library knows is refused. A
-!> result has no size the caller must set: it is written as far as the header knows it that the case
-!> is of. So a new member of either comes last, in pieces of eight bytes, and with one more column
-!> in `releases`: where the result grows the case has to grow too.
+!> `size` of a case says which header the caller was compiled with; another one than that of this
+!> library is refused.
 module faststrip_interop_c_structs
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_loc, c_associated, &
-                                           c_f_pointer
-    use faststrip_base_status, only: status_t, set_status, clear_status, count_text, st_bad_argument
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_associated, &
+                                           c_f_pointer, c_sizeof
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
+                                     st_bad_argument
+    use faststrip_base_creepage, only: creepage_t
+    use faststrip_base_friction, only: friction_t
+    use faststrip_base_material, only: material_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_wanted, only: wanted_t
-    use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      n_forces, n_taken, n_friction, flat_default, &
-                                      flat_friction
+    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_wanted, only: wanted_t, unknown_error
+    use faststrip_interop_handle, only: handle_t
     implicit none
     private
 
-    public :: c_case_t, c_result_t, releases
-    public :: write_default_case, read_case, write_result, result_size
+    public :: c_case_t, c_result_t
+    public :: default_case, find_case, check_size, methods_of, fill_case, fill_result
 
-    !> `faststrip_case` of the header; members of one type that follow each other are one row.
+    !> `faststrip_case` of the header.
     type, bind(c) :: c_case_t
         integer(c_size_t) :: size
-        integer(c_int) :: choices(n_choices) !! `normal` to `with_elements`
-        real(c_double) :: numbers(n_numbers) !! `e_wheel` to `cphi`
+        integer(c_int) :: normal, tangential, strips_per_patch, points_per_strip, fastsim_nx, &
+                          fastsim_ny, by_load, warm_start, with_elements
+        real(c_double) :: e_wheel, e_rail, nu_wheel, nu_rail, mu, load, penetration, cksi, ceta, &
+                          cphi
         integer(c_int) :: estimate
-        real(c_double) :: resolution_limit
-        real(c_double) :: force_limit
+        real(c_double) :: resolution_limit, force_limit
         integer(c_int) :: target
-        real(c_double) :: tolerance
-        real(c_double) :: budget_us
-        integer(c_int) :: friction_kind
-        real(c_double) :: friction(n_friction) !! `kinetic_share` to `contact_angle`
+        real(c_double) :: tolerance, budget_us
+        integer(c_int) :: friction
+        real(c_double) :: kinetic_share, half_slip_speed, speed, slope_factor, flange_share, &
+                          tread_angle, flange_angle, contact_angle
     end type c_case_t
 
-    !> `faststrip_result` of the header, likewise.
+    !> `faststrip_result` of the header; zeros unless there is one.
     type, bind(c) :: c_result_t
-        integer(c_size_t) :: size
-        real(c_double) :: figures(n_figures) !! `load` to `stick_fraction`
-        integer(c_int) :: counts(n_counts)   !! `n_patches` to `strips_across`
-        real(c_double) :: errors(n_errors)   !! `est_err_penetration` to `overlap_outside`
-        integer(c_int) :: forces_are_estimated
-        integer(c_int) :: limitations        !! all, of which the status is the first
-        real(c_double) :: force_errors(n_forces) !! `est_err_fx` to `est_err_mz`
-        integer(c_int) :: taken(n_taken)     !! `n_steps` to `target_is_met`
-        real(c_double) :: target_error       !! `est_err_target`
+        integer(c_size_t) :: size = 0
+        real(c_double) :: load = 0, penetration = 0, area = 0, pmax = 0, y_min = 0, y_max = 0, &
+                          x_max = 0, fx = 0, fy = 0, mz = 0, friction_power = 0, stick_fraction = 0
+        integer(c_int) :: n_patches = 0, n_strips = 0, n_elements = 0, iterations = 0, &
+                          is_estimated = 0, strips_across = 0
+        real(c_double) :: est_err_penetration = 0, est_err_pmax = 0, est_err_area = 0, &
+                          residual_inside = 0, overlap_outside = 0
+        integer(c_int) :: forces_are_estimated = 0, limitations = 0
+        real(c_double) :: est_err_fx = 0, est_err_fy = 0, est_err_mz = 0
+        integer(c_int) :: n_steps = 0, best_step = 0, target_is_known = 0, target_is_met = 0
+        real(c_double) :: est_err_target = 0
     end type c_result_t
-
-    !> Bytes of case and result in every release that changed them, rising.
-    integer(c_size_t), parameter :: releases(2, 5) = reshape([ &
-        128_c_size_t, 120_c_size_t, &            ! first
-        144_c_size_t, 168_c_size_t, &            ! with estimated errors
-        152_c_size_t, 200_c_size_t, &            ! with those of the forces
-        176_c_size_t, 224_c_size_t, &            ! with what is wanted of auto
-        248_c_size_t, 224_c_size_t], [2, 5])     ! with friction that is not one number
-
-    ! Members end at multiples of this; less than two pieces are no case.
-    integer(c_size_t), parameter :: piece = 8, least_case = 2*piece
-
-    interface
-        !> C's own, because to Fortran's compiler bytes and members are not the same memory.
-        type(c_ptr) function memcpy(target, source, length) bind(c)
-            import :: c_ptr, c_size_t
-            type(c_ptr), value :: target, source
-            integer(c_size_t), value :: length
-        end function memcpy
-    end interface
 
 contains
 
-    !> Steel on steel, the methods of the project and nothing to solve, as far as it is known.
-    subroutine write_default_case(address, length, status)
-        type(c_ptr), intent(in) :: address      !! of a `faststrip_case`, or null
-        integer(c_size_t), intent(in) :: length !! of what the caller's header knows
-        type(status_t), intent(out) :: status   !! `st_bad_argument`: null, or no known size
+    !> Steel on steel, the methods of the project and nothing to solve.
+    type(c_case_t) function default_case() result(fields)
+        type(contact_case_t) :: case
 
-        type(c_case_t), target :: fields
-        type(c_ptr) :: ignored
+        fields%size = c_sizeof(fields)
+        associate (methods => case%methods)
+            fields%normal = methods%normal
+            fields%tangential = methods%tangential
+            fields%strips_per_patch = methods%strips_per_patch
+            fields%points_per_strip = methods%points_per_strip
+            fields%fastsim_nx = methods%fastsim_nx
+            fields%fastsim_ny = methods%fastsim_ny
+        end associate
+        fields%by_load = merge(1, 0, case%by_load)
+        fields%warm_start = merge(1, 0, case%warm_start)
+        fields%with_elements = 0
+        associate (material => case%material)
+            fields%e_wheel = material%e_wheel
+            fields%e_rail = material%e_rail
+            fields%nu_wheel = material%nu_wheel
+            fields%nu_rail = material%nu_rail
+        end associate
+        fields%mu = case%mu
+        fields%load = case%load
+        fields%penetration = case%penetration
+        fields%cksi = case%creepage%cksi
+        fields%ceta = case%creepage%ceta
+        fields%cphi = case%creepage%cphi
+        fields%estimate = merge(1, 0, case%estimate)
+        fields%resolution_limit = case%resolution_limit
+        fields%force_limit = case%force_limit
+        fields%target = case%wanted%target
+        fields%tolerance = case%wanted%tolerance
+        fields%budget_us = case%wanted%budget_us
+        associate (friction => case%friction)
+            fields%friction = friction%kind
+            fields%kinetic_share = friction%kinetic_share
+            fields%half_slip_speed = friction%half_slip_speed
+            fields%speed = friction%speed
+            fields%slope_factor = friction%slope_factor
+            fields%flange_share = friction%flange_share
+            fields%tread_angle = friction%tread_angle
+            fields%flange_angle = friction%flange_angle
+        end associate
+        fields%contact_angle = 0
+    end function default_case
 
-        call check_case(address, length, status)
-        if (status%code /= 0) return
-        fields = default_case()
-        fields%size = length
-        ignored = memcpy(address, c_loc(fields), length)
-    end subroutine write_default_case
+    !> A caller's case, if it is one.
+    subroutine find_case(address, fields, status)
+        type(c_ptr), intent(in) :: address             !! of a `faststrip_case`, or null
+        type(c_case_t), pointer, intent(out) :: fields !! where it is; null if there is none
+        type(status_t), intent(out) :: status          !! `st_bad_argument`
 
-    !> A caller's case, with defaults for what its header does not know.
-    subroutine read_case(address, fields, status)
-        type(c_ptr), intent(in) :: address            !! of a `faststrip_case`, or null
-        type(c_case_t), intent(out), target :: fields !! with the caller's `size`
-        type(status_t), intent(out) :: status         !! `st_bad_argument`: null, or no known size
+        fields => null()
+        call check_size('the case', 'faststrip_default_case', address, c_sizeof(fields), status)
+        if (.not. is_error(status)) call c_f_pointer(address, fields)
+    end subroutine find_case
 
-        integer(c_size_t), pointer :: length
-        type(c_ptr) :: ignored
+    !> Is there a struct, of the size that this library knows?
+    subroutine check_size(words, setter, address, known, status, length)
+        character(len=*), intent(in) :: words               !! what it is
+        character(len=*), intent(in) :: setter              !! function that sets its size
+        type(c_ptr), intent(in) :: address                  !! of the struct, or null
+        integer(c_size_t), intent(in) :: known              !! bytes
+        type(status_t), intent(out) :: status               !! `st_bad_argument`
+        integer(c_size_t), intent(in), optional :: length   !! bytes; unless given its first member
 
-        fields = default_case()
-        length => fields%size
-        if (c_associated(address)) call c_f_pointer(address, length)
-        call check_case(address, length, status)
-        if (status%code == 0) ignored = memcpy(c_loc(fields), address, length)
-    end subroutine read_case
-
-    !> Write a result, as far as the header of the case knows it.
-    subroutine write_result(figures, case_size, address)
-        type(c_result_t), intent(in) :: figures    !! without `size`
-        integer(c_size_t), intent(in) :: case_size !! bytes
-        type(c_ptr), intent(in) :: address         !! of a `faststrip_result`
-
-        type(c_result_t), target :: written
-        type(c_ptr) :: ignored
-
-        written = figures
-        written%size = result_size(case_size)
-        ignored = memcpy(address, c_loc(written), written%size)
-    end subroutine write_result
-
-    !> Bytes of a result, as far as the header of the case knows it.
-    pure integer(c_size_t) function result_size(case_size)
-        integer(c_size_t), intent(in) :: case_size !! bytes
-
-        result_size = releases(2, max(count(releases(1, :) <= case_size), 1))
-    end function result_size
-
-    !> Is there a case, and of a size whose end is one of a member this library knows?
-    subroutine check_case(address, length, status)
-        type(c_ptr), intent(in) :: address
-        integer(c_size_t), intent(in) :: length
-        type(status_t), intent(out) :: status
-
-        integer(c_size_t), parameter :: known = releases(1, size(releases, 2))
+        integer(c_size_t), pointer :: member
+        integer(c_size_t) :: bytes
         character(len=20) :: got
 
         call clear_status(status)
         if (.not. c_associated(address)) then
-            call set_status(status, st_bad_argument, 'the case is missing')
-        else if (length > known) then
-            write (got, '(ss, i0)') length
-            call set_status(status, st_bad_argument, 'the case must have at most the ' // &
-                            trim(count_text(int(known))) // ' bytes that this library knows, ' // &
-                            'got ' // trim(got) // ': the header is newer')
-        else if (length < least_case .or. mod(length, piece) /= 0) then
-            write (got, '(ss, i0)') length
-            call set_status(status, st_bad_argument, 'the case must have the size that ' // &
-                            'faststrip_default_case set, at most ' // &
-                            trim(count_text(int(known))) // ' bytes, got ' // got)
+            call set_status(status, st_bad_argument, words // ' is missing')
+            return
         end if
-    end subroutine check_case
+        call c_f_pointer(address, member)
+        if (present(length)) then
+            bytes = length
+        else
+            bytes = member
+        end if
+        if (bytes == known) return
+        write (got, '(ss, i0)') bytes
+        call set_status(status, st_bad_argument, words // ' must have the ' // &
+                        trim(count_text(int(known))) // ' bytes that ' // setter // ' sets, got ' &
+                        // trim(got) // merge(': the header is newer', ': the header is older', &
+                                              bytes > known))
+    end subroutine check_size
 
-    type(c_case_t) function default_case() result(fields)
-        type(contact_case_t) :: defaults
-        type(wanted_t) :: wanted
+    !> Methods and resolutions of a case.
+    pure type(contact_methods_t) function methods_of(fields) result(methods)
+        type(c_case_t), intent(in) :: fields !! not yet checked
 
-        fields%size = releases(1, size(releases, 2))
-        call flat_default(fields%choices, fields%numbers)
-        fields%estimate = merge(1, 0, defaults%estimate)
-        fields%resolution_limit = defaults%resolution_limit
-        fields%force_limit = defaults%force_limit
-        fields%target = wanted%target
-        fields%tolerance = wanted%tolerance
-        fields%budget_us = wanted%budget_us
-        call flat_friction(fields%friction_kind, fields%friction)
-    end function default_case
+        methods = contact_methods_t(fields%normal, fields%tangential, fields%strips_per_patch, &
+                                    fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
+    end function methods_of
+
+    !> All of a case but its gap.
+    pure subroutine fill_case(fields, case, contact_angle)
+        type(c_case_t), intent(in) :: fields           !! as the caller has it
+        type(contact_case_t), intent(inout) :: case    !! not yet checked
+        real(c_double), intent(out) :: contact_angle   !! of a contact alone, rad
+
+        case%methods = methods_of(fields)
+        case%by_load = fields%by_load /= 0
+        case%warm_start = fields%warm_start /= 0
+        case%asked%field = fields%with_elements /= 0
+        case%material = material_t(fields%e_wheel, fields%e_rail, fields%nu_wheel, fields%nu_rail)
+        case%mu = fields%mu
+        case%load = fields%load
+        case%penetration = fields%penetration
+        case%creepage = creepage_t(fields%cksi, fields%ceta, fields%cphi)
+        case%estimate = fields%estimate /= 0
+        case%resolution_limit = fields%resolution_limit
+        case%force_limit = fields%force_limit
+        case%wanted = wanted_t(target=fields%target, tolerance=fields%tolerance, &
+                               budget_us=fields%budget_us)
+        case%friction = friction_t(fields%friction, fields%kinetic_share, fields%half_slip_speed, &
+                                   fields%speed, fields%slope_factor, fields%flange_share, &
+                                   fields%tread_angle, fields%flange_angle)
+        contact_angle = fields%contact_angle
+    end subroutine fill_case
+
+    !> The figures of a handle's last contact; zeros if there was none.
+    pure subroutine fill_result(handle, fields)
+        type(handle_t), intent(in) :: handle    !! after a solution
+        type(c_result_t), intent(out) :: fields !! all of them
+
+        fields%size = c_sizeof(fields)
+        associate (normal => handle%result%normal, tangential => handle%result%tangential, &
+                   certificate => handle%result%certificate, &
+                   forces => handle%result%force_errors, workspace => handle%workspace, &
+                   steps => handle%workspace%steps)
+            fields%load = normal%load
+            fields%penetration = normal%penetration
+            fields%area = normal%area
+            fields%pmax = normal%pmax
+            fields%y_min = normal%y_min
+            fields%y_max = normal%y_max
+            fields%x_max = normal%x_max
+            fields%fx = tangential%fx
+            fields%fy = tangential%fy
+            fields%mz = tangential%mz
+            fields%friction_power = tangential%friction_power
+            fields%stick_fraction = tangential%stick_fraction
+            fields%n_patches = normal%n_patches
+            fields%n_strips = merge(workspace%strips%n, 0, normal%n_patches > 0)
+            fields%n_elements = workspace%field%n
+            fields%iterations = normal%iterations
+            fields%is_estimated = merge(1, 0, handle%result%is_estimated)
+            fields%strips_across = normal%strips_across
+            fields%est_err_penetration = certificate%est_err_penetration
+            fields%est_err_pmax = certificate%est_err_pmax
+            fields%est_err_area = certificate%est_err_area
+            fields%residual_inside = certificate%residual_inside
+            fields%overlap_outside = certificate%overlap_outside
+            fields%forces_are_estimated = merge(1, 0, handle%result%forces_are_estimated)
+            fields%limitations = handle%limitations
+            fields%est_err_fx = forces%fx
+            fields%est_err_fy = forces%fy
+            fields%est_err_mz = forces%mz
+            fields%n_steps = steps%n
+            fields%best_step = steps%best
+            fields%target_is_known = merge(1, 0, steps%estimate < unknown_error)
+            fields%target_is_met = merge(1, 0, steps%is_met)
+            if (steps%estimate < unknown_error) fields%est_err_target = steps%estimate
+        end associate
+    end subroutine fill_result
 end module faststrip_interop_c_structs

@@ -1,37 +1,47 @@
 !> The wheelsets of the C face: what `include/faststrip.h` declares, and where it is documented.
 !>
-!> `size` of a setup says which header the caller was compiled with, for all structs of wheelsets:
-!> so a new member of any of them comes last, in pieces of eight bytes, and where one grows the
-!> setup has to grow too. A setup without `state_size` is that of a state without rails.
+!> `size` of a setup says which header the caller was compiled with, for all structs of wheelsets.
 module faststrip_interop_c_wheelset
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_char, c_intptr_t, c_ptr, &
-                                           c_null_char, c_associated, c_f_pointer
+                                           c_null_char, c_associated, c_f_pointer, c_sizeof
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_ok, st_bad_argument, st_workspace_too_small
+                                     st_ok, st_bad_argument
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_interop_c, only: put_text, numbers_at
-    use faststrip_interop_c_structs, only: c_case_t, read_case
-    use faststrip_interop_flat, only: fill_case, fill_friction
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_setup, n_state, n_rails, &
-                                                 n_choices, n_loads, n_counts, n_numbers, &
-                                                 n_totals, n_sums, free_wheelset, find_wheelset, &
-                                                 wheelset_solve, contact_count, read_contact, &
-                                                 contact_limitations, read_totals
-    use faststrip_interop_wheelset_new, only: profile_source_t, source_name_length, &
-                                              default_setup, new_wheelset
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
+    use faststrip_interop_c, only: put_text, numbers_at, write_strips, write_elements
+    use faststrip_interop_c_structs, only: c_case_t, find_case, fill_case, check_size
+    use faststrip_interop_solution, only: strip_count
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
+                                                 take_wheels, wheelset_solve, contact_place, &
+                                                 find_contact, contact_mirror
+    use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
+                                              source_name_length, default_dimensions, new_wheelset
+    use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
     public :: faststrip_default_wheelset, faststrip_wheelset_new, faststrip_wheelset_free
     public :: faststrip_wheelset_solve, faststrip_wheelset_last_message
+    public :: faststrip_wheelset_get_strips, faststrip_wheelset_get_elements
     public :: c_setup_t, find_setup, read_sources, read_source_at
 
     !> `faststrip_wheelset_setup` of the header.
     type, bind(c) :: c_setup_t
         integer(c_size_t) :: size
-        real(c_double) :: numbers(n_setup)
-        integer(c_size_t) :: state_size ! not there in the first size
+        type(dimensions_t) :: dimensions !! `radius_right` to `inclination`
     end type c_setup_t
+
+    !> `faststrip_rail_state` of the header.
+    type, bind(c) :: c_rail_t
+        real(c_double) :: y, z, roll, y_rate, z_rate, roll_rate
+    end type c_rail_t
+
+    !> `faststrip_wheelset_state` of the header.
+    type, bind(c) :: c_state_t
+        real(c_double) :: y, z, roll, yaw, speed, y_rate, z_rate, roll_rate, yaw_rate, pitch_rate, &
+                          curvature
+        type(c_rail_t) :: rail(2)
+    end type c_state_t
 
     !> `faststrip_profile` of the header.
     type, bind(c) :: c_profile_t
@@ -43,27 +53,28 @@ module faststrip_interop_c_wheelset
 
     !> `faststrip_wheelset_demand` of the header.
     type, bind(c) :: c_demand_t
-        integer(c_int) :: choices(n_choices)
-        real(c_double) :: loads(n_loads)
+        integer(c_int) :: kind, wheels, roll_is_free, warm_start
+        real(c_double) :: load_right, load_left, axle_load, roll_moment
     end type c_demand_t
 
     !> `faststrip_wheelset_contact` of the header.
     type, bind(c) :: c_contact_t
-        integer(c_int) :: counts(n_counts)
-        real(c_double) :: numbers(n_numbers)
-        integer(c_int) :: limitations
+        integer(c_int) :: side, status, n_patches, strips_across, is_estimated, &
+                          forces_are_estimated
+        real(c_double) :: place(3), angle, rail(2), wheel(3), radius, speed, cksi, ceta, cphi, &
+                          load, penetration, area, pmax, y_min, y_max, x_max, fx, fy, mz, &
+                          friction_power, stick_fraction, force(3), force_wheelset(3), moment(3), &
+                          est_err_penetration, est_err_pmax, est_err_area, est_err_fx, &
+                          est_err_fy, est_err_mz
+        integer(c_int) :: limitations, n_strips, n_elements
     end type c_contact_t
 
-    !> `faststrip_wheelset_result` of the header.
+    !> `faststrip_wheelset_result` of the header; zeros of a wheel that was not solved.
     type, bind(c) :: c_totals_t
-        integer(c_int) :: sums(n_sums)
-        real(c_double) :: totals(n_totals)
+        integer(c_int) :: status(2) = 0, n_contacts(2) = 0, n_solutions(2) = 0
+        real(c_double) :: z(2) = 0, roll = 0
+        real(c_double), dimension(3, 2) :: force = 0, force_wheelset = 0, moment = 0
     end type c_totals_t
-
-    ! Bytes of the setup: a size and its numbers; with the size of the state.
-    integer(c_size_t), parameter :: first_size = 8*(1 + n_setup), setup_size = first_size + 8
-    ! Bytes of the state with its rails.
-    integer(c_size_t), parameter :: state_size = 8*(n_state + n_rails)
 
 contains
 
@@ -75,13 +86,12 @@ contains
         type(c_setup_t), pointer :: fields
         type(status_t) :: status
 
-        call check_setup(setup, length, status)
+        call check_size('the setup of the wheelset', 'faststrip_default_wheelset', setup, &
+                        c_sizeof(fields), status, length)
         code = status%code
         if (is_error(status)) return
         call c_f_pointer(setup, fields)
-        fields%size = length
-        call default_setup(fields%numbers)
-        if (length > first_size) fields%state_size = state_size
+        fields = c_setup_t(c_sizeof(fields), default_dimensions())
     end function faststrip_default_wheelset
 
     !> Make a wheelset on its track.
@@ -152,13 +162,14 @@ contains
         type(c_ptr), value :: result           !! a `faststrip_wheelset_result`, written
 
         type(wheelset_handle_t), pointer :: handle
-        real(c_double), pointer :: position(:)
+        type(c_state_t), pointer :: place
         type(c_demand_t), pointer :: wanted
         type(c_contact_t), pointer :: contact(:)
         type(c_totals_t), pointer :: wheels
         integer(c_int), pointer :: number
+        type(wheelset_demand_t) :: prescribed
         type(status_t) :: status
-        integer :: i
+        integer :: i, side, k
 
         call find_wheelset(wheelset, handle, status)
         code = status%code
@@ -174,27 +185,185 @@ contains
         end if
         code = handle%status%code
         if (is_error(handle%status)) return
-        call c_f_pointer(state, position, [n_state + merge(n_rails, 0, handle%knows_rails)])
-        if (handle%knows_rails) handle%rails = position(n_state + 1:)
+        call c_f_pointer(state, place)
         call c_f_pointer(demand, wanted)
         call c_f_pointer(n, number)
         call c_f_pointer(contacts, contact, [capacity])
         call c_f_pointer(result, wheels)
-        call wheelset_solve(handle, position(:n_state), wanted%choices, wanted%loads)
-        number = contact_count(handle)
-        if (number > capacity) then
-            call set_status(handle%status, st_workspace_too_small, &
-                            'there are more contacts than fit: ' // count_text(number))
-            handle%has = .false.
-        else
+        number = 0
+        call take_wheels(handle, wanted%wheels, prescribed%wants)
+        if (.not. is_error(handle%status)) then
+            prescribed%kind = wanted%kind
+            prescribed%load = [wanted%load_right, wanted%load_left]
+            prescribed%axle_load = wanted%axle_load
+            prescribed%roll_is_free = wanted%roll_is_free /= 0
+            prescribed%roll_moment = wanted%roll_moment
+            call wheelset_solve(handle, state_of(place), prescribed, wanted%warm_start /= 0, &
+                                capacity, number)
+        end if
+        if (.not. is_error(handle%status)) then
             do i = 1, number
-                call read_contact(handle, i, contact(i)%counts, contact(i)%numbers)
-                contact(i)%limitations = contact_limitations(handle, i)
+                call contact_place(handle, i, side, k)
+                call fill_contact(handle, side, k, contact(i))
             end do
         end if
-        call read_totals(handle, wheels%sums, wheels%totals)
+        call fill_totals(handle, wheels)
         code = handle%status%code
     end function faststrip_wheelset_solve
+
+    !> The strips of a contact of the last solution.
+    integer(c_int) function faststrip_wheelset_get_strips(wheelset, i, capacity, n, y_left, &
+                                                          y_right, half_length, p0, patch) &
+        bind(c) result(code)
+        integer(c_intptr_t), value :: wheelset                 !! a handle
+        integer(c_int), value :: i                             !! contact, from 0 on
+        integer(c_int), value :: capacity                      !! length of the arrays
+        type(c_ptr), value :: n                                !! number of strips, written
+        type(c_ptr), value :: y_left, y_right, half_length, p0 !! mm, mm, mm, MPa, written
+        type(c_ptr), value :: patch                            !! number of the patch, written
+
+        type(wheelset_handle_t), pointer :: handle
+        type(status_t) :: status
+        integer :: side, k
+
+        call find_wheelset(wheelset, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        call find_contact(handle, i + 1, side, k)
+        if (.not. is_error(handle%status)) &
+            call write_strips(handle%workspace%wheel(side)%contact(k), &
+                              contact_mirror(handle, side), capacity, n, &
+                              [y_left, y_right, half_length, p0, patch], handle%status)
+        code = handle%status%code
+    end function faststrip_wheelset_get_strips
+
+    !> The elements of a contact of the last solution, if they were asked for.
+    integer(c_int) function faststrip_wheelset_get_elements(wheelset, i, capacity, n, x, y, area, &
+                                                            pn, px, py, sx, sy, state) bind(c) &
+        result(code)
+        integer(c_intptr_t), value :: wheelset !! a handle
+        integer(c_int), value :: i             !! contact, from 0 on
+        integer(c_int), value :: capacity      !! length of the arrays
+        type(c_ptr), value :: n                !! number of elements, written
+        type(c_ptr), value :: x, y             !! middle of the element, mm, written
+        type(c_ptr), value :: area             !! mm^2, written
+        type(c_ptr), value :: pn               !! pressure, MPa, written
+        type(c_ptr), value :: px, py           !! traction on the rail, MPa, written
+        type(c_ptr), value :: sx, sy           !! slip over rolling speed, written
+        type(c_ptr), value :: state            !! 1 adhesion, 2 slip, written
+
+        type(wheelset_handle_t), pointer :: handle
+        type(status_t) :: status
+        integer :: side, k
+
+        call find_wheelset(wheelset, handle, status)
+        code = status%code
+        if (is_error(status)) return
+        call find_contact(handle, i + 1, side, k)
+        if (.not. is_error(handle%status)) &
+            call write_elements(handle%workspace%wheel(side)%contact(k), &
+                                contact_mirror(handle, side), capacity, n, &
+                                [x, y, area, pn, px, py, sx, sy, state], handle%status)
+        code = handle%status%code
+    end function faststrip_wheelset_get_elements
+
+    ! Position and velocity as the core has them.
+    pure type(wheelset_state_t) function state_of(place) result(state)
+        type(c_state_t), intent(in) :: place
+
+        integer :: side
+
+        state%y = place%y
+        state%z = place%z
+        state%roll = place%roll
+        state%yaw = place%yaw
+        state%speed = place%speed
+        state%y_rate = place%y_rate
+        state%z_rate = place%z_rate
+        state%roll_rate = place%roll_rate
+        state%yaw_rate = place%yaw_rate
+        state%pitch_rate = place%pitch_rate
+        state%curvature = place%curvature
+        do side = side_right, side_left
+            associate (rail => place%rail(side))
+                state%rail(side) = rail_state_t(rail%y, rail%z, rail%roll, rail%y_rate, &
+                                                rail%z_rate, rail%roll_rate)
+            end associate
+        end do
+    end function state_of
+
+    ! One contact of the last solution.
+    pure subroutine fill_contact(handle, side, k, fields)
+        type(wheelset_handle_t), intent(in) :: handle
+        integer, intent(in) :: side, k
+        type(c_contact_t), intent(out) :: fields
+
+        associate (contact => handle%result%wheel(side)%contact(k), &
+                   figures => handle%result%wheel(side)%contact(k)%figures, &
+                   workspace => handle%workspace%wheel(side)%contact(k))
+            fields%side = side
+            fields%status = contact%status%code
+            fields%limitations = contact%status%limitations
+            fields%place = contact%place
+            fields%angle = contact%angle
+            fields%rail = contact%rail
+            fields%wheel = contact%wheel
+            fields%radius = contact%radius
+            fields%speed = contact%speed
+            fields%cksi = contact%creepage%cksi
+            fields%ceta = contact%creepage%ceta
+            fields%cphi = contact%creepage%cphi
+            fields%n_patches = figures%normal%n_patches
+            fields%strips_across = figures%normal%strips_across
+            fields%load = figures%normal%load
+            fields%penetration = figures%normal%penetration
+            fields%area = figures%normal%area
+            fields%pmax = figures%normal%pmax
+            fields%y_min = figures%normal%y_min
+            fields%y_max = figures%normal%y_max
+            fields%x_max = figures%normal%x_max
+            fields%fx = figures%tangential%fx
+            fields%fy = figures%tangential%fy
+            fields%mz = figures%tangential%mz
+            fields%friction_power = figures%tangential%friction_power
+            fields%stick_fraction = figures%tangential%stick_fraction
+            fields%force = contact%force
+            fields%force_wheelset = contact%force_wheelset
+            fields%moment = contact%moment
+            fields%is_estimated = merge(1, 0, figures%is_estimated)
+            fields%est_err_penetration = figures%certificate%est_err_penetration
+            fields%est_err_pmax = figures%certificate%est_err_pmax
+            fields%est_err_area = figures%certificate%est_err_area
+            fields%forces_are_estimated = merge(1, 0, figures%forces_are_estimated)
+            fields%est_err_fx = figures%force_errors%fx
+            fields%est_err_fy = figures%force_errors%fy
+            fields%est_err_mz = figures%force_errors%mz
+            fields%n_strips = strip_count(workspace)
+            fields%n_elements = workspace%field%n
+        end associate
+    end subroutine fill_contact
+
+    ! What the wheels of the last solution came to.
+    pure subroutine fill_totals(handle, fields)
+        type(wheelset_handle_t), intent(in) :: handle
+        type(c_totals_t), intent(out) :: fields
+
+        integer :: side
+
+        do side = side_right, side_left
+            if (.not. handle%has(side)) cycle
+            associate (wheel => handle%result%wheel(side))
+                fields%status(side) = wheel%status%code
+                fields%n_contacts(side) = wheel%n
+                fields%n_solutions(side) = wheel%solutions
+                fields%z(side) = wheel%z
+                fields%roll = wheel%roll
+                fields%force(:, side) = wheel%force
+                fields%force_wheelset(:, side) = wheel%force_wheelset
+                fields%moment(:, side) = wheel%moment
+            end associate
+        end do
+    end subroutine fill_totals
 
     ! A wheelset of what is behind the pointers; 0, and an error, if there cannot be one.
     subroutine make_handle(setup, wheels, rails, case, number, status)
@@ -203,27 +372,20 @@ contains
         type(status_t), intent(out) :: status
 
         type(c_setup_t), pointer :: fields
-        type(c_case_t) :: of_case
+        type(c_case_t), pointer :: of_case
         type(profile_source_t) :: sources(2, 2)
         type(contact_case_t) :: contact
-        type(wheelset_handle_t), pointer :: handle
-        real(c_double) :: angle
+        real(c_double) :: ignored
 
         number = 0
         call find_setup(setup, fields, status)
         if (.not. is_error(status)) call read_sources(wheels, 'wheel', sources(:, 1), status)
         if (.not. is_error(status)) call read_sources(rails, 'rail', sources(:, 2), status)
-        if (.not. is_error(status)) call read_case(case, of_case, status)
+        if (.not. is_error(status)) call find_case(case, of_case, status)
         if (is_error(status)) return
-        call fill_case(of_case%choices, of_case%numbers, contact)
-        contact%estimate = of_case%estimate /= 0
-        contact%resolution_limit = of_case%resolution_limit
-        contact%force_limit = of_case%force_limit
-        call fill_friction(of_case%friction_kind, of_case%friction, contact%friction, angle)
-        call new_wheelset(sources(:, 1), sources(:, 2), fields%numbers, contact, number, status)
-        if (is_error(status)) return
-        call find_wheelset(number, handle, status)
-        handle%knows_rails = fields%size > first_size
+        ! The angle is that of each contact.
+        call fill_case(of_case, contact, ignored)
+        call new_wheelset(sources(:, 1), sources(:, 2), fields%dimensions, contact, number, status)
     end subroutine make_handle
 
     !> A caller's setup, if it is one.
@@ -233,38 +395,10 @@ contains
         type(status_t), intent(out) :: status           !! `st_bad_argument`
 
         fields => null()
-        call check_setup(setup, first_size, status)
-        if (is_error(status)) return
-        call c_f_pointer(setup, fields)
-        call check_setup(setup, fields%size, status)
-        if (is_error(status) .or. fields%size == first_size) return
-        if (fields%state_size /= state_size) &
-            call set_status(status, st_bad_argument, 'state_size of the setup must be the ' // &
-                            trim(count_text(int(state_size))) // ' bytes of the state, as ' // &
-                            'faststrip_default_wheelset set it')
+        call check_size('the setup of the wheelset', 'faststrip_default_wheelset', setup, &
+                        c_sizeof(fields), status)
+        if (.not. is_error(status)) call c_f_pointer(setup, fields)
     end subroutine find_setup
-
-    ! Is there a setup, of the size that this library knows?
-    subroutine check_setup(setup, length, status)
-        type(c_ptr), intent(in) :: setup
-        integer(c_size_t), intent(in) :: length
-        type(status_t), intent(out) :: status
-
-        character(len=20) :: got
-
-        call clear_status(status)
-        write (got, '(ss, i0)') length
-        if (.not. c_associated(setup)) then
-            call set_status(status, st_bad_argument, 'the setup of the wheelset is missing')
-        else if (length > setup_size) then
-            call set_status(status, st_bad_argument, 'the setup must have the ' // &
-                            trim(count_text(int(setup_size))) // ' bytes that this library ' // &
-                            'knows, got ' // trim(got) // ': the header is newer')
-        else if (length /= setup_size .and. length /= first_size) then
-            call set_status(status, st_bad_argument, 'the setup must have the size that ' // &
-                            'faststrip_default_wheelset set, got ' // got)
-        end if
-    end subroutine check_setup
 
     !> Where the right and the left profile of a body come from.
     subroutine read_sources(address, body, sources, status)

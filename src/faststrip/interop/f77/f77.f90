@@ -59,13 +59,14 @@ module faststrip_interop_f77
     use faststrip_normal_limitations, only: check_resolution
     use faststrip_contact_methods, only: tangential_faststrip
     use faststrip_contact_wanted, only: wanted_t, check_wanted
+    use faststrip_contact_method, only: workspace_t
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle, &
                                         handle_gap, handle_solve, copy_handle
-    use faststrip_interop_flat, only: n_choices, n_numbers, n_figures, n_counts, n_errors, &
-                                      n_forces, n_taken, flat_default, flat_methods, &
-                                      wants_elements, fill_case, &
-                                      read_result, read_force_errors, read_taken, read_steps, &
-                                      strip_count, read_strips, read_elements
+    use faststrip_interop_f77_rows, only: n_iopt, n_par, n_res, n_err, n_ferr, n_takn, &
+                                          default_rows, methods_of, fill_case, res_of, err_of, &
+                                          ferr_of, takn_of
+    use faststrip_interop_solution, only: mirror_t, strip_count, read_strips, read_elements, &
+                                          read_steps
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
@@ -76,13 +77,7 @@ module faststrip_interop_f77
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof
     public :: fswant, fstakn, fsstep, fsints
-    public :: n_iopt, n_par, n_iwork, check_choices, set_number, number_of
-
-    ! PAR has load and penetration in one place; RES ends with the patches and strips, ERR with
-    ! whether it is known and the strips across.
-    integer, parameter :: n_iopt = n_choices, n_par = n_numbers - 1
-    integer, parameter :: n_res = n_figures + 2, n_err = n_errors + 2
-    integer, parameter :: n_takn = n_taken + 1
+    public :: n_iwork, check_choices, set_number, number_of, find_either, copy_strips
 
     ! A workspace array: two marks around the handle.
     integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
@@ -191,10 +186,7 @@ contains
         integer(c_int), intent(out) :: iopt(n_iopt) !! choices
         real(c_double), intent(out) :: par(n_par)   !! numbers
 
-        real(c_double) :: numbers(n_numbers)
-
-        call flat_default(iopt, numbers)
-        par = [numbers(:6), numbers(8:)]
+        call default_rows(iopt, par)
     end subroutine fsdflt
 
     !> CALL FSINIT(IOPT, MPTS, IWORK, LIWORK, INFO)
@@ -224,7 +216,7 @@ contains
         call check_choices(iopt, status)
         info = status%code
         if (is_error(status)) return
-        call new_handle(flat_methods(iopt), max_points, wants_elements(iopt), number, status)
+        call new_handle(methods_of(iopt), max_points, iopt(9) /= 0, number, status)
         info = status%code
         if (is_error(status)) return
         call set_number(iwork(:n_iwork), number)
@@ -263,8 +255,6 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
-        real(c_double) :: figures(n_figures), errors(n_errors)
-        integer(c_int) :: counts(n_counts)
 
         res = 0.0_c_double
         call find(iwork, handle, info)
@@ -272,12 +262,10 @@ contains
         call check_choices(iopt, handle%status)
         info = handle%status%code
         if (is_error(handle%status)) return
-        call fill_case(iopt, [par(:6), par(6:)], handle%case)
-        call handle_solve(handle, wants_elements(iopt))
+        call fill_case(iopt, par, handle%case)
+        call handle_solve(handle)
         info = handle%status%code
-        if (is_error(handle%status)) return
-        call read_result(handle, figures, counts, errors)
-        res = [figures, real(counts(:2), c_double)]
+        if (.not. is_error(handle%status)) res = res_of(handle)
     end subroutine fssolv
 
     !> CALL FSCONT(IWORK, N, Y, H, A, IOPT, PAR, RES, INFO)
@@ -315,14 +303,32 @@ contains
 
         n = 0
         call find(iwork, handle, info)
-        if (.not. associated(handle)) return
-        n = strip_count(handle)
+        if (associated(handle)) &
+            call copy_strips(handle%workspace, mirror_t(), capacity, n, y_left, y_right, &
+                             half_length, p0, patch, info)
+    end subroutine fsstrp
+
+    !> The strips of a solution, unless the arrays are too short.
+    subroutine copy_strips(workspace, mirror, capacity, n, y_left, y_right, half_length, p0, &
+                           patch, info)
+        type(workspace_t), intent(in) :: workspace             !! of the solution
+        type(mirror_t), intent(in) :: mirror                   !! that it was solved in
+        integer(c_int), intent(in) :: capacity                 !! length of the arrays
+        integer(c_int), intent(out) :: n                       !! number of strips
+        real(c_double), intent(inout) :: y_left(*), y_right(*) !! edges, mm
+        real(c_double), intent(inout) :: half_length(*)        !! mm
+        real(c_double), intent(inout) :: p0(*)                 !! on the centre line, MPa
+        integer(c_int), intent(inout) :: patch(*)              !! number of the patch
+        integer(c_int), intent(inout) :: info                  !! status
+
+        n = strip_count(workspace)
         if (capacity < n) then
             info = st_workspace_too_small
-            return
+        else
+            call read_strips(workspace, mirror, y_left(:n), y_right(:n), half_length(:n), p0(:n), &
+                             patch(:n))
         end if
-        call read_strips(handle, y_left(:n), y_right(:n), half_length(:n), p0(:n), patch(:n))
-    end subroutine fsstrp
+    end subroutine copy_strips
 
     !> CALL FSELEM(IWORK, M, N, X, Y, AREA, PN, PX, PY, SX, SY, ISTATE, INFO)
     !>
@@ -347,9 +353,9 @@ contains
         if (.not. associated(handle)) return
         n = handle%workspace%field%n
         if (capacity < n) info = st_workspace_too_small
-        if (n == 0 .or. capacity < n) return
-        call read_elements(handle, x(:n), y(:n), area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), &
-                           state(:n))
+        if (n > 0 .and. capacity >= n) &
+            call read_elements(handle%workspace, mirror_t(), x(:n), y(:n), area(:n), pn(:n), &
+                               px(:n), py(:n), sx(:n), sy(:n), state(:n))
     end subroutine fselem
 
     !> CALL FSLIMT(IWORK, IEST, RLIM, INFO)
@@ -384,14 +390,10 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
-        real(c_double) :: figures(n_figures), errors(n_errors)
-        integer(c_int) :: counts(n_counts)
 
         err = 0.0_c_double
         call find(iwork, handle, info)
-        if (.not. associated(handle)) return
-        call read_result(handle, figures, counts, errors)
-        err = [errors, real(counts(5:), c_double)]
+        if (associated(handle)) err = err_of(handle)
     end subroutine fserrs
 
     !> CALL FSFERR(IWORK, FERR, INFO)
@@ -399,18 +401,14 @@ contains
     !> The estimated errors of the last contact's forces; zeros if they are not known.
     subroutine fsferr(iwork, ferr, info) bind(c, name='fsferr_')
         integer(c_int), intent(in) :: iwork(n_iwork)     !! with a solution
-        real(c_double), intent(out) :: ferr(n_forces + 1) !! estimates, and whether they are known
+        real(c_double), intent(out) :: ferr(n_ferr)      !! estimates, and whether they are known
         integer(c_int), intent(out) :: info              !! status
 
         type(handle_t), pointer :: handle
-        real(c_double) :: errors(n_forces)
-        integer(c_int) :: are_known
 
         ferr = 0.0_c_double
         call find(iwork, handle, info)
-        if (.not. associated(handle)) return
-        call read_force_errors(handle, are_known, errors)
-        ferr = [errors, real(are_known, c_double)]
+        if (associated(handle)) ferr = ferr_of(handle)
     end subroutine fsferr
 
     !> CALL FSLSET(IWORK, LSET, INFO)
@@ -431,26 +429,34 @@ contains
 
     !> CALL FSWANT(IWORK, ITARG, TOL, BUDGET, INFO)
     !>
-    !> Set for all further calls of FSSOLV with IOPT(1) = 6 which figure is wanted, its largest
-    !> estimated error, as FERR and ERR have it, and how long it may take. FSINIT sets 1, 0.02
-    !> and 0. After an error all are as they were.
+    !> Set for all further calls of FSSOLV or FSWSLV with IOPT(1) = 6 which figure is wanted, its
+    !> largest estimated error, as FERR and ERR have it, and how long it may take. FSINIT and FSWNEW
+    !> set 1, 0.02 and 0. After an error all are as they were.
     subroutine fswant(iwork, target, tolerance, budget_us, info) bind(c, name='fswant_')
-        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT or FSWNEW
         integer(c_int), intent(in) :: target         !! `ITARG`
         real(c_double), intent(in) :: tolerance      !! at 0 the least within the budget
         real(c_double), intent(in) :: budget_us      !! us; 0: as long as it takes
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
         type(wanted_t) :: wanted
+        type(status_t) :: status
 
-        call find(iwork, handle, info)
-        if (.not. associated(handle)) return
+        call find_either(iwork, handle, wheelset, info)
+        if (info /= st_ok) return
         wanted = wanted_t(target=target, tolerance=tolerance, budget_us=budget_us)
         ! FSSOLV has the tangential method and says whether it serves the target.
-        call check_wanted(wanted, tangential_faststrip, handle%status)
-        info = handle%status%code
-        if (.not. is_error(handle%status)) handle%case%wanted = wanted
+        call check_wanted(wanted, tangential_faststrip, status)
+        info = status%code
+        if (associated(handle)) then
+            handle%status = status
+            if (.not. is_error(status)) handle%case%wanted = wanted
+        else
+            wheelset%status = status
+            if (.not. is_error(status)) wheelset%model%case%wanted = wanted
+        end if
     end subroutine fswant
 
     !> CALL FSTAKN(IWORK, TAKN, INFO)
@@ -462,14 +468,10 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(handle_t), pointer :: handle
-        integer(c_int) :: taken(n_taken)
-        real(c_double) :: estimate
 
         takn = 0.0_c_double
         call find(iwork, handle, info)
-        if (.not. associated(handle)) return
-        call read_taken(handle, taken, estimate)
-        takn = [real(taken(:2), c_double), estimate, real(taken(3:), c_double)]
+        if (associated(handle)) takn = takn_of(handle)
     end subroutine fstakn
 
     !> CALL FSSTEP(IWORK, M, N, INORM, ITANG, NSTRIP, NPOINT, EST, TNORM, TTANG, INFO)
@@ -500,8 +502,8 @@ contains
             info = st_workspace_too_small
             return
         end if
-        call read_steps(handle, normal(:n), tangential(:n), strips(:n), points(:n), estimate(:n), &
-                        normal_us(:n), tangential_us(:n))
+        call read_steps(handle%workspace, normal(:n), tangential(:n), strips(:n), points(:n), &
+                        estimate(:n), normal_us(:n), tangential_us(:n))
     end subroutine fsstep
 
     !> CALL FSCOPY(IFROM, ITO, INFO)
@@ -558,11 +560,9 @@ contains
 
         type(handle_t), pointer :: handle
         type(wheelset_handle_t), pointer :: wheelset
-        type(status_t) :: status
         integer(c_int) :: info
 
-        call find(iwork, handle, info)
-        call find_wheelset(number_of(iwork), wheelset, status)
+        call find_either(iwork, handle, wheelset, info)
         if (associated(handle)) then
             call put_text(trim(handle%status%message), text, length)
         else if (associated(wheelset)) then
@@ -610,6 +610,21 @@ contains
         call find_handle(number_of(iwork), handle, status)
         info = status%code
     end subroutine find
+
+    !> What a workspace array stands for: one of both, or an error.
+    subroutine find_either(iwork, handle, wheelset, info)
+        integer(c_int), intent(in) :: iwork(n_iwork)                 !! made by FSINIT or FSWNEW
+        type(handle_t), pointer, intent(out) :: handle               !! of FSINIT, or null
+        type(wheelset_handle_t), pointer, intent(out) :: wheelset    !! of FSWNEW, or null
+        integer(c_int), intent(out) :: info                          !! status
+
+        type(status_t) :: status
+
+        call find_handle(number_of(iwork), handle, status)
+        wheelset => null()
+        if (is_error(status)) call find_wheelset(number_of(iwork), wheelset, status)
+        info = status%code
+    end subroutine find_either
 
     !> Put the number of a handle between its marks.
     pure subroutine set_number(iwork, number)

@@ -20,7 +20,7 @@
 module faststrip_interop_f77_geometry
     use, intrinsic :: iso_c_binding, only: c_int, c_double
     use faststrip_base_status, only: status_t, is_error, st_bad_argument
-    use faststrip_interop_f77_wheelset, only: n_setup, read_sources
+    use faststrip_interop_f77_wheelset, only: n_setup, read_dimensions, read_sources
     use faststrip_interop_geometry, only: table_functions, table_conicity, n_function, n_conicity
     use faststrip_interop_wheelset_new, only: profile_source_t
     implicit none
@@ -52,7 +52,7 @@ contains
         if (n < 0) return
         call read_sources(n_profile, y_profile, z_profile, sources, status)
         if (.not. is_error(status)) &
-            call table_functions(sources(:2), sources(3:), setup(:n_setup - 1), with_roll /= 0, &
+            call table_functions(sources(:2), sources(3:), read_dimensions(setup), with_roll /= 0, &
                                  y(:n), functions(:, :n), states(:n), status)
         info = status%code
     end subroutine fscfun

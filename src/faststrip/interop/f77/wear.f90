@@ -17,19 +17,21 @@
 !> ```
 module faststrip_interop_f77_wear
     use, intrinsic :: iso_c_binding, only: c_int, c_double
-    use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument, &
-                                     st_workspace_too_small
-    use faststrip_contact_method, only: contact_result_t
-    use faststrip_interop_f77, only: n_iwork, number_of
-    use faststrip_interop_flat, only: n_friction, fill_friction, strip_count
+    use faststrip_base_status, only: status_t, is_error, st_ok, st_workspace_too_small
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_interop_f77, only: n_iwork, number_of, find_either
+    use faststrip_interop_f77_wheelset, only: find_column
+    use faststrip_interop_f77_rows, only: n_fric, fill_friction
     use faststrip_interop_handle, only: handle_t, find_handle
-    use faststrip_interop_wear, only: n_regime, n_wear, contact_wear, contact_strip_wear, &
-                                      read_strip_wear, wheelset_wear
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
+    use faststrip_interop_solution, only: mirror_t, strip_count, read_strip_forces, &
+                                          read_strip_wear
+    use faststrip_interop_wear, only: n_regime, n_wear, contact_wear, contact_strip_wear
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_contact, &
+                                                 contact_mirror
     implicit none
     private
 
-    public :: fsfric, fswear, fsstwr
+    public :: fsfric, fswear, fsstwr, fswstw
 
 contains
 
@@ -40,7 +42,7 @@ contains
     subroutine fsfric(iwork, kind, fric, info) bind(c, name='fsfric_')
         integer(c_int), intent(in) :: iwork(n_iwork)    !! made by FSINIT or FSWNEW
         integer(c_int), intent(in) :: kind              !! as above
-        real(c_double), intent(in) :: fric(n_friction)  !! as above
+        real(c_double), intent(in) :: fric(n_fric)  !! as above
         integer(c_int), intent(out) :: info             !! status
 
         type(handle_t), pointer :: handle
@@ -74,14 +76,23 @@ contains
 
         type(handle_t), pointer :: handle
         type(wheelset_handle_t), pointer :: wheelset
+        integer :: side, i
 
         wear = 0.0_c_double
         call find_either(iwork, handle, wheelset, info)
         if (associated(handle)) then
-            call contact_wear(handle, regimes(:, :n_regimes), density, yield_shear, wear)
+            call contact_wear(handle%workspace, handle%result, handle%case%creepage, &
+                              regimes(:, :n_regimes), density, yield_shear, wear, handle%status)
             info = handle%status%code
         else if (associated(wheelset)) then
-            call wheelset_wear(wheelset, k, regimes(:, :n_regimes), density, yield_shear, wear)
+            call find_contact(wheelset, k, side, i)
+            if (.not. is_error(wheelset%status)) then
+                associate (contact => wheelset%result%wheel(side)%contact(i))
+                    call contact_wear(wheelset%workspace%wheel(side)%contact(i), &
+                                      contact%figures, contact%creepage, regimes(:, :n_regimes), &
+                                      density, yield_shear, wear, wheelset%status)
+                end associate
+            end if
             info = wheelset%status%code
         end if
     end subroutine fswear
@@ -111,29 +122,65 @@ contains
         call find_handle(number_of(iwork), handle, status)
         info = status%code
         if (is_error(status)) return
-        call contact_strip_wear(handle, regimes(:, :n_regimes), density)
+        call contact_strip_wear(handle%workspace, handle%result, regimes(:, :n_regimes), density, &
+                                handle%status)
         info = handle%status%code
         if (is_error(handle%status)) return
-        n = strip_count(handle)
+        call copy_strip_wear(handle%workspace, mirror_t(), capacity, n, fx, fy, power, t_gamma, &
+                             mass, depth, info)
+    end subroutine fsstwr
+
+    !> CALL FSWSTW(IWORK, K, NREG, REGIM, DENS, M, N, FX, FY, POWER, TGA, WMASS, DEPTH, INFO)
+    !>
+    !> The same of a contact of a wheelset, column K of CONT, in the order of FSWSTR.
+    subroutine fswstw(iwork, k, n_regimes, regimes, density, capacity, n, fx, fy, power, t_gamma, &
+                      mass, depth, info) bind(c, name='fswstw_')
+        integer(c_int), intent(in) :: iwork(n_iwork)     !! made by FSWNEW, with a solution
+        integer(c_int), intent(in) :: k                  !! contact
+        integer(c_int), intent(in) :: n_regimes          !! as above
+        real(c_double), intent(in) :: regimes(n_regime, *) !! as above
+        real(c_double), intent(in) :: density            !! as above
+        integer(c_int), intent(in) :: capacity           !! length of the arrays
+        integer(c_int), intent(out) :: n                 !! number of strips
+        real(c_double), intent(inout) :: fx(*), fy(*)    !! on the rail, N
+        real(c_double), intent(inout) :: power(*)        !! friction power over rolling speed, N
+        real(c_double), intent(inout) :: t_gamma(*)      !! T gamma over the area, N/mm^2
+        real(c_double), intent(inout) :: mass(*)         !! ug per metre rolled
+        real(c_double), intent(inout) :: depth(*)        !! depth when rolled over once, mm
+        integer(c_int), intent(out) :: info              !! status
+
+        type(wheelset_handle_t), pointer :: handle
+        integer :: side, i
+
+        n = 0
+        call find_column(iwork, k, handle, side, i, info)
+        if (info /= st_ok) return
+        associate (contact => handle%workspace%wheel(side)%contact(i))
+            call contact_strip_wear(contact, handle%result%wheel(side)%contact(i)%figures, &
+                                    regimes(:, :n_regimes), density, handle%status)
+            info = handle%status%code
+            if (is_error(handle%status)) return
+            call copy_strip_wear(contact, contact_mirror(handle, side), capacity, n, fx, fy, &
+                                 power, t_gamma, mass, depth, info)
+        end associate
+    end subroutine fswstw
+
+    ! What was found, unless the arrays are too short.
+    subroutine copy_strip_wear(workspace, mirror, capacity, n, fx, fy, power, t_gamma, mass, &
+                               depth, info)
+        type(workspace_t), intent(in) :: workspace
+        type(mirror_t), intent(in) :: mirror
+        integer(c_int), intent(in) :: capacity
+        integer(c_int), intent(out) :: n
+        real(c_double), intent(inout) :: fx(*), fy(*), power(*), t_gamma(*), mass(*), depth(*)
+        integer(c_int), intent(inout) :: info
+
+        n = strip_count(workspace)
         if (capacity < n) then
             info = st_workspace_too_small
             return
         end if
-        call read_strip_wear(handle, fx(:n), fy(:n), power(:n), t_gamma(:n), mass(:n), depth(:n))
-    end subroutine fsstwr
-
-    ! What a workspace array stands for: one of both, or an error.
-    subroutine find_either(iwork, handle, wheelset, info)
-        integer(c_int), intent(in) :: iwork(n_iwork)
-        type(handle_t), pointer, intent(out) :: handle
-        type(wheelset_handle_t), pointer, intent(out) :: wheelset
-        integer(c_int), intent(out) :: info
-
-        type(status_t) :: status
-
-        call find_handle(number_of(iwork), handle, status)
-        wheelset => null()
-        if (is_error(status)) call find_wheelset(number_of(iwork), wheelset, status)
-        info = status%code
-    end subroutine find_either
+        call read_strip_forces(workspace, mirror, fx(:n), fy(:n), power(:n))
+        call read_strip_wear(workspace, mirror, t_gamma(:n), mass(:n), depth(:n))
+    end subroutine copy_strip_wear
 end module faststrip_interop_f77_wear

@@ -50,25 +50,27 @@
 module faststrip_interop_f77_wheelset
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument, &
-                                     st_workspace_too_small
+                                     st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_interop_f77, only: n_iopt, n_par, n_iwork, check_choices, set_number, number_of
-    use faststrip_interop_flat, only: fill_case
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, n_dimensions => n_setup, &
-                                                 n_state, n_rails, n_choices, n_loads, n_counts, &
-                                                 n_numbers, n_totals, n_sums, free_wheelset, &
-                                                 find_wheelset, wheelset_solve, contact_count, &
-                                                 read_contact, contact_limitations, read_totals
-    use faststrip_interop_wheelset_new, only: profile_source_t, default_setup, new_wheelset
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
+    use faststrip_interop_f77, only: n_iwork, check_choices, set_number, number_of, copy_strips
+    use faststrip_interop_f77_rows, only: n_iopt, n_par, fill_case
+    use faststrip_interop_solution, only: read_elements
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
+                                                 take_wheels, wheelset_solve, contact_place, &
+                                                 find_contact, contact_mirror
+    use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
+                                              default_dimensions, new_wheelset
+    use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswfre
-    public :: n_setup, read_sources
+    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswstr, fswelm, fswfre
+    public :: n_setup, read_dimensions, read_sources, find_column
 
-    integer, parameter :: n_setup = n_dimensions + 1
-    integer, parameter :: n_cont = n_counts + n_numbers, n_wres = n_totals + n_sums
+    ! Lengths of the rows above.
+    integer, parameter :: n_setup = 9, n_state = 11, n_rails = 12, n_idmnd = 4, n_dmnd = 4, &
+                          n_cont = 47, n_wres = 27
     ! Given: names of profiles, in the order of their numbers.
     character(len=6), parameter :: wheel_names(3) = ['s1002 ', 'cone20', 'cone40']
     character(len=6), parameter :: rail_names(3) = ['uic60 ', '60e1  ', '54e1  ']
@@ -83,13 +85,15 @@ contains
 
         type(contact_case_t) :: case
 
-        call default_setup(setup(:n_dimensions))
-        setup(n_setup) = case%resolution_limit
+        associate (d => default_dimensions())
+            setup = [d%radius_right, d%radius_left, d%back_spacing, d%tread_line, d%gauge, &
+                     d%gauge_depth, d%rail_distance, d%inclination, case%resolution_limit]
+        end associate
     end subroutine fswdft
 
     !> CALL FSWNEW(IOPT, PAR, SETUP, NPROF, YPROF, ZPROF, IWORK, LIWORK, INFO)
     !>
-    !> Make a wheelset on its track. Methods of the library, IOPT(1) to IOPT(6).
+    !> Make a wheelset on its track, by the methods of IOPT(1) to IOPT(6); IOPT(9) for FSWELM.
     subroutine fswnew(iopt, par, setup, n_profile, y_profile, z_profile, iwork, liwork, info) &
         bind(c, name='fswnew_')
         integer(c_int), intent(in) :: iopt(n_iopt)     !! choices
@@ -114,16 +118,24 @@ contains
             call read_sources(n_profile, y_profile, z_profile, sources, status)
         info = status%code
         if (is_error(status)) return
-        call fill_case(iopt, [par(:6), par(6:)], case)
+        call fill_case(iopt, par, case)
         case%estimate = abs(setup(n_setup)) > 0.0_c_double
         if (case%estimate) then
             case%resolution_limit = setup(n_setup)
             case%force_limit = setup(n_setup)
         end if
-        call new_wheelset(sources(:2), sources(3:), setup(:n_dimensions), case, number, status)
+        call new_wheelset(sources(:2), sources(3:), read_dimensions(setup), case, number, status)
         info = status%code
         if (.not. is_error(status)) call set_number(iwork(:n_iwork), number)
     end subroutine fswnew
+
+    !> Dimensions of a wheelset on its track.
+    pure type(dimensions_t) function read_dimensions(setup) result(dimensions)
+        real(c_double), intent(in) :: setup(n_setup) !! as above
+
+        dimensions = dimensions_t(setup(1), setup(2), setup(3), setup(4), setup(5), setup(6), &
+                                  setup(7), setup(8))
+    end function read_dimensions
 
     !> Where the profiles of wheels and rails come from.
     subroutine read_sources(n_profile, y_profile, z_profile, sources, status)
@@ -165,7 +177,9 @@ contains
 
         call find_wheelset(number_of(iwork), handle, status)
         info = status%code
-        if (.not. is_error(status)) handle%rails = rail
+        if (is_error(status)) return
+        handle%rail = [rail_state_t(rail(1), rail(2), rail(3), rail(4), rail(5), rail(6)), &
+                       rail_state_t(rail(7), rail(8), rail(9), rail(10), rail(11), rail(12))]
     end subroutine fsrail
 
     !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
@@ -175,8 +189,8 @@ contains
         bind(c, name='fswslv_')
         integer(c_int), intent(in) :: iwork(n_iwork)    !! made by FSWNEW
         real(c_double), intent(in) :: state(n_state)    !! as above
-        integer(c_int), intent(in) :: idmnd(n_choices)  !! as above
-        real(c_double), intent(in) :: dmnd(n_loads)     !! as above
+        integer(c_int), intent(in) :: idmnd(n_idmnd)  !! as above
+        real(c_double), intent(in) :: dmnd(n_dmnd)     !! as above
         integer(c_int), intent(in) :: capacity          !! contacts that CONT has columns for
         integer(c_int), intent(out) :: n                !! number of contacts
         real(c_double), intent(inout) :: cont(n_cont, *) !! as above, written up to N
@@ -184,8 +198,8 @@ contains
         integer(c_int), intent(out) :: info             !! status
 
         type(wheelset_handle_t), pointer :: handle
+        type(wheelset_demand_t) :: demand
         type(status_t) :: status
-        integer(c_int) :: counts(n_counts), sums(n_sums)
         integer :: i
 
         n = 0
@@ -200,22 +214,83 @@ contains
             info = handle%status%code
             return
         end if
-        call wheelset_solve(handle, state, idmnd, dmnd)
-        n = contact_count(handle)
-        if (n > capacity) then
-            call set_status(handle%status, st_workspace_too_small, &
-                            'there are more contacts than fit: ' // count_text(n))
-            handle%has = .false.
-        else
+        call take_wheels(handle, idmnd(2), demand%wants)
+        if (.not. is_error(handle%status)) then
+            demand%kind = idmnd(1)
+            demand%load = dmnd(:2)
+            demand%axle_load = dmnd(3)
+            demand%roll_is_free = idmnd(3) /= 0
+            demand%roll_moment = dmnd(4)
+            call wheelset_solve(handle, state_of(state, handle%rail), demand, idmnd(4) /= 0, &
+                                capacity, n)
+        end if
+        if (.not. is_error(handle%status)) then
             do i = 1, n
-                call read_contact(handle, i, counts, cont(n_counts + 1:, i))
-                cont(:n_counts, i) = counts
+                cont(:, i) = cont_of(handle, i)
             end do
         end if
-        call read_totals(handle, sums, wres(:n_totals))
-        wres(n_totals + 1:) = sums
+        wres = wres_of(handle)
         info = handle%status%code
     end subroutine fswslv
+
+    ! Position and velocity as the core has them.
+    pure type(wheelset_state_t) function state_of(row, rail) result(state)
+        real(c_double), intent(in) :: row(n_state)
+        type(rail_state_t), intent(in) :: rail(2)
+
+        state = wheelset_state_t(row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8), &
+                                 row(9), row(10), row(11), rail)
+    end function state_of
+
+    ! One contact of the last solution.
+    pure function cont_of(handle, i) result(cont)
+        type(wheelset_handle_t), intent(in) :: handle
+        integer, intent(in) :: i
+        real(c_double) :: cont(n_cont)
+
+        integer :: side, k
+
+        call contact_place(handle, i, side, k)
+        associate (contact => handle%result%wheel(side)%contact(k))
+            associate (normal => contact%figures%normal, forces => contact%figures%tangential, &
+                       errors => contact%figures%certificate, creepage => contact%creepage, &
+                       wrong => contact%figures%force_errors)
+                cont = [real([side, contact%status%code, normal%n_patches, normal%strips_across, &
+                              merge(1, 0, contact%figures%is_estimated), &
+                              merge(1, 0, contact%figures%forces_are_estimated)], c_double), &
+                        contact%place, contact%angle, contact%rail, contact%wheel, &
+                        contact%radius, contact%speed, creepage%cksi, creepage%ceta, &
+                        creepage%cphi, normal%load, normal%penetration, normal%area, &
+                        normal%pmax, normal%y_min, normal%y_max, normal%x_max, forces%fx, &
+                        forces%fy, forces%mz, forces%friction_power, forces%stick_fraction, &
+                        contact%force, contact%force_wheelset, contact%moment, &
+                        errors%est_err_penetration, errors%est_err_pmax, errors%est_err_area, &
+                        wrong%fx, wrong%fy, wrong%mz]
+            end associate
+        end associate
+    end function cont_of
+
+    ! What the wheels of the last solution came to; zeros where there was none.
+    pure function wres_of(handle) result(wres)
+        type(wheelset_handle_t), intent(in) :: handle
+        real(c_double) :: wres(n_wres)
+
+        integer :: side
+
+        wres = 0.0_c_double
+        do side = side_right, side_left
+            if (.not. handle%has(side)) cycle
+            associate (wheel => handle%result%wheel(side), of_side => 3*(side - 1))
+                wres(side) = wheel%z
+                wres(3) = wheel%roll
+                wres(4 + of_side:6 + of_side) = wheel%force
+                wres(10 + of_side:12 + of_side) = wheel%force_wheelset
+                wres(16 + of_side:18 + of_side) = wheel%moment
+                wres(21 + side:25 + side:2) = real([wheel%status%code, wheel%n, &
+                                                    wheel%solutions], c_double)
+            end associate
+        end do
+    end function wres_of
 
     !> CALL FSWSET(IWORK, K, LSET, INFO)
     !>
@@ -227,21 +302,89 @@ contains
         integer(c_int), intent(out) :: info          !! status; 100: no such contact
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
+        integer :: side, i
 
         lset = 0
+        call find_column(iwork, k, handle, side, i, info)
+        if (info == st_ok) lset = handle%result%wheel(side)%contact(i)%status%limitations
+    end subroutine fswset
+
+    !> The contact that is column K of CONT.
+    subroutine find_column(iwork, k, handle, side, i, info)
+        integer(c_int), intent(in) :: iwork(n_iwork)             !! made by FSWNEW
+        integer(c_int), intent(in) :: k                          !! column of CONT
+        type(wheelset_handle_t), pointer, intent(out) :: handle  !! null if it is none
+        integer, intent(out) :: side                             !! `side_right`, `side_left`
+        integer, intent(out) :: i                                !! contact of its wheel
+        integer(c_int), intent(out) :: info                      !! status
+
+        type(status_t) :: status
+
         call find_wheelset(number_of(iwork), handle, status)
         info = status%code
         if (is_error(status)) return
-        if (k < 1 .or. k > contact_count(handle)) then
-            call set_status(handle%status, st_bad_argument, 'K must be 1 to ' // &
-                            trim(count_text(contact_count(handle))) // ', the contacts, got ' // &
-                            count_text(k))
-            info = handle%status%code
-        else
-            lset = contact_limitations(handle, k)
-        end if
-    end subroutine fswset
+        call find_contact(handle, k, side, i)
+        info = handle%status%code
+    end subroutine find_column
+
+    !> CALL FSWSTR(IWORK, K, M, N, YL, YR, XD, P0, IPATCH, INFO)
+    !>
+    !> The strips of a contact of the last solution, as of FSSTRP.
+    subroutine fswstr(iwork, k, capacity, n, y_left, y_right, half_length, p0, patch, info) &
+        bind(c, name='fswstr_')
+        integer(c_int), intent(in) :: iwork(n_iwork)         !! made by FSWNEW, with a solution
+        integer(c_int), intent(in) :: k                      !! column of CONT
+        integer(c_int), intent(in) :: capacity               !! length of the arrays
+        integer(c_int), intent(out) :: n                     !! number of strips
+        real(c_double), intent(inout) :: y_left(*), y_right(*) !! edges, mm
+        real(c_double), intent(inout) :: half_length(*)      !! mm
+        real(c_double), intent(inout) :: p0(*)               !! pressure on the centre line, MPa
+        integer(c_int), intent(inout) :: patch(*)            !! number of the patch
+        integer(c_int), intent(out) :: info                  !! status; 100: no such contact
+
+        type(wheelset_handle_t), pointer :: handle
+        integer :: side, i
+
+        n = 0
+        call find_column(iwork, k, handle, side, i, info)
+        if (info == st_ok) &
+            call copy_strips(handle%workspace%wheel(side)%contact(i), &
+                             contact_mirror(handle, side), capacity, n, y_left, y_right, &
+                             half_length, p0, patch, info)
+    end subroutine fswstr
+
+    !> CALL FSWELM(IWORK, K, M, N, X, Y, AREA, PN, PX, PY, SX, SY, ISTATE, INFO)
+    !>
+    !> The elements of a contact of the last solution, as of FSELEM, if IOPT(9) of FSWNEW asked for
+    !> them.
+    subroutine fswelm(iwork, k, capacity, n, x, y, area, pn, px, py, sx, sy, state, info) &
+        bind(c, name='fswelm_')
+        integer(c_int), intent(in) :: iwork(n_iwork)   !! made by FSWNEW, with a solution
+        integer(c_int), intent(in) :: k                !! column of CONT
+        integer(c_int), intent(in) :: capacity         !! length of the arrays
+        integer(c_int), intent(out) :: n               !! number of elements
+        real(c_double), intent(inout) :: x(*), y(*)    !! middle of the element, mm
+        real(c_double), intent(inout) :: area(*)       !! mm^2
+        real(c_double), intent(inout) :: pn(*)         !! pressure, MPa
+        real(c_double), intent(inout) :: px(*), py(*)  !! traction on the rail, MPa
+        real(c_double), intent(inout) :: sx(*), sy(*)  !! slip over rolling speed
+        integer(c_int), intent(inout) :: state(*)      !! 1 adhesion, 2 slip
+        integer(c_int), intent(out) :: info            !! status; 100: no such contact
+
+        type(wheelset_handle_t), pointer :: handle
+        integer :: side, i
+
+        n = 0
+        call find_column(iwork, k, handle, side, i, info)
+        if (info /= st_ok) return
+        associate (contact => handle%workspace%wheel(side)%contact(i))
+            n = contact%field%n
+            if (capacity < n) info = st_workspace_too_small
+            if (n > 0 .and. capacity >= n) &
+                call read_elements(contact, contact_mirror(handle, side), x(:n), y(:n), &
+                                   area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), state(:n))
+        end associate
+    end subroutine fswelm
 
     !> CALL FSWFRE(IWORK, INFO)
     !>
