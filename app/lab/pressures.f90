@@ -3,14 +3,15 @@ module faststrip_lab_pressures
     use faststrip_base_status, only: status_t, is_error
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_contact_methods, only: tangential_none
+    use faststrip_contact_methods, only: normal_strip, tangential_none
     use faststrip_contact_reserve, only: reserve_workspace
     use faststrip_contact_solve, only: solve_contact
     use faststrip_geometry_gap, only: check_gap
+    use faststrip_normal_types, only: normal_result_t
     implicit none
     private
 
-    public :: solve_pressures
+    public :: solve_pressures, solve_by_strips
 
 contains
 
@@ -31,4 +32,23 @@ contains
         normal%methods%tangential = tangential_none
         call solve_contact(workspace, normal, result, status)
     end subroutine solve_pressures
+
+    !> The same by so many strips, without estimates.
+    subroutine solve_by_strips(workspace, case, strips_per_patch, result, status)
+        type(workspace_t), intent(inout) :: workspace   !! grown as needed
+        class(contact_case_t), intent(in) :: case       !! with its gap
+        integer, intent(in) :: strips_per_patch         !! as of its methods
+        type(normal_result_t), intent(out) :: result    !! figures
+        type(status_t), intent(out) :: status           !! those of `solve_contact`
+
+        type(contact_case_t) :: by_strips
+        type(contact_result_t) :: whole
+
+        by_strips = case
+        by_strips%methods%normal = normal_strip
+        by_strips%methods%strips_per_patch = strips_per_patch
+        by_strips%estimate = .false.
+        call solve_pressures(workspace, by_strips, whole, status)
+        result = whole%normal
+    end subroutine solve_by_strips
 end module faststrip_lab_pressures

@@ -14,18 +14,19 @@ SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"her
            "kpec_solve", "kpec_strips_solve", "analyn_solve", "replace_by_ellipses",
            "faststrip_tangential_solve", "paper_solve", "corrected_solve", r"fastsim\w*_solve",
            "law_solve", "law_strips_solve", r"norm_solve\w*", "tang_solve", "solve_unlike")
-# Who calls one of them besides solve_contact: procedures without a workspace, tables of creep
-# forces, studies of one method, references by Kalker's methods.
+# Who calls one of them besides solve_contact.
 STUDIES = {
-    "src/faststrip/interop/classic.f90",
-    "app/command/lookup/direct.f90",
+    # procedures without a workspace, a table of creep forces on ellipses
+    "src/faststrip/interop/classic.f90", "app/command/lookup/direct.f90",
     *(f"app/lab/{path}.f90" for path in (
-        "extremes/noise", "extremes/normal", "forces/features", "forces/reference",
-        "fuzz/norm_judge", "fuzz/run", "grid/accuracy", "grid/convergence", "grid/normal",
-        "grid/speed", "grid/steps", "grid/tang", "promises/truth", "studies/certificate",
-        "studies/certificate_truth", "studies/correction", "studies/errata", "studies/kalker",
-        "studies/reference", "studies/reference_scenes", "studies/reference_tang",
-        "studies/robust", "studies/rolling", "studies/trade_influence"))}
+        # a solver alone: its times from the last solution on, its floating-point flags, rounding
+        "grid/normal", "grid/steps", "fuzz/run", "extremes/noise",
+        # the paper as printed; what a march misses; other forces on strips that were recorded
+        "studies/errata", "studies/correction", "forces/features",
+        # references by Kalker's methods, on grids and pressures of their own
+        "forces/reference", "fuzz/norm_judge", "grid/tang", "promises/truth",
+        "studies/certificate_truth", "studies/kalker", "studies/reference",
+        "studies/reference_scenes", "studies/reference_tang", "studies/rolling"))}
 
 
 def types():

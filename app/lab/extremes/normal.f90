@@ -3,19 +3,18 @@
 !> many points.
 module faststrip_lab_extremes_normal
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t
-    use faststrip_base_material, only: normal_compliance
     use faststrip_influence_row, only: center_influence_column
     use faststrip_numerics_lapack, only: dgetrf, dgecon
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_grid_ellipse, only: make_ellipse, make_parabola
     use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_command_program_console, only: fail_on_error, progress
+    use faststrip_command_program_console, only: progress
     implicit none
     private
 
@@ -30,12 +29,6 @@ module faststrip_lab_extremes_normal
     real(wp), parameter :: usual_load = 1.0e5_wp                   ! N
     real(wp), parameter :: wheel_inv2r = 0.5_wp/460.0_wp           ! 1/mm
 
-    !> Room for the solutions.
-    type :: workspaces_t
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
-    end type workspaces_t
-
 contains
 
     !> Measure and write.
@@ -43,16 +36,8 @@ contains
         logical, intent(in) :: quick                !! few points
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        type(workspaces_t) :: work
-        type(status_t) :: status
-        integer :: strips
+        type(workspace_t) :: work
 
-        strips = 2*maxval(strip_counts) + 60
-        if (quick) strips = 2*most_quick + 60
-        call reserve_strips(work%strips, strips, status)
-        call fail_on_error(status)
-        call reserve_strip_workspace(work%workspace, strips, maxval(point_counts), status)
-        call fail_on_error(status)
         call many_strips(work, quick, writer)
         call all_ellipses(work, quick, writer)
         call flat_gaps(work, quick, writer)
@@ -60,13 +45,12 @@ contains
 
     !> Few and many strips on ellipses, with the condition of the matrix that gives pressures.
     subroutine many_strips(work, quick, writer)
-        type(workspaces_t), intent(inout) :: work
+        type(workspace_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
         type(normal_result_t) :: truth
-        type(status_t) :: set
         type(row_t) :: row
         integer :: i, j
 
@@ -74,14 +58,13 @@ contains
         do i = 1, size(few_ratios), merge(2, 1, quick)
             call progress('ellipses with many strips', i, size(few_ratios))
             call make_ellipse(few_ratios(i), usual_points, contact, truth)
-            call set_strip_gap(work%workspace, contact%gap, set)
             do j = 1, size(strip_counts)
                 if (quick .and. strip_counts(j) > most_quick) exit
                 if (strip_counts(j) > most_at_every_ratio .and. 2*i - 1 /= size(few_ratios)) exit
                 row = row_t(chapter='strips', method='strip', x_name='a/b', x=few_ratios(i), &
                             y_name='N', y=real(strip_counts(j), wp), judge='hertz')
                 contact%methods%strips_per_patch = strip_counts(j)
-                call put_solution(work, contact, set, truth, row, writer)
+                call put_solution(work, contact, truth, row, writer)
                 if (.not. row%has_value) cycle
                 row%quantity = 'condition'
                 row%judge = 'dgecon'
@@ -93,13 +76,12 @@ contains
 
     !> Ellipses of all proportions under all loads.
     subroutine all_ellipses(work, quick, writer)
-        type(workspaces_t), intent(inout) :: work
+        type(workspace_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
         type(normal_result_t) :: truth
-        type(status_t) :: set
         type(row_t) :: row
         real(wp) :: ratio
         integer :: i, j, step
@@ -112,23 +94,21 @@ contains
             do j = -6, 9, merge(5, 1, quick)
                 contact%load = 10.0_wp**j
                 call make_ellipse(ratio, usual_points, contact, truth)
-                call set_strip_gap(work%workspace, contact%gap, set)
                 row = row_t(chapter='ellipses', method='strip', x_name='a/b', x=ratio, &
                             y_name='load_N', y=contact%load, judge='hertz')
-                call put_solution(work, contact, set, truth, row, writer)
+                call put_solution(work, contact, truth, row, writer)
             end do
         end do
     end subroutine all_ellipses
 
     !> Gaps of hardly any curvature across, by few and by many points.
     subroutine flat_gaps(work, quick, writer)
-        type(workspaces_t), intent(inout) :: work
+        type(workspace_t), intent(inout) :: work
         logical, intent(in) :: quick
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
         type(normal_result_t) :: truth
-        type(status_t) :: set
         type(row_t) :: row
         real(wp) :: curvature
         integer :: i, j
@@ -140,20 +120,18 @@ contains
             curvature = 10.0_wp**(0.5_wp*i)
             do j = 1, size(point_counts), merge(4, 1, quick)
                 call make_parabola(wheel_inv2r, 0.5_wp*curvature, point_counts(j), contact, truth)
-                call set_strip_gap(work%workspace, contact%gap, set)
                 row = row_t(chapter='flat_gaps', method='strip', x_name='1/R_per_mm', &
                             x=curvature, y_name='points', y=real(point_counts(j), wp), &
                             judge='hertz')
-                call put_solution(work, contact, set, truth, row, writer)
+                call put_solution(work, contact, truth, row, writer)
             end do
         end do
     end subroutine flat_gaps
 
-    !> Solve on the gap that was set, and write the errors of three figures.
-    subroutine put_solution(work, contact, set, truth, row, writer)
-        type(workspaces_t), intent(inout) :: work
+    !> Solve, and write the errors of three figures.
+    subroutine put_solution(work, contact, truth, row, writer)
+        type(workspace_t), intent(inout) :: work
         type(contact_case_t), intent(in) :: contact
-        type(status_t), intent(in) :: set ! how setting its gap ended
         type(normal_result_t), intent(in) :: truth
         type(row_t), intent(inout) :: row
         type(csv_writer_t), intent(inout) :: writer
@@ -161,12 +139,7 @@ contains
         type(normal_result_t) :: result
         type(status_t) :: status
 
-        status = set
-        if (.not. is_error(status)) &
-            call strip_solve_demand( &
-                work%workspace, normal_compliance(contact%material), contact%demand_t, &
-                strip_options_t(strips_per_patch=contact%methods%strips_per_patch), work%strips, &
-                result, status)
+        call solve_by_strips(work, contact, contact%methods%strips_per_patch, result, status)
         call status_of(status, row)
         row%quantity = 'penetration_err'
         row%value = abs(result%penetration/truth%penetration - 1.0_wp)

@@ -4,12 +4,11 @@ module faststrip_lab_grid_accuracy
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
                                    end_row, close_csv
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, strips_auto, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_contact_method, only: workspace_t
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
@@ -18,7 +17,6 @@ module faststrip_lab_grid_accuracy
 
     integer, parameter :: choices(2) = [15, strips_auto]
     character(len=*), parameter :: choice_names(2) = [character(len=4) :: '15', 'auto']
-    integer, parameter :: capacity = 200
 
 contains
 
@@ -28,23 +26,14 @@ contains
         character(len=*), intent(in) :: folder !! with the contacts
 
         type(bench_case_t), allocatable :: cases(:)
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
         type(normal_result_t) :: result
         type(csv_writer_t) :: writer
         type(status_t) :: status
         real(wp), allocatable :: errors(:, :)
-        integer :: i, k, j, n, points
+        integer :: i, k, j, n
 
         call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
-        points = 0
-        do i = 1, size(cases)
-            points = max(points, size(cases(i)%gap%y))
-        end do
-        call reserve_strips(strips, capacity, status)
-        call fail_on_error(status)
-        call reserve_strip_workspace(workspace, capacity, points, status)
         call fail_on_error(status)
         call open_csv(writer, file, status)
         call fail_on_error(status)
@@ -58,11 +47,7 @@ contains
         do k = 1, size(choices)
             n = 0
             do i = 1, size(cases)
-                call set_strip_gap(workspace, cases(i)%gap, status)
-                if (.not. is_error(status)) &
-                    call strip_solve(workspace, normal_compliance(material_t()), cases(i)%load, &
-                                     strip_options_t(strips_per_patch=choices(k)), strips, &
-                                     result, status)
+                call solve_by_strips(workspace, cases(i), choices(k), result, status)
                 call put_cell(writer, cases(i)%name)
                 call put_cell(writer, trim(choice_names(k)))
                 call put_cell(writer, trim(status_word(status%code)))
@@ -80,7 +65,7 @@ contains
                     do j = 1, 5
                         call put_cell(writer, errors(j, n))
                     end do
-                    call put_cell(writer, strips%n)
+                    call put_cell(writer, workspace%strips%n)
                     call put_cell(writer, result%iterations)
                 end if
                 call end_row(writer)

@@ -8,25 +8,22 @@
 module faststrip_lab_grid_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word
-    use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_contact_methods, only: tangential_none
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_speed_states, only: states_t, read_states, time_states, state_methods
     use faststrip_command_program_clock, only: cpu_microseconds
     use faststrip_command_program_console, only: fail_on_error, put_origin, progress
     use faststrip_command_program_machine, only: cpu_name
     use faststrip_command_contact_solver, only: solver_t, ready_gap_t, new_solver, make_ready, solve
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_method, only: contact_result_t, times_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t, times_t
     use faststrip_contact_solve, only: solve_contact_forces
     use faststrip_geometry_gap, only: gap_t
     implicit none
@@ -215,27 +212,18 @@ contains
 
         ! Tuned [1]: numbers that are timed at once. Origin: chosen: 200 us.
         integer, parameter :: fewest = 4000
-        type(strip_options_t) :: options
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
         type(normal_result_t) :: result
         type(status_t) :: status
         real(wp), dimension(most_strips) :: y, value, d_x, d_half_length
         real(wp) :: from
         integer :: k, s, n, repetition, repetitions
 
-        call reserve_strips(strips, most_strips, status)
+        call solve_by_strips(workspace, case, strips_across, result, status)
         call fail_on_error(status)
-        call reserve_strip_workspace(workspace, most_strips, size(case%gap%y), status)
-        call fail_on_error(status)
-        call set_strip_gap(workspace, case%gap, status)
-        call fail_on_error(status)
-        options%strips_per_patch = strips_across
-        call strip_solve(workspace, normal_compliance(case%material), case%load, options, strips, &
-                         result, status)
-        call fail_on_error(status)
-        n = strips%n
-        associate (left => strips%y_left, right => strips%y_right, x => strips%half_length)
+        n = workspace%strips%n
+        associate (left => workspace%strips%y_left, right => workspace%strips%y_right, &
+                   x => workspace%strips%half_length)
             y(:n) = 0.5_wp*(left(:n) + right(:n))
             repetitions = 1 + fewest/n**2
             do k = 1, size(columns)

@@ -23,14 +23,14 @@ module faststrip_lab_studies_certificate
     use faststrip_geometry_gap, only: gap_t
     use faststrip_files_gap, only: read_gap_file
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_normal_strip, only: strip_workspace_t, strip_options_t, strips_auto, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
+    use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips, &
                                                      richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_certificate_tally, only: tally_t, start_tally, count_in, count_out, &
                                                        print_tally, figures, n_figures
     use faststrip_lab_studies_certificate_truth, only: truth_t, find_truth, is_certain, &
@@ -81,8 +81,7 @@ module faststrip_lab_studies_certificate
     !> What the study has gathered.
     type :: study_t
         type(csv_writer_t) :: writer
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
         type(tally_t) :: tally(size(estimators))
     end type study_t
 
@@ -98,10 +97,6 @@ contains
         integer :: e
 
         allocate (study)
-        call reserve_strip_workspace(study%workspace, 1000, most_random_points, status)
-        call fail_on_error(status)
-        call reserve_strips(study%strips, 1000, status)
-        call fail_on_error(status)
         do e = 1, size(estimators)
             call start_tally(study%tally(e), size(families), n_tried)
         end do
@@ -154,7 +149,7 @@ contains
                 gap%inv2r = a
                 contact = named('hertz_' // integer_text(i) // '_' // integer_text(l), loads(l))
                 contact%gap = gap
-                call solve_contact(study, contact)
+                call solve_all(study, contact)
                 call enter(study, contact, set_ellipses, &
                            figures_alone([hertz%penetration, hertz%pmax, hertz%area]))
             end do
@@ -213,7 +208,7 @@ contains
             contact = named('shift_' // cell_text(table, i, 1), load(i))
             call read_gap_file(folder // 'gaps/' // contact%name // '.csv', contact%gap, status)
             call fail_on_error(status)
-            call solve_contact(study, contact)
+            call solve_all(study, contact)
             call find(study, norm, contact, truth, is_found)
             if (is_found) call enter(study, contact, set_gaps, truth)
             truth = figures_alone([penetration(i) - contact%h_lowest, pmax(i), area(i)])
@@ -259,7 +254,7 @@ contains
             if (found(f) >= per_family .or. size(random%gap%y) > most_random_points) cycle
             contact = named('fuzz_' // integer_text(number), random%load)
             contact%gap = random%gap
-            call solve_contact(study, contact)
+            call solve_all(study, contact)
             if (.not. any(contact%is_smooth)) cycle
             call find(study, norm, contact, truth, is_found)
             if (.not. is_found) cycle
@@ -270,7 +265,7 @@ contains
     end subroutine try_random
 
     !> Solve one contact with all numbers of strips, and with half of them.
-    subroutine solve_contact(study, contact)
+    subroutine solve_all(study, contact)
         type(study_t), intent(inout) :: study
         type(studied_case_t), intent(inout) :: contact
 
@@ -278,27 +273,26 @@ contains
         type(status_t) :: status
         integer :: i, n
 
-        call set_strip_gap(study%workspace, contact%gap, status)
-        call fail_on_error(status)
-        contact%h_lowest = study%workspace%curve%h_lowest
         do i = 1, n_tried
             n = strips_tried(i)
             if (n /= strips_auto) then
-                call solve_with(study, contact, half_of(n), coarse, status)
+                call solve_by_strips(study%workspace, contact, half_of(n), coarse, status)
                 contact%is_halved(i) = is_smooth(status)
             end if
-            call solve_with(study, contact, n, contact%result(i), status)
+            call solve_by_strips(study%workspace, contact, n, contact%result(i), status)
+            contact%h_lowest = study%workspace%solver%curve%h_lowest
             contact%is_smooth(i) = is_smooth(status)
             if (.not. is_smooth(status)) cycle
-            call certify_strips(study%workspace%curve, normal_compliance(contact%material), &
-                                study%strips, contact%result(i), contact%certificate(i), status)
+            call certify_strips(study%workspace%solver%curve, &
+                                normal_compliance(contact%material), study%workspace%strips, &
+                                contact%result(i), contact%certificate(i), status)
             call fail_on_error(status)
             if (.not. contact%is_halved(i)) cycle
             call richardson_estimate(coarse, contact%result(i), real(n, wp)/half_of(n), &
                                      contact%h_lowest, contact%halves(i), status)
             call fail_on_error(status)
         end do
-    end subroutine solve_contact
+    end subroutine solve_all
 
     !> The truth of a contact that was just solved, on grids of the size of its strips.
     subroutine find(study, norm, contact, truth, is_found)
@@ -312,9 +306,10 @@ contains
         type(status_t) :: status
 
         is_found = .false.
-        call solve_with(study, contact, extent_strips, ignored, status)
+        call solve_by_strips(study%workspace, contact, extent_strips, ignored, status)
         if (.not. is_error(status)) &
-            call find_truth(norm, contact, study%workspace%curve, study%strips, truth, is_found)
+            call find_truth(norm, contact, study%workspace%solver%curve, study%workspace%strips, &
+                            truth, is_found)
     end subroutine find
 
     !> Did all strips settle? A half-space that is doubtful is a half-space.
@@ -330,19 +325,6 @@ contains
 
         half_of = (n + 1)/2
     end function half_of
-
-    !> By a number of strips, on the gap that was set.
-    subroutine solve_with(study, contact, n, result, status)
-        type(study_t), intent(inout) :: study
-        class(contact_case_t), intent(in) :: contact
-        integer, intent(in) :: n
-        type(normal_result_t), intent(out) :: result
-        type(status_t), intent(out) :: status
-
-        call strip_solve_demand(study%workspace, normal_compliance(contact%material), &
-                                contact%demand_t, strip_options_t(strips_per_patch=n), &
-                                study%strips, result, status)
-    end subroutine solve_with
 
     !> Enter what the estimates of a contact are worth.
     subroutine enter(study, contact, family, truth)

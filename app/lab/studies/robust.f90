@@ -14,12 +14,13 @@ module faststrip_lab_studies_robust
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, strips_auto, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve_demand
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_strip, only: strips_auto
+    use faststrip_normal_strips, only: reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
@@ -37,8 +38,7 @@ module faststrip_lab_studies_robust
     type :: bench_t
         type(csv_writer_t) :: writer
         type(lattice_workspace_t) :: lattice
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
     end type bench_t
 
     !> A contact whose answer is known.
@@ -59,11 +59,9 @@ contains
         type(status_t) :: status
 
         allocate (bench)
-        call reserve_strips(bench%strips, capacity, status)
+        call reserve_strips(bench%workspace%strips, capacity, status)
         call fail_on_error(status)
         call reserve_lattice(bench%lattice, capacity, status)
-        call fail_on_error(status)
-        call reserve_strip_workspace(bench%workspace, capacity, points, status)
         call fail_on_error(status)
         call open_csv(bench%writer, file, status)
         call fail_on_error(status)
@@ -152,11 +150,13 @@ contains
                 associate (contact => contacts(i))
                     call lattice_solve(bench%lattice, contact%curve, &
                                        normal_compliance(contact%material), contact%load, &
-                                       lattice_strips(k), bench%strips, depth, status)
+                                       lattice_strips(k), bench%workspace%strips, depth, &
+                                       status)
                     call fail_on_error(status)
-                    errors(:, i) = [depth/contact%truth%penetration, &
-                                    maxval(bench%strips%p0(:bench%strips%n)) &
-                                    /contact%truth%pmax] - 1.0_wp
+                    associate (strips => bench%workspace%strips)
+                        errors(:, i) = [depth/contact%truth%penetration, &
+                                        maxval(strips%p0(:strips%n))/contact%truth%pmax] - 1.0_wp
+                    end associate
                     call put_row(bench, family, contact%name, 'lattice', &
                                  integer_text(lattice_strips(k)), status, errors(:, i))
                 end associate
@@ -183,17 +183,17 @@ contains
             family = 'kink'
             if (i > 5) family = 'flat_top'
             if (i == 6) m = n
-            call set_strip_gap(bench%workspace, contact%gap, status)
-            call fail_on_error(status)
             do l = 1, size(loads)
                 contact%load = loads(l)
                 name = integer_text(i) // '_' // integer_text(l)
                 n = n + 1
-                call solve_by_strips(bench, contact, reference_strips, fine, status)
+                call solve_by_strips(bench%workspace, contact, reference_strips, fine, status)
+                call fail_on_error(status)
                 call put_row(bench, family, name, 'strip', integer_text(reference_strips), status, &
                              [0.0_wp, 0.0_wp])
                 do k = 1, size(tried)
-                    call solve_by_strips(bench, contact, tried(k), result, status)
+                    call solve_by_strips(bench%workspace, contact, tried(k), result, status)
+                    call fail_on_error(status)
                     errors(:, n, k) = [result%penetration/fine%penetration, result%pmax/fine%pmax] &
                                       - 1.0_wp
                     call put_row(bench, family, name, 'strip', trim(tried_names(k)), status, &
@@ -238,20 +238,6 @@ contains
         gap%inv2r = a
     end subroutine make_gap
 
-    !> On the gap that was set.
-    subroutine solve_by_strips(bench, contact, strips, result, status)
-        type(bench_t), intent(inout) :: bench
-        type(contact_case_t), intent(in) :: contact
-        integer, intent(in) :: strips
-        type(normal_result_t), intent(out) :: result
-        type(status_t), intent(out) :: status
-
-        call strip_solve_demand(bench%workspace, normal_compliance(contact%material), &
-                                contact%demand_t, strip_options_t(strips_per_patch=strips), &
-                                bench%strips, result, status)
-        call fail_on_error(status)
-    end subroutine solve_by_strips
-
     subroutine put_row(bench, family, name, method, strips, status, error)
         type(bench_t), intent(inout) :: bench
         character(len=*), intent(in) :: family, name, method, strips
@@ -263,7 +249,7 @@ contains
         call put_cell(bench%writer, method)
         call put_cell(bench%writer, strips)
         call put_cell(bench%writer, trim(status_word(status%code)))
-        call put_cell(bench%writer, bench%strips%n)
+        call put_cell(bench%writer, bench%workspace%strips%n)
         call put_cell(bench%writer, error(1))
         call put_cell(bench%writer, error(2))
         call end_row(bench%writer)

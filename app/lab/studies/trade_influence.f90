@@ -15,12 +15,11 @@ module faststrip_lab_studies_trade_influence
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_minimax_error
     use faststrip_tables_trapezoid, only: trapezoid_influence
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_contact_method, only: workspace_t
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_geometry_gap_curve, only: gap_at
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence
     use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_names
     use faststrip_command_program_console, only: fail_on_error
@@ -127,46 +126,40 @@ contains
         type(trade_case_t), intent(in) :: case
         type(lattice_t), intent(out) :: lattice
 
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
         type(normal_result_t) :: result
         type(status_t) :: status
         real(wp), allocatable :: y(:), square(:)
         real(wp) :: from, to, place, inv2r, t
         integer :: k, j, n, largest
 
-        call reserve_strip_workspace(workspace, 200, size(case%gap%y), status)
-        call fail_on_error(status)
-        call reserve_strips(strips, 200, status)
-        call fail_on_error(status)
-        call set_strip_gap(workspace, case%gap, status)
-        call fail_on_error(status)
-        call strip_solve(workspace, normal_compliance(case%material), case%load, &
-                         strip_options_t(strips_per_patch=strips_across), strips, result, status)
+        call solve_by_strips(workspace, case, strips_across, result, status)
         call fail_on_error(status, case%name)
-        largest = 1
-        do k = 2, strips%n_patches
-            if (count(strips%patch(:strips%n) == k) > count(strips%patch(:strips%n) == largest)) &
-                largest = k
-        end do
-        n = count(strips%patch(:strips%n) == largest)
-        j = findloc(strips%patch(:strips%n), largest, dim=1)
-        from = strips%y_left(j)
-        to = strips%y_right(j + n - 1)
-        y = [from, 0.5_wp*(strips%y_left(j:j + n - 1) + strips%y_right(j:j + n - 1)), to]
-        square = [0.0_wp, strips%half_length(j:j + n - 1)**2, 0.0_wp]
-        lattice%width = (to - from)/strips_across
-        lattice%compliance = normal_compliance(case%material)
-        lattice%load = sum(0.5_wp*pi*strips%p0(j:j + n - 1)*strips%half_length(j:j + n - 1) &
-                           *(strips%y_right(j:j + n - 1) - strips%y_left(j:j + n - 1)))
-        do k = 1, strips_across
-            place = from + (k - 0.5_wp)*lattice%width
-            j = count(y(2:size(y) - 1) <= place) + 1
-            t = (place - y(j))/(y(j + 1) - y(j))
-            lattice%half_length(k) = sqrt((1.0_wp - t)*square(j) + t*square(j + 1))
-            call gap_at(workspace%curve, place, lattice%height(k), inv2r)
-        end do
-        lattice%height = lattice%height - workspace%curve%h_lowest
+        associate (strips => workspace%strips)
+            largest = 1
+            do k = 2, strips%n_patches
+                if (count(strips%patch(:strips%n) == k) &
+                    > count(strips%patch(:strips%n) == largest)) largest = k
+            end do
+            n = count(strips%patch(:strips%n) == largest)
+            j = findloc(strips%patch(:strips%n), largest, dim=1)
+            from = strips%y_left(j)
+            to = strips%y_right(j + n - 1)
+            y = [from, 0.5_wp*(strips%y_left(j:j + n - 1) + strips%y_right(j:j + n - 1)), to]
+            square = [0.0_wp, strips%half_length(j:j + n - 1)**2, 0.0_wp]
+            lattice%width = (to - from)/strips_across
+            lattice%compliance = normal_compliance(case%material)
+            lattice%load = sum(0.5_wp*pi*strips%p0(j:j + n - 1)*strips%half_length(j:j + n - 1) &
+                               *(strips%y_right(j:j + n - 1) - strips%y_left(j:j + n - 1)))
+            do k = 1, strips_across
+                place = from + (k - 0.5_wp)*lattice%width
+                j = count(y(2:size(y) - 1) <= place) + 1
+                t = (place - y(j))/(y(j + 1) - y(j))
+                lattice%half_length(k) = sqrt((1.0_wp - t)*square(j) + t*square(j + 1))
+                call gap_at(workspace%solver%curve, place, lattice%height(k), inv2r)
+            end do
+            lattice%height = lattice%height - workspace%solver%curve%h_lowest
+        end associate
     end subroutine make_lattice
 
     !> Fill the matrix by one method and solve for pressures and penetration; the time is that of
