@@ -9,10 +9,11 @@ belong to the library too, and FILE the program, beside which lies what it loads
 The archives could be handed on as they are, but for what hosts of other languages need and what
 they must not see:
 
-- Only public names are visible: what `use faststrip` gives, and the C and F77 faces. No host can
-  come to depend on a procedure behind them, or clash with it. Local names do not reach across
-  files, so what the public names need of the archives is linked into one object first. The rest,
-  words for the packages above, stays out, and with it variables of the compiler's.
+- Only public names are visible: what `use faststrip` gives, the modules that its head lists, the C
+  and F77 faces. No host can come to depend on a procedure behind them, or clash with it. Local
+  names do not reach across files, so what the public names need of the archives is linked into one
+  object first. The rest, words for the packages above, stays out, and with it variables of the
+  compiler's.
 - F77's procedures have second names without underscore, for hosts that are compiled with
   -fno-underscoring, and for C.
 - The shared library has a soname, which changes when programs have to be linked anew, and a
@@ -112,18 +113,39 @@ def defined_names(archives):
 EXTENDED = ("method", "method_capacity")
 
 
-def umbrella_names():
-    """The linker's names of what `use faststrip` gives, whether they are procedures or not: of
-    types the tables of their procedures, and those that a host's methods inherit."""
-    text = (ROOT / "src" / "faststrip" / "faststrip.f90").read_text(encoding="utf-8")
-    text = re.sub(r"&\s*\n\s*", "", text)
+CORE = ROOT / "src" / "faststrip"
+
+
+def by_module():
+    """Modules that a host may use beside `faststrip`, as the head of that one lists them."""
+    text = (CORE / "faststrip.f90").read_text(encoding="utf-8")
+    head = "\n".join(re.findall(r"^!>.*$", text, re.MULTILINE))
+    return sorted(set(re.findall(r"faststrip_\w+", head)))
+
+
+def fortran_names():
+    """The linker's names of what a Fortran host may use, whether they are procedures or not: what
+    `use faststrip` gives, what is public of the modules beside it; of types the tables of their
+    procedures, and those that a host's methods inherit."""
+    modules, given = by_module(), []
+    for path in CORE.rglob("*.f90"):
+        source = re.sub(r"!.*", "", path.read_text(encoding="utf-8"))
+        source = re.sub(r"&\s*\n\s*", "", source)
+        module = re.search(r"^module (\w+)", source, re.MULTILINE)[1]
+        if module in modules:
+            given += [(module, name) for names in re.findall(r"public :: (.*)$", source,
+                                                             re.MULTILINE)
+                      for name in re.findall(r"\w+", names)]
+        elif module == "faststrip":
+            given += [(origin, name) for origin, only in
+                      re.findall(r"^\s*use (\w+), only: (.*)$", source, re.MULTILINE)
+                      for name in re.findall(r"\w+", only)]
     names = set()
-    for module, only in re.findall(r"^\s*use (\w+), only: (.*)$", text, re.MULTILINE):
-        for name in map(str.strip, only.split(",")):
-            names.add(f"__{module}_MOD_{name}")
-            names.add(f"__{module}_MOD___vtab_{module}_{name.capitalize()}")
+    for module, name in given:
+        names.add(f"__{module}_MOD_{name}")
+        names.add(f"__{module}_MOD___vtab_{module}_{name.capitalize()}")
     for last in EXTENDED:
-        source = ROOT / "src" / "faststrip" / "contact" / "method" / f"{last.split('_')[-1]}.f90"
+        source = CORE / "contact" / "method" / f"{last.split('_')[-1]}.f90"
         bound = re.findall(r"procedure :: \w+ => (\w+)", source.read_text(encoding="utf-8"))
         names.update(f"__faststrip_contact_{last}_MOD_{name}" for name in bound)
     return names
@@ -136,7 +158,7 @@ def public_names(archives):
     f77_face = {name for name in defined if re.fullmatch(r"fs[a-z]{1,4}_", name)}
     if not c_face or not f77_face:
         sys.exit(f"install: {archives[0]} has no C or F77 face")
-    return (umbrella_names() & defined) | c_face | f77_face, f77_face
+    return (fortran_names() & defined) | c_face | f77_face, f77_face
 
 
 def link_object(archives, names, aliases, target):
@@ -210,7 +232,8 @@ def main():
     copies = (
         (options.program, "bin/faststrip"),
         (options.program.with_name(NETCDF), f"lib/faststrip/{NETCDF}"),
-        (options.stage / "include" / "faststrip.mod", "include/faststrip/faststrip.mod"),
+        *((options.stage / "include" / f"{name}.mod", f"include/faststrip/{name}.mod")
+          for name in ("faststrip", *by_module())),
         (ROOT / "include" / "faststrip.h", "include/faststrip.h"),
         (ROOT / "LICENSE", "share/doc/faststrip/LICENSE"),
     )

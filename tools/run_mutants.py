@@ -403,10 +403,9 @@ class Job:
         shutil.rmtree(self.prefix, ignore_errors=True)
         for name in ("include", "lib"):
             (stage / name).mkdir(parents=True)
-        made = self.scratch / "faststrip.mod"
-        if not made.exists():
-            made = self.base.objects / "faststrip.mod"
-        shutil.copy(made, stage / "include")
+        for folder in (self.base.objects, self.scratch):
+            for made in folder.glob("faststrip*.mod"):
+                shutil.copy(made, stage / "include")
         for name, beginning in zip(("faststrip", "faststrip-files"), LIBRARY):
             call(["ar", "rcs", stage / "lib" / f"lib{name}.a", *self.object_paths((beginning,))],
                  self.folder)

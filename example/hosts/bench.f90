@@ -4,6 +4,10 @@ program bench
     use, intrinsic :: iso_c_binding
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip
+    use faststrip_normal_simple_hertz, only: hertz_t
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_tangential_fastsim, only: fastsim_coefficients_solve
     implicit none
 
     integer, parameter :: rounds = 41, points = 301

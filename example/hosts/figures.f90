@@ -5,6 +5,13 @@
 !> its solution, step 3 the second demand from there (warm), step 4 the same on the copy.
 program figures
     use faststrip
+    use faststrip_base_material, only: check_material, normal_compliance, combined_shear_modulus
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
+    use faststrip_tangential_types, only: tangential_result_t
+    use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
+    use faststrip_tangential_fastsim, only: fastsim_coefficients_solve
+    use faststrip_contact_methods, only: normal_method, tangential_method, method_name_length
+    use faststrip_contact_wanted, only: unknown_error, auto_steps_t
     use, intrinsic :: iso_fortran_env, only: output_unit
     implicit none
 

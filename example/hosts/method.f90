@@ -1,13 +1,17 @@
-!> A normal method of one's own: springs side by side (Winkler), on any gap, under a load.
+!> Methods of one's own: springs side by side (Winkler), on any gap, under a load; and full sliding.
 !>
-!> A type that extends `on_gap_t`, its `solve`, a number that the list does not have, and a line
-!> that enters it: after that `solve_contact` takes it like its own, with any tangential method.
-module springs
+!> A type that extends `on_gap_t` or `tangential_method_t`, its `solve`, a number that the list does
+!> not have, and a line that enters it: after that `solve_contact` takes it like its own, with any
+!> method of the other kind.
+module own_methods
     use faststrip
+    use faststrip_normal_strips, only: strips_load
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_contact_methods, only: method_t
     implicit none
     private
 
-    public :: springs_t
+    public :: springs_t, sliding_t
 
     integer, parameter :: most_steps = 100
 
@@ -17,6 +21,12 @@ module springs
     contains
         procedure :: solve
     end type springs_t
+
+    !> All of the contact slides, whatever the spin.
+    type, extends(tangential_method_t) :: sliding_t
+    contains
+        procedure :: solve => slide
+    end type sliding_t
 
 contains
 
@@ -88,34 +98,59 @@ contains
             if (strips%n > 0) normal%load = strips_load(strips)
         end associate
     end subroutine press
-end module springs
 
-!> It beside strips, with FASTSTRIP on both.
+    !> Coulomb's force against the creepage.
+    subroutine slide(self, workspace, case, result, status)
+        class(sliding_t), intent(in) :: self                  !! nothing of its own
+        type(workspace_t), intent(inout), target :: workspace !! with a normal solution
+        type(contact_case_t), intent(in) :: case              !! friction, creepages
+        type(contact_result_t), intent(inout) :: result       !! gets the forces
+        type(status_t), intent(out) :: status                 !! `st_ok`
+
+        real(wp) :: size
+
+        status = status_t()
+        associate (creepage => case%creepage, forces => result%tangential)
+            size = hypot(creepage%cksi, creepage%ceta)
+            forces%friction_power = case%mu*result%normal%load*size
+            if (.not. size > 0.0_wp) return
+            forces%fx = -case%mu*result%normal%load*creepage%cksi/size
+            forces%fy = -case%mu*result%normal%load*creepage%ceta/size
+        end associate
+    end subroutine slide
+end module own_methods
+
+!> They beside strips and FASTSTRIP.
 program method
     use faststrip
-    use springs, only: springs_t
+    use faststrip_contact_methods, only: method_t
+    use own_methods, only: springs_t, sliding_t
     implicit none
 
-    integer, parameter :: number = 101, points = 301
-    type(springs_t), target :: own
+    integer, parameter :: points = 301
+    type(springs_t), target :: springs
+    type(sliding_t), target :: sliding
     type(contact_case_t) :: case
     type(workspace_t) :: workspace
     type(contact_result_t) :: result
     type(status_t) :: status
     real(wp) :: y(points)
-    integer :: i, normal(2)
+    integer :: i, normal(3), tangential(3)
 
-    own%about = method_t(number, 'springs', help='springs side by side')
-    call enter_normal_method(workspace, own, status)
+    springs%about = method_t(101, 'springs', help='springs side by side')
+    sliding%about = method_t(102, 'sliding', help='all of the contact slides')
+    call enter_normal_method(workspace, springs, status)
+    call enter_tangential_method(workspace, sliding, status)
     y = [(-15.0_wp + 0.1_wp*(i - 1), i=1, points)]
     case%load = 8.0e4_wp
     case%creepage = creepage_t(1.0e-3_wp, -5.0e-4_wp, 1.0e-4_wp)
     case%methods%strips_per_patch = 200
-    normal = [normal_strip, number]
-    do i = 1, 2
+    normal = [normal_strip, springs%about%number, normal_strip]
+    tangential = [tangential_faststrip, tangential_faststrip, sliding%about%number]
+    do i = 1, size(normal)
         case%methods%normal = normal(i)
-        if (i == 1) case%methods%strips_per_patch = 15
-        if (i == 2) case%methods%strips_per_patch = 200
+        case%methods%tangential = tangential(i)
+        case%methods%strips_per_patch = merge(15, 200, normal(i) == normal_strip)
         call reserve_workspace(workspace, case%methods, points, status)
         call set_contact_gap(workspace, y, 2.0e-3_wp*y*y, spread(1.0_wp/920.0_wp, 1, points), &
                              status)

@@ -67,7 +67,7 @@ contains
         integer :: k, side
 
         call make_wheel_profile('s1002', wheels(1), status)
-        call make_rail_profile('60e1', standard_cant, rails(1), status)
+        call make_rail_profile('60e1', standard_inclination, rails(1), status)
         wheels(2) = wheels(1)
         rails(2) = rails(1)
         case%wear_law = law

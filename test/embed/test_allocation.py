@@ -29,6 +29,13 @@ module contacts
     use, intrinsic :: iso_c_binding, only: c_long
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_contact_wanted, only: target_names
+    use faststrip_normal_strip, only: strip_options_t, strip_solve, strip_solve_penetration
+    use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
+                                            set_strip_gap
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
     implicit none
 
     integer, parameter :: points = 601, capacity = 1200, kinds = 5

@@ -160,16 +160,30 @@ class Threads(HostTest):
 
     def test_a_host_adds_a_method(self):
         """Types of the library can be extended by who only has it installed; the new method's
-        pressures carry the load, and FASTSTRIP finds forces on them within mu N."""
+        pressures carry the load, and FASTSTRIP finds forces on them within mu N; a law of its own
+        has mu N."""
         for library in ("-lfaststrip", f"'{self.installed.archive}' -lopenblas"):
             self.shell(f"gfortran -O1 -J. '{HOSTS}/method.f90' $(pkg-config --cflags faststrip)"
                        f" -L'{self.installed.library.parent}' {library} -o method")
             lines = self.shell("./method").splitlines()
-            self.assertEqual([line.split()[1] for line in lines], ["1", "101"])
+            self.assertEqual([line.split()[1] for line in lines], ["1", "101", "1"])
+            force = 0.0
             for line in lines:
                 load, _, fx, fy = (float(word) for word in line.split()[3::2])
+                force = (fx * fx + fy * fy) ** 0.5
                 self.assertAlmostEqual(load, 8e4, delta=0.1)
-                self.assertTrue(1e4 < (fx * fx + fy * fy) ** 0.5 < 0.3 * load)
+                self.assertTrue(1e4 < force < 0.3 * load + 0.1)
+            self.assertAlmostEqual(force, 0.3 * 8e4, delta=0.1)
+
+    def test_the_tour_takes_all_names(self):
+        self.shell(f"gfortran -O1 -Wall -Wextra -Werror '{HOSTS}/tour.f90'"
+                   " $(pkg-config --cflags --libs faststrip) -o tour")
+        lines = self.shell("./tour").splitlines()
+        self.assertEqual(sum(line.startswith("normal ") for line in lines), 8)
+        self.assertEqual(sum(line.startswith("tangential ") for line in lines), 9)
+        self.assertEqual(sum(line.startswith("side ") for line in lines), 6)
+        carried = [float(line.split()[3]) for line in lines if line.startswith("side ")]
+        self.assertAlmostEqual(sum(carried[2:4]), 1.6e5, delta=20.0)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,26 @@
 # The linker's names that stay visible, found where tools/install.py finds them: what
-# `use faststrip` gives, of types the tables of their procedures, what a host's own methods inherit,
-# and the C and F77 faces. Names of types and constants are among them; the linker passes over what
-# is no symbol.
+# `use faststrip` gives, what is public of the modules beside it, of types the tables of their
+# procedures, what a host's own methods inherit, and the C and F77 faces. Names of types and
+# constants are among them; the linker passes over what is no symbol.
+
+# Modules that hosts may use beside `faststrip`, as the head of that one lists them.
+function(modules_beside modules)
+    file(STRINGS src/faststrip/faststrip.f90 head REGEX "^!>")
+    string(REGEX MATCHALL "faststrip_[a-z0-9_]+" found "${head}")
+    set(${modules} ${found} PARENT_SCOPE)
+endfunction()
+
+# The linker's names of those of a module.
+macro(append_linker_names names module)
+    foreach(name ${ARGN})
+        string(SUBSTRING "${name}" 0 1 first)
+        string(TOUPPER "${first}" first)
+        string(SUBSTRING "${name}" 1 -1 rest)
+        list(APPEND ${names} "__${module}_MOD_${name}"
+             "__${module}_MOD___vtab_${module}_${first}${rest}")
+    endforeach()
+endmacro()
+
 function(public_names all f77)
     set(names)
     file(READ src/faststrip/faststrip.f90 text)
@@ -11,12 +30,24 @@ function(public_names all f77)
         string(REGEX MATCH "use ([a-z0-9_]+), only: (.*)" match "${use}")
         set(module "${CMAKE_MATCH_1}")
         string(REGEX MATCHALL "[a-z0-9_]+" imported "${CMAKE_MATCH_2}")
-        foreach(name IN LISTS imported)
-            string(SUBSTRING "${name}" 0 1 first)
-            string(TOUPPER "${first}" first)
-            string(SUBSTRING "${name}" 1 -1 rest)
-            list(APPEND names "__${module}_MOD_${name}"
-                 "__${module}_MOD___vtab_${module}_${first}${rest}")
+        append_linker_names(names "${module}" ${imported})
+    endforeach()
+    modules_beside(beside)
+    file(GLOB_RECURSE sources src/faststrip/*.f90)
+    foreach(source IN LISTS sources)
+        file(READ "${source}" text)
+        string(REGEX REPLACE "![^\n]*" "" text "\n${text}")
+        string(REGEX REPLACE "&[ \t]*\n[ \t]*" "" text "${text}")
+        string(REGEX MATCH "\nmodule ([a-z0-9_]+)" match "${text}")
+        set(module "${CMAKE_MATCH_1}")
+        if(NOT module IN_LIST beside)
+            continue()
+        endif()
+        string(REGEX MATCHALL "public :: [^\n]*" lines "${text}")
+        foreach(line IN LISTS lines)
+            string(REPLACE "public :: " "" line "${line}")
+            string(REGEX MATCHALL "[a-z0-9_]+" given "${line}")
+            append_linker_names(names "${module}" ${given})
         endforeach()
     endforeach()
     # What a host's own methods inherit.

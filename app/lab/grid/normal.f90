@@ -16,7 +16,7 @@ module faststrip_lab_grid_normal
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_cant
+                                          standard_inclination
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contact
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
@@ -120,7 +120,7 @@ contains
         call fail_on_error(status)
         call make_wheel_profile('s1002', wheel, status)
         call fail_on_error(status)
-        call make_rail_profile('uic60', standard_cant, rail, status)
+        call make_rail_profile('uic60', standard_inclination, rail, status)
         call fail_on_error(status)
         allocate (bench%before(size(bench%cases)), bench%after(size(bench%cases)))
         points = 0

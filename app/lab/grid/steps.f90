@@ -11,7 +11,7 @@ module faststrip_lab_grid_steps
     use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_cant
+                                          standard_inclination
     use faststrip_contact_case, only: contact_case_t
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
@@ -92,7 +92,7 @@ contains
         call fail_on_error(status)
         call make_wheel_profile('s1002', wheel, status)
         call fail_on_error(status)
-        call make_rail_profile('uic60', standard_cant, rail, status)
+        call make_rail_profile('uic60', standard_inclination, rail, status)
         call fail_on_error(status)
         bench%rounds = rounds
         bench%asked = strips

@@ -14,7 +14,7 @@ module faststrip_lab_studies_errata
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_tables_quadrature, only: quadrature_influence_2d
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_cant
+                                          standard_inclination
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
                                                 find_rigid_contacts
@@ -435,7 +435,7 @@ contains
 
         call make_wheel_profile('s1002', wheel, status)
         call fail_on_error(status)
-        call make_rail_profile('uic60', standard_cant, rail, status)
+        call make_rail_profile('uic60', standard_inclination, rail, status)
         call fail_on_error(status)
         call find_rigid_contacts(wheel, rail, wheelset_t(), track_t(), shift, touching, left, &
                                     status)

@@ -31,7 +31,7 @@ module faststrip_geometry_profile
     public :: make_curve_profile, thin_profile
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: profile_curve, profile_54e1, profile_cone
-    public :: standard_inclination, unset_inclination, standard_cant
+    public :: standard_inclination, unset_inclination
 
     ! Given: numbers of kinds.
     integer, parameter :: profile_none = 0
@@ -46,9 +46,6 @@ module faststrip_geometry_profile
     !> Rail inclination 1:40, of rails by name where nothing is said.
     !> Given: 1:40.
     real(wp), parameter :: standard_inclination = 0.025_wp
-    !> The same, by its older name.
-    !> Given: 1:40.
-    real(wp), parameter :: standard_cant = standard_inclination
     !> What stands where no inclination was said.
     !> Given: out of range of all inclinations.
     real(wp), parameter :: unset_inclination = 999.0_wp
