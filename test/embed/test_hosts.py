@@ -171,9 +171,9 @@ class Threads(HostTest):
             for line in lines:
                 load, _, fx, fy = (float(word) for word in line.split()[3::2])
                 force = (fx * fx + fy * fy) ** 0.5
-                self.assertAlmostEqual(load, 8e4, delta=0.1)
-                self.assertTrue(1e4 < force < 0.3 * load + 0.1)
-            self.assertAlmostEqual(force, 0.3 * 8e4, delta=0.1)
+                self.assertAlmostEqual(load, 8e4, delta=0.005)
+                self.assertTrue(1e4 < force < 0.3 * load + 0.005)
+            self.assertAlmostEqual(force, 0.3 * 8e4, delta=0.005)
 
     def test_the_tour_takes_all_names(self):
         self.shell(f"gfortran -O1 -Wall -Wextra -Werror '{HOSTS}/tour.f90'"
@@ -183,7 +183,7 @@ class Threads(HostTest):
         self.assertEqual(sum(line.startswith("tangential ") for line in lines), 9)
         self.assertEqual(sum(line.startswith("side ") for line in lines), 6)
         carried = [float(line.split()[3]) for line in lines if line.startswith("side ")]
-        self.assertAlmostEqual(sum(carried[2:4]), 1.6e5, delta=20.0)
+        self.assertAlmostEqual(sum(carried[2:4]), 1.6e5, delta=0.005)
 
 
 if __name__ == "__main__":

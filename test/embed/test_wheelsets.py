@@ -156,9 +156,9 @@ class Faces(HostTest):
                     theirs = [float(row[column]) for row in rows[name]
                               if which.items() <= row.items()]
                     self.assertEqual(mine.tolist(), theirs, (which, column))
-                self.assertAlmostEqual(float(elements.px @ elements.area), one.fx, delta=1e-6)
-                self.assertAlmostEqual(float(elements.py @ elements.area), one.fy, delta=1e-6)
-                self.assertAlmostEqual(float(wheelset.strip_wear(k).fy.sum()), one.fy, delta=1e-6)
+                self.assertAlmostEqual(float(elements.px @ elements.area), one.fx, delta=5e-11)
+                self.assertAlmostEqual(float(elements.py @ elements.area), one.fy, delta=5e-11)
+                self.assertAlmostEqual(float(wheelset.strip_wear(k).fy.sum()), one.fy, delta=5e-11)
             with self.assertRaisesRegex(package.FaststripError, "no such contact: "):
                 wheelset.strips(len(contacts))
         with package.Wheelset(strips_per_patch=9) as wheelset:

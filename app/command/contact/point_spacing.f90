@@ -82,6 +82,7 @@ contains
         contact%methods%normal = normal_strip
         contact%methods%tangential = tangential_faststrip
         contact%asked = asked_t()
+        contact%estimate = .false.
         contact%wear_law%n = 0
     end subroutine choose
 

@@ -8,7 +8,7 @@ module faststrip_command_wheelset
                                    close_csv
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
-                                        wheelset_demand_t, wheelset_result_t, wheel_result_t, &
+                                        wheelset_demand_t, wheelset_result_t, &
                                         side_right, side_left, most_contacts
     use faststrip_kalker_methods, only: kalker_methods_t, add_kalker
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
@@ -21,7 +21,6 @@ module faststrip_command_wheelset
                                                  option_text, option_number
     use faststrip_command_program_plot, only: plot_option, prepare_plot, plot_file
     use faststrip_command_program_outputs, only: open_outputs, close_outputs
-    use faststrip_contact_solve, only: name_yield
     use faststrip_command_rows_result_csv, only: note_wear
     use faststrip_command_rows_wear_figures, only: take_wear_law
     use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
@@ -379,7 +378,6 @@ contains
         type(wheelset_result_t), intent(in) :: result
         integer, intent(in) :: solution
 
-        type(wheel_result_t) :: wheel
         type(status_t) :: status
         logical :: has_forces
         integer :: i, w
@@ -406,12 +404,7 @@ contains
                 end if
             end associate
         end do
-        wheel = result%wheel(side)
-        do i = 1, wheel%n
-            call name_yield(run%model%case%yield, wheel%contact(i)%figures%normal%pmax, &
-                            wheel%contact(i)%status)
-        end do
-        call put_wheel(run%writer(1), name, trim(side_names(side)), wheel, has_forces, solution, &
-                       run%workspaces(w)%last_state%y)
+        call put_wheel(run%writer(1), name, trim(side_names(side)), result%wheel(side), &
+                       has_forces, solution, run%workspaces(w)%last_state%y)
     end subroutine put_side
 end module faststrip_command_wheelset

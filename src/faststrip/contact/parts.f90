@@ -17,8 +17,9 @@ module faststrip_contact_parts
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
     use faststrip_contact_cut, only: solve_cut
-    use faststrip_contact_method, only: contact_result_t, workspace_t, normal_method_t, &
-                                        tangential_method_t, normal_method_of, tangential_method_of
+    use faststrip_contact_method, only: contact_result_t, workspace_t, wear_figures_t, &
+                                        normal_method_t, tangential_method_t, normal_method_of, &
+                                        tangential_method_of
     use faststrip_contact_methods, only: contact_methods_t, method_t, normal_auto, &
                                          tangential_none, check_normal_method, &
                                          check_tangential_method, check_resolutions
@@ -169,6 +170,10 @@ contains
         type(lap_t) :: lap
         real(wp) :: share
 
+        ! Nothing of the forces before stays, whatever happens.
+        result%has_forces = .false.
+        result%knows_stick = .false.
+        result%wear = wear_figures_t()
         result%tangential = tangential_result_t()
         result%force_errors = force_errors_t()
         result%forces_are_estimated = .false.

@@ -30,7 +30,6 @@ contains
             figures%knows_fatigue = case%yield_shear > 0.0_wp
             if (figures%knows_fatigue) figures%fatigue_index = surface_fatigue_index( &
                 tangential, normal%load, normal%area, case%yield_shear)
-            figures%knows_wear = .false.
             if (case%wear_law%n == 0 .or. workspace%strip_forces%n /= n) return
             call find_strip_wear(case%wear_law, workspace%strips, workspace%strip_forces, &
                                  found%t_gamma_per_area(:n), found%mass(:n), &

@@ -29,7 +29,7 @@ module faststrip_wheelset_solve
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, most_contacts
-    use faststrip_wheelset_wheel, only: estimate_wheel, mirror_wheel, reverse_wheel
+    use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
     implicit none
     private
 
@@ -398,6 +398,7 @@ contains
             associate (wheel => result%wheel(side))
                 if (model%case%estimate) &
                     call estimate_wheel(model, workspace%wheel(side), wheel)
+                if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll
                 if (side == side_left) call mirror_wheel(wheel)

@@ -4,7 +4,8 @@ module faststrip_wheelset_wheel
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact
+    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact, &
+                                       name_yield
     use faststrip_contact_methods, only: normal_auto, tangential_linear
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
@@ -22,7 +23,8 @@ module faststrip_wheelset_wheel
     implicit none
     private
 
-    public :: solve_wheel_at, estimate_wheel, mirror_wheel, reverse_wheel, take_motion
+    public :: solve_wheel_at, estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
+    public :: take_motion
 
     ! Tuned [1]: of the strips' last step. Origin: searches of a load see no noise beside the
     ! equilibrium of 1e-10 that they look for.
@@ -103,6 +105,21 @@ contains
             end associate
         end do
     end subroutine estimate_wheel
+
+    !> Name pressures of a wheel above the limit that the user has set.
+    pure subroutine name_pressures(limit, wheel)
+        real(wp), intent(in) :: limit                !! MPa; 0: none
+        type(wheel_result_t), intent(inout) :: wheel !! solved; its statuses get `st_beyond_yield`
+
+        integer :: i
+
+        do i = 1, wheel%n
+            associate (contact => wheel%contact(i))
+                call name_yield(limit, contact%figures%normal%pmax, contact%status)
+                if (worse(contact%status, wheel%status)) wheel%status = contact%status
+            end associate
+        end do
+    end subroutine name_pressures
 
     ! An error is worse than a limitation, that is worse than none.
     pure logical function worse(status, than)
