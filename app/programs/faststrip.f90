@@ -17,6 +17,7 @@ program faststrip_main
     use faststrip_command_program_netcdf_file, only: finish_as_asked
     use faststrip_command_program_explore, only: run_explore
     use faststrip_command_lookup, only: run_lookup
+    use faststrip_command_settings_list, only: run_settings
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -34,6 +35,7 @@ program faststrip_main
     case ('netcdf'); call run_netcdf()
     case ('explore'); call run_explore()
     case ('lookup'); call run_lookup()
+    case ('settings'); call run_settings()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -63,6 +65,7 @@ contains
         call say('  lookup ACTION          tables of creep forces: made, judged, looked up')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  netcdf TABLE.csv       a table as NetCDF')
+        call say('  settings               what case files can set: names, defaults, options')
         call say('  explore                a page to play with, of the Python package')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

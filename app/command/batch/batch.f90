@@ -164,7 +164,7 @@ contains
                          // new_line('a') // '(default 1: each from nothing)'), &
                 option_t('--times', '', 'fill the columns of times, never twice the same'), &
                 option_t('--quiet', '', 'do not tell how far the work is'), &
-                part_options, method_options]
+                part_options, method_options()]
             command%about = command%about // method_notes()
             call parse_command(command, 1)
             call take_method_options(command, job%options)

@@ -3,9 +3,9 @@
 module faststrip_command_batch_parts
     use, intrinsic :: iso_c_binding, only: c_int
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_base_text, only: integer_text, parse_integer
-    use faststrip_command_program_options, only: command_t, option_t, given, option_text, &
-                                                 option_integer, refuse_value
+    use faststrip_base_text, only: integer_text
+    use faststrip_command_program_options, only: command_t, option_t, given, option_integer, &
+                                                 option_part, most_parts
     use faststrip_command_program_console, only: usage_error
     implicit none
     private
@@ -14,8 +14,6 @@ module faststrip_command_batch_parts
     public :: part_beginning, part_name
     public :: parts_t, start_parts, next_part, mark_part, wait_for_others
 
-    !> Most parts of a work.
-    integer, parameter :: most_parts = 100000
     ! How long to wait for parts that other processes have, ms.
     integer(c_int), parameter :: nap_ms = 200
 
@@ -56,25 +54,12 @@ contains
     type(part_choice_t) function take_part_options(command) result(choice)
         type(command_t), intent(in) :: command !! parsed, with `part_options` and `-o` in its table
 
-        character(len=:), allocatable :: text
-        integer :: slash
-        logical :: valid, valid_too
-
         choice%is_part = given(command, '--part')
         choice%is_shared = given(command, '--parts')
         choice%resumes = given(command, '--resume') .or. choice%is_shared
         if (choice%is_part .and. choice%is_shared) &
             call usage_error('--part and --parts must not be given together', command%name)
-        if (choice%is_part) then
-            text = option_text(command, '--part', '')
-            slash = index(text, '/')
-            call parse_integer(text(:slash - 1), choice%part, valid)
-            call parse_integer(text(slash + 1:), choice%parts, valid_too)
-            if (slash == 0 .or. .not. (valid .and. valid_too) .or. choice%part < 1 &
-                .or. choice%part > choice%parts .or. choice%parts > most_parts) &
-                call refuse_value(command, '--part', 'k/K, a part and how many there are, k ' &
-                                  // 'from 1 to K, K up to ' // integer_text(most_parts))
-        end if
+        call option_part(command, choice%part, choice%parts)
         choice%parts = option_integer(command, '--parts', choice%parts, least=1, most=most_parts)
     end function take_part_options
 

@@ -11,8 +11,8 @@ module faststrip_command_batch_rows
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, &
                                    cell_text, cell_number, put_cell, end_row, take_only_row, &
                                    refuse_misspelt
-    use faststrip_command_batch_friction, only: read_row_friction, friction_columns
-    use faststrip_command_settings_case_file, only: beside
+    use faststrip_command_settings_friction, only: read_row_friction, friction_columns
+    use faststrip_command_settings_group, only: beside
     use faststrip_command_program_console, only: concerns_gap
     use faststrip_command_settings_doubts, only: count_doubts
     use faststrip_command_program_files, only: trouble_t

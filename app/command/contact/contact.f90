@@ -66,7 +66,7 @@ contains
                      writes=.true.), &
             plot_option, &
             option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
-            method_options]
+            method_options()]
         command%about = command%about // method_notes()
         call parse_command(command, 1)
         call prepare_plot(command)

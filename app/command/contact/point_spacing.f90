@@ -49,7 +49,8 @@ contains
         integer :: first
 
         if (len(case%gap_file) > 0) return
-        if (all([case%wheel%profile%kind, case%rail%profile%kind] /= profile_curve)) return
+        if (all([case%bodies%wheel%profile%kind, case%bodies%rail%profile%kind] &
+                /= profile_curve)) return
         whole = prepared
         call choose(whole)
         call new_solver(solver, status)
@@ -58,9 +59,11 @@ contains
             spacing%is_known = .true.
             thinned = case
             do first = 1, 2
-                call thin_profile(case%wheel%profile, first, thinned%wheel%profile, status)
+                call thin_profile(case%bodies%wheel%profile, first, &
+                                  thinned%bodies%wheel%profile, status)
                 if (.not. is_error(status)) &
-                    call thin_profile(case%rail%profile, first, thinned%rail%profile, status)
+                    call thin_profile(case%bodies%rail%profile, first, &
+                                      thinned%bodies%rail%profile, status)
                 if (.not. is_error(status)) &
                     call prepare_case(thinned, prepared%shift, contact, status)
                 call choose(contact)

@@ -48,8 +48,10 @@ contains
             call read_gap_file(case%gap_file, prepared%gap, status)
             return
         end if
-        call find_rigid_contacts(case%wheel%profile, case%rail%profile, case%wheelset, &
-                                 case%track, shift, prepared%rigid_contact, left, status)
+        associate (bodies => case%bodies)
+            call find_rigid_contacts(bodies%wheel%profile, bodies%rail%profile, bodies%wheelset, &
+                                     bodies%track, shift, prepared%rigid_contact, left, status)
+        end associate
         if (is_error(status)) then
             call clear_rigid_contact(case, prepared)
             return
@@ -58,9 +60,9 @@ contains
         if (case%load_is_vertical) &
             prepared%load = contact_force(case%load, prepared%rigid_contact%gamma)
         if (case%creepage_by_formula) prepared%creepage = &
-            shift_creepage(case%wheelset, prepared%rigid_contact, left, case%creepage_signs)
+            shift_creepage(case%bodies%wheelset, prepared%rigid_contact, left, case%creepage_signs)
         call take_lists(case, prepared)
-        call make_gap(case%wheel%profile, case%rail%profile, case%wheelset, &
+        call make_gap(case%bodies%wheel%profile, case%bodies%rail%profile, case%bodies%wheelset, &
                       prepared%rigid_contact, case%gap_step, case%gap_height, prepared%gap, status)
     end subroutine prepare_case
 
@@ -120,10 +122,10 @@ contains
 
         call put_origin(writer)
         call put_header(writer, [character(len=4) :: 'body', 'y_mm', 'z_mm'])
-        call put_profile(writer, 'wheel', case%wheel%profile, &
+        call put_profile(writer, 'wheel', case%bodies%wheel%profile, &
                          prepared%rigid_contact%y_rail - prepared%rigid_contact%y_wheel, &
                          prepared%rigid_contact%z_rail - prepared%rigid_contact%z_wheel)
-        call put_profile(writer, 'rail', case%rail%profile, 0.0_wp, 0.0_wp)
+        call put_profile(writer, 'rail', case%bodies%rail%profile, 0.0_wp, 0.0_wp)
     end subroutine put_profiles
 
     subroutine put_profile(writer, name, profile, y_offset, z_offset)

@@ -63,7 +63,7 @@ contains
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
                      // new_line('a') // 'FILE.nc', writes=.true.), &
-            plot_option, method_options]
+            plot_option, method_options()]
         command%about = command%about // method_notes()
         call parse_command(command, 1)
         call prepare_plot(command)

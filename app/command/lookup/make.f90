@@ -3,7 +3,7 @@ module faststrip_command_lookup_make
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
-    use faststrip_base_text, only: parse_real, integer_text
+    use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, version_text, &
                                                  exit_bad_input, exit_no_convergence
     use faststrip_command_program_files, only: take_beside
@@ -13,12 +13,13 @@ module faststrip_command_lookup_make
     use faststrip_command_lookup_fill, only: begin_table, judge_table
     use faststrip_command_lookup_grid, only: sampled_axis_t, start_axis, refine_axis, nodes_of
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
-                                                take_threads, take_part, choice_text
+                                                take_threads, choice_text
     use faststrip_command_lookup_parts, only: forget_values, solve_part, take_work, work_name
     use faststrip_command_lookup_scatter, only: least_drawn
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_number, option_integer, &
-                                                 option_word, refuse_value
+                                                 option_word, option_pair, option_part, &
+                                                 refuse_value
     use faststrip_command_program_system, only: set_progress
     use faststrip_files_bytes, only: remove_file
     use faststrip_lookup_faces, only: n_faces
@@ -99,7 +100,7 @@ contains
         if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
             == 'cubic') order = 2
         call take_range(command, ends)
-        call take_part(command, part, parts)
+        call option_part(command, part, parts)
         if (given(command, '--axes-of')) then
             if (given(command, '--ab') .or. given(command, '--error') .or. given(command, '--nu')) &
                 call usage_error('--axes-of must not be given with --ab, --error and --nu', &
@@ -227,21 +228,8 @@ contains
 
         ! Tuned [1]: the most slender ellipses. Origin: capacity.
         real(wp), parameter :: most_slender = 1.0e3_wp
-        character(len=:), allocatable :: text
-        integer :: colon
-        logical :: is_first, is_last
 
-        text = option_text(command, '--ab', '0.1:10')
-        colon = index(text, ':')
-        is_first = .false.
-        is_last = .false.
-        ends = 0.0_wp
-        if (colon > 0) then
-            call parse_real(text(:colon - 1), ends(1), is_first)
-            call parse_real(text(colon + 1:), ends(2), is_last)
-        end if
-        if (.not. (is_first .and. is_last)) &
-            call refuse_value(command, '--ab', 'LEAST:MOST, two numbers')
+        call option_pair(command, '--ab', '0.1:10', 'LEAST:MOST', ends)
         if (ends(1) < 1.0_wp/most_slender .or. ends(2) > most_slender .or. &
             ends(2) < 1.01_wp*ends(1)) &
             call refuse_value(command, '--ab', 'two rising numbers from 0.001 to 1000')

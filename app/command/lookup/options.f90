@@ -2,17 +2,17 @@
 module faststrip_command_lookup_options
     use, intrinsic :: iso_c_binding, only: c_int
     use faststrip_base_kinds, only: wp
-    use faststrip_base_text, only: integer_text, parse_integer, parse_real
+    use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: usage_error
     use faststrip_command_lookup_direct, only: direct_choice_t, direct_methods
     use faststrip_command_program_options, only: command_t, option_t, option_word, option_integer, &
-                                                 option_number, option_text, refuse_value, given
+                                                 option_number, option_pair, refuse_value, given
     use faststrip_command_program_system, only: use_one_thread_each
     use faststrip_files_csv, only: real_text
     implicit none
     private
 
-    public :: direct_options, take_direct_options, take_threads, take_part, take_ends, choice_text
+    public :: direct_options, take_direct_options, take_threads, take_ends, choice_text
 
     !> For the tables of options.
     type(option_t), parameter :: direct_options(6) = [ &
@@ -76,27 +76,6 @@ contains
         call use_one_thread_each()
     end function take_threads
 
-    !> Which part of how many.
-    subroutine take_part(command, part, parts)
-        type(command_t), intent(in) :: command !! parsed, with `--part`
-        integer, intent(out) :: part           !! from 1 on; 1 if there is one
-        integer, intent(out) :: parts          !! how many
-
-        character(len=:), allocatable :: text
-        integer :: slash
-        logical :: is_part, is_parts
-
-        part = 1
-        parts = 1
-        if (.not. given(command, '--part')) return
-        text = option_text(command, '--part', '')
-        slash = index(text, '/')
-        call parse_integer(text(:max(slash - 1, 0)), part, is_part)
-        call parse_integer(text(slash + 1:), parts, is_parts)
-        if (.not. (is_part .and. is_parts) .or. slash == 0 .or. part < 1 .or. part > parts) &
-            call refuse_value(command, '--part', 'k/K, a part and how many there are')
-    end subroutine take_part
-
     !> First and last number of an option, FIRST:LAST.
     subroutine take_ends(command, name, default, ends, may_be_one, above)
         type(command_t), intent(in) :: command      !! parsed, with the option
@@ -106,19 +85,9 @@ contains
         logical, intent(in), optional :: may_be_one !! may both be the same?
         integer, intent(in), optional :: above      !! the first must be above it
 
-        character(len=:), allocatable :: text
-        integer :: colon
-        logical :: are_numbers(2), are_good
+        logical :: are_good
 
-        text = option_text(command, name, default)
-        colon = index(text, ':')
-        are_numbers = .false.
-        ends = 0.0_wp
-        if (colon > 0) then
-            call parse_real(text(:colon - 1), ends(1), are_numbers(1))
-            call parse_real(text(colon + 1:), ends(2), are_numbers(2))
-        end if
-        if (.not. all(are_numbers)) call refuse_value(command, name, 'FIRST:LAST, two numbers')
+        call option_pair(command, name, default, 'FIRST:LAST', ends)
         are_good = ends(2) > ends(1)
         if (present(may_be_one)) are_good = are_good .or. (may_be_one .and. ends(2) >= ends(1))
         if (present(above)) are_good = are_good .and. ends(1) > above

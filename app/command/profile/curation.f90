@@ -1,11 +1,10 @@
 !> The options of `faststrip profile` that say what is done to points.
 module faststrip_command_profile_curation
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_text, only: parse_real
     use faststrip_geometry_arc_spline, only: standard_kink_angle
     use faststrip_files_profile_curation, only: curation_t
-    use faststrip_command_program_options, only: command_t, option_t, given, option_text, &
-                                                 option_number, refuse_value
+    use faststrip_command_program_options, only: command_t, option_t, given, option_number, &
+                                                 option_pair, refuse_value
     implicit none
     private
 
@@ -15,7 +14,7 @@ module faststrip_command_profile_curation
     real(wp), parameter :: mm_per_um = 1.0e-3_wp
 
     !> The options of the command line.
-    type(option_t), parameter :: curation_options(15) = [ &
+    type(option_t), parameter :: curation_options(14) = [ &
         option_t('--keep', 'FROM,TO', 'keep the points in this range of y, mm'), &
         option_t('--drop-double', 'MM', 'drop points no farther from the one before (0: in one' // &
                  new_line('a') // 'place)'), &
@@ -32,8 +31,7 @@ module faststrip_command_profile_curation
         option_t('--resample', 'MM', 'points at this distance along the profile'), &
         option_t('--kink-angle', 'DEG', 'what turns by more in one point is a kink' // &
                  new_line('a') // '(default 20)'), &
-        option_t('--round-kinks', '', 'smooth and resample over kinks'), &
-        option_t('--tape-circle', 'MM', 'where the tape circle of a wheel is, in y of the file')]
+        option_t('--round-kinks', '', 'smooth and resample over kinks')]
 
 contains
 
@@ -42,19 +40,9 @@ contains
         type(command_t), intent(in) :: command      !! a parsed command
         type(curation_t), intent(out) :: curation   !! what is to be done
 
-        character(len=:), allocatable :: text
-        integer :: comma
-        logical :: valid(2)
-
         if (given(command, '--keep')) then
-            text = option_text(command, '--keep', '')
-            comma = index(text, ',')
-            valid = .false.
-            if (comma > 0) then
-                call parse_real(text(:comma - 1), curation%keep(1), valid(1))
-                call parse_real(text(comma + 1:), curation%keep(2), valid(2))
-            end if
-            if (.not. all(valid) .or. curation%keep(2) <= curation%keep(1)) &
+            call option_pair(command, '--keep', '', 'FROM,TO', curation%keep)
+            if (curation%keep(2) <= curation%keep(1)) &
                 call refuse_value(command, '--keep', 'FROM,TO, the second number larger')
             curation%keeps = .true.
         end if

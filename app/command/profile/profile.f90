@@ -5,7 +5,7 @@ module faststrip_command_profile
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_comment, close_csv
     use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
-                                       length_unit, body_wheel, body_rail
+                                       body_wheel, body_rail
     use faststrip_files_profile_writer, only: write_profile, check_profile_name
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           profile_at
@@ -15,8 +15,10 @@ module faststrip_command_profile
     use faststrip_command_program_console, only: fail, fail_on_error, note, usage_error, &
                                                  put_origin, version_text, printable, exit_bad_input
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
-                                                 option_text, option_number, option_integer, &
-                                                 option_word, refuse_value
+                                                 option_text, option_word
+    use faststrip_command_settings_method_options, only: setting_options, read_option
+    use faststrip_command_settings_profiles, only: put_reading
+    use faststrip_command_settings_table, only: settings, value_t, of_group
     use faststrip_files_profile_curation, only: curation_t
     use faststrip_files_profile_taken, only: take_profile
     use faststrip_command_profile_curation, only: curation_options, take_curation
@@ -30,16 +32,6 @@ module faststrip_command_profile
 
     integer, parameter :: most_files = 100000
 
-    !> Options that tell how a file is to be read.
-    type(option_t), parameter :: reading_options(8) = [ &
-        option_t('--kind', 'KIND', 'wheel or rail, where the file does not say'), &
-        option_t('--section', 'N', 'which one, of a file with several'), &
-        option_t('--side', 'SIDE', 'right (default) or left, of a file with both'), &
-        option_t('--y-positive-to', 'SIDE', 'field or gauge: the sense of y in the file'), &
-        option_t('--z-positive-to', 'SIDE', 'down or up: the sense of z in the file'), &
-        option_t('--unit', 'UNIT', 'mm, m or in: the unit of the file'), &
-        option_t('--any-count', '', 'take a number of points that the header denies'), &
-        option_t('--ignore-smoothing', '', 'pass over the smoothing a file asks for')]
 
     ! Points of a standard profile along y, and their distance along the arc, mm.
     integer, parameter :: nominal_points = 4001
@@ -71,7 +63,8 @@ contains
             option_t('--draw', 'FILE.svg', 'draw the profile there', writes=.true.), &
             option_t('--nominal', 'NAME', 'wear against a standard profile or a file'), &
             option_t('--align', 'HOW', 'lay a rail on the nominal one: field (default), none'), &
-            reading_options, curation_options]
+            option_t('--kind', 'KIND', 'wheel or rail, where the file does not say'), &
+            setting_options('wheel'), curation_options]
         call parse_command(command, 1, most_files)
         call take_reading(command, options)
         call take_curation(command, curation)
@@ -104,33 +97,25 @@ contains
         if (n_failed > 0) stop exit_bad_input, quiet=.true.
     end subroutine run_profile
 
+    !> What the options say about how a file is to be read.
     subroutine take_reading(command, options)
         type(command_t), intent(in) :: command
         type(profile_options_t), intent(out) :: options
+
+        type(value_t) :: value
+        integer, allocatable :: rows(:)
+        integer :: i
 
         select case (option_word(command, '--kind', '', [character(len=5) :: 'wheel', 'rail']))
         case ('wheel'); options%kind = body_wheel
         case ('rail'); options%kind = body_rail
         end select
-        options%section = option_integer(command, '--section', 0, least=1)
-        if (option_word(command, '--side', 'right', [character(len=5) :: 'right', 'left']) == &
-            'left') options%side = -1
-        select case (option_word(command, '--y-positive-to', '', &
-                                 [character(len=5) :: 'field', 'gauge']))
-        case ('field'); options%y_sense = 1
-        case ('gauge'); options%y_sense = -1
-        end select
-        select case (option_word(command, '--z-positive-to', '', [character(len=4) :: 'down', &
-                                                                  'up']))
-        case ('down'); options%z_sense = 1
-        case ('up'); options%z_sense = -1
-        end select
-        if (given(command, '--unit')) options%unit_mm = &
-            length_unit(option_word(command, '--unit', 'mm', [character(len=2) :: 'mm', 'm', 'in']))
-        options%any_count = given(command, '--any-count')
-        options%ignore_smoothing = given(command, '--ignore-smoothing')
-        options%has_tape_circle = given(command, '--tape-circle')
-        options%tape_circle = option_number(command, '--tape-circle', 0.0_wp)
+        rows = of_group('wheel')
+        do i = 1, size(rows)
+            if (settings(rows(i))%option == '') cycle
+            call read_option(command, rows(i), value)
+            call put_reading(options, trim(settings(rows(i))%key), value)
+        end do
     end subroutine take_reading
 
     !> Take one file and measure it.

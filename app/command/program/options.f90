@@ -11,8 +11,12 @@ module faststrip_command_program_options
 
     public :: command_t, option_t, argument_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
-        option_text, option_number, option_integer, option_word, refuse_value, given_options, &
-        has_option
+        option_text, option_number, option_integer, option_word, option_pair, option_part, &
+        refuse_value, given_options, has_option, most_parts
+
+    !> Most parts of a work.
+    ! Tuned [parts]. Origin: capacity.
+    integer, parameter :: most_parts = 100000
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
@@ -313,6 +317,49 @@ contains
         if (present(or)) what = what // ' or ' // or
         if (.not. valid) call refuse_value(command, name, what)
     end function option_integer
+
+    !> Two numbers in the option's value; a usage error if they are none.
+    subroutine option_pair(command, name, default, names, pair)
+        type(command_t), intent(in) :: command  !! a parsed command
+        character(len=*), intent(in) :: name    !! with its dashes
+        character(len=*), intent(in) :: default !! if it was not given
+        character(len=*), intent(in) :: names   !! of the two, with what parts them, as `LOW:HIGH`
+        real(wp), intent(out) :: pair(2)        !! finite
+
+        character(len=:), allocatable :: text
+        integer :: mark, at
+        logical :: valid(2)
+
+        text = option_text(command, name, default)
+        mark = scan(names, ':,')
+        at = index(text, names(mark:mark))
+        call parse_real(text(:max(at - 1, 0)), pair(1), valid(1))
+        call parse_real(text(at + 1:), pair(2), valid(2))
+        if (at == 0 .or. .not. all(valid)) &
+            call refuse_value(command, name, names // ', two numbers')
+    end subroutine option_pair
+
+    !> Which part of how many `--part` names; a usage error if it is no part.
+    subroutine option_part(command, part, parts)
+        type(command_t), intent(in) :: command !! a parsed command
+        integer, intent(out) :: part           !! from 1 on; 1 if the option was not given
+        integer, intent(out) :: parts          !! how many
+
+        character(len=:), allocatable :: text
+        integer :: slash
+        logical :: valid(2)
+
+        part = 1
+        parts = 1
+        if (.not. given(command, '--part')) return
+        text = option_text(command, '--part', '')
+        slash = index(text, '/')
+        call parse_integer(text(:max(slash - 1, 0)), part, valid(1))
+        call parse_integer(text(slash + 1:), parts, valid(2))
+        if (slash == 0 .or. .not. all(valid) .or. part < 1 .or. part > parts .or. &
+            parts > most_parts) call refuse_value(command, '--part', 'k/K, a part and how many ' &
+                // 'there are, k from 1 to K, K up to ' // integer_text(most_parts))
+    end subroutine option_part
 
     !> The option's value, which has to be one of some words; a usage error if it is none.
     function option_word(command, name, default, words) result(word)

@@ -30,9 +30,10 @@ contains
         if (len(case%gap_file) > 0) then
             call put_comment(writer, 'gap ' // case%gap_file)
         else
-            call put_comment(writer, 'wheel ' // case%wheel%name // ', rail ' // case%rail%name)
-            call tell(case%wheel%words)
-            call tell(case%rail%words)
+            call put_comment(writer, 'wheel ' // case%bodies%wheel%name // ', rail ' &
+                             // case%bodies%rail%name)
+            call tell(case%bodies%wheel%words)
+            call tell(case%bodies%rail%words)
         end if
         call put_notes(writer, case)
         call tell_held(writer)

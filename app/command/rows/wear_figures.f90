@@ -2,18 +2,15 @@
 module faststrip_command_rows_wear_figures
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_wear_law, only: read_wear_law
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_types, only: strip_forces_t
     use faststrip_tangential_wear_law, only: wear_law_t, wear_t, find_strip_wear, &
                                              wheel_depth_per_km
     use faststrip_tangential_wear_numbers, only: strip_power_densities
-    use faststrip_command_program_console, only: fail_on_error
-    use faststrip_command_settings_methods, only: settings_t
     implicit none
     private
 
-    public :: take_wear_law, strip_wear_t, make_strip_wear
+    public :: strip_wear_t, make_strip_wear
 
     !> Wear of the strips of one contact.
     type :: strip_wear_t
@@ -25,18 +22,6 @@ module faststrip_command_rows_wear_figures
     end type strip_wear_t
 
 contains
-
-    !> Read a wear law; ends the program with one line at what is wrong.
-    subroutine take_wear_law(path, case)
-        character(len=*), intent(in) :: path      !! name of the file
-        class(settings_t), intent(inout) :: case !! gets law and source
-
-        type(status_t) :: status
-
-        call read_wear_law(path, case%wear_law, case%wear_source, status)
-        call fail_on_error(status)
-        case%wear_file = path
-    end subroutine take_wear_law
 
     !> Wear of a contact that was solved with forces, strip by strip.
     subroutine make_strip_wear(law, strips, forces, radius, wear)

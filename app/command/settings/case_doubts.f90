@@ -26,7 +26,7 @@ contains
         if (len(case%gap_file) > 0) then
             size_of = gap_size(prepared%gap%y, prepared%gap%h, prepared%gap%inv2r)
         else
-            size_of%radius = case%wheelset%radius
+            size_of%radius = case%bodies%wheelset%radius
         end if
         call find_doubts(prepared%contact_case_t, size_of, case_names(), doubts)
         if (len(case%gap_file) > 0) then
@@ -47,7 +47,7 @@ contains
         type(gap_size_t) :: size_of
         integer :: i
 
-        size_of%radius = case%wheelset%radius
+        size_of%radius = case%bodies%wheelset%radius
         do i = 1, size(case%shifts)
             shifted%contact_case_t = case%contact_case_t
             shifted%shift = case%shifts(i)

@@ -8,7 +8,6 @@ module faststrip_command_settings_doubts
     use faststrip_contact_plausible, only: doubts_t
     use faststrip_command_program_console, only: hold
     use faststrip_command_batch_manifest, only: number_text_of
-    use faststrip_command_settings_namelist, only: namelist_file_t, group_t, place_setting
     implicit none
     private
 
@@ -36,22 +35,17 @@ contains
         end do
     end subroutine hold_doubts
 
-    !> Keep words about a number of a case file, if it is set there and outside of practice.
-    subroutine hold_value(content, group, name, quantity, value, radius)
-        type(namelist_file_t), intent(in) :: content !! a case file
-        type(group_t), intent(in) :: group           !! a group of it
-        character(len=*), intent(in) :: name         !! name in the group
-        integer, intent(in) :: quantity              !! place in the table of quantities
-        real(wp), intent(in) :: value                !! what the group gave it
-        real(wp), intent(in), optional :: radius     !! rolling radius, mm
+    !> Keep words about a number that is outside of practice.
+    subroutine hold_value(quantity, name, value, place)
+        integer, intent(in) :: quantity       !! place in the table of quantities
+        character(len=*), intent(in) :: name  !! of the number
+        real(wp), intent(in) :: value         !! in the unit of that table
+        character(len=*), intent(in) :: place !! where it stands
 
         character(len=message_length) :: words
-        character(len=:), allocatable :: place
 
-        words = doubt_about(quantity, '&' // group%name // ' ' // name, value, radius)
-        if (words == '') return
-        place = place_setting(content, group, name)
-        if (len(place) > 0) call hold(trim(words) // ' (' // place // ')')
+        words = doubt_about(quantity, name, value)
+        if (words /= '') call hold(trim(words) // ' (' // place // ')')
     end subroutine hold_value
 
     !> Count what is doubtful in a row.

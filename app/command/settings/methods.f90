@@ -1,113 +1,93 @@
-!> Which methods a contact is solved by, and how finely.
+!> Which methods a contact is solved by, and how finely, as people say it.
 module faststrip_command_settings_methods
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: number_text
-    use faststrip_base_text, only: integer_text
-    use faststrip_normal_strip, only: strips_auto
-    use faststrip_tangential_types, only: most_points_per_strip => most_points
+    use faststrip_base_status, only: status_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: method_t, tangential_none, method_name_length, &
-                                         most_strips, most_points => most_rows
+    use faststrip_contact_methods, only: method_t, normal_method, tangential_method, &
+                                         tangential_none
     use faststrip_contact_wanted, only: target_pmax
+    use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
+    use faststrip_files_wear_law, only: read_wear_law
+    use faststrip_command_program_console, only: fail_on_error
+    use faststrip_command_settings_table, only: value_t
     implicit none
     private
 
-    public :: settings_t, check_settings, settle_wanted, one_of, in_core
-    public :: most_strips, most_points, most_points_per_strip, most_elements
-    public :: word_length, norm_starts
+    public :: settings_t, put_setting, settle_wanted, in_core
 
-    !> Length of a word of the case file, characters.
-    integer, parameter :: word_length = method_name_length
-    !> What norm starts from, `start_coarse` and `start_strips`: a coarser grid, which gives errors
-    !> too, or strips.
-    character(len=word_length), parameter :: norm_starts(2) = [character(len=word_length) :: &
-        'coarse', 'strips']
-    !> What the user may ask for: 10 GB of memory.
-    integer, parameter :: most_elements = 20000000
+    ! Millimetres of a micrometre.
+    real(wp), parameter :: mm_per_um = 1.0e-3_wp
 
     !> A contact's case with what only people give, or need to be told.
     type, extends(contact_case_t) :: settings_t
         character(len=:), allocatable :: wear_file   !! of the wear law; or not allocated
         character(len=:), allocatable :: wear_source !! what the file names as its source
+        real(wp) :: gap_step = standard_gap_step     !! sampling of a gap of two profiles, mm
+        real(wp) :: gap_height = standard_gap_height !! largest gap sampled, mm
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
-        logical :: target_is_given = .false. !! else it is pmax where no forces are asked for
+        logical :: target_is_given = .false.    !! else it is pmax where no forces are asked for
     end type settings_t
 
 contains
 
-    !> Find the first name that is out of range; `what` is empty if there is none. The methods are
-    !> numbers of the list.
-    subroutine check_settings(case, smoothing_um, what, range, value)
-        class(settings_t), intent(in) :: case               !! as the user gave them
-        real(wp), intent(in) :: smoothing_um                !! the same, um
-        character(len=:), allocatable, intent(out) :: what  !! name of the culprit
-        character(len=:), allocatable, intent(out) :: range !! what it must be
-        character(len=:), allocatable, intent(out) :: value !! its value
+    !> Set what one setting says: the only place that knows where it goes. Of a case file, of an
+    !> option, of a column of a table. Ends the program if a file that it names cannot be read.
+    subroutine put_setting(choice, key, value)
+        class(settings_t), intent(inout) :: choice !! gets it
+        character(len=*), intent(in) :: key        !! name in a case file, or column of a batch
+        type(value_t), intent(in) :: value         !! as the table of settings allows it
 
-        what = ''
-        range = ''
-        value = ''
-        associate (methods => case%methods)
-            if (methods%strips_per_patch /= strips_auto) &
-                call check('strips_per_patch', methods%strips_per_patch, 1, most_strips)
-            call check('points_per_strip', methods%points_per_strip, 1, most_points_per_strip)
-            call check('fastsim_nx', methods%fastsim_nx, 1, most_points)
-            call check('fastsim_ny', methods%fastsim_ny, 1, most_points)
-            call check('max_elements', methods%max_elements, 1, most_elements)
-            call check_real('element_dx_mm', methods%element_dx, .false.)
-            call check_real('element_dy_mm', methods%element_dy, .false.)
-            call check_real('error_target', methods%error_target, .true.)
+        type(status_t) :: status
+
+        associate (methods => choice%methods, wanted => choice%wanted)
+            select case (key)
+            case ('E_wheel_MPa'); choice%material%e_wheel = value%number
+            case ('E_rail_MPa'); choice%material%e_rail = value%number
+            case ('nu_wheel'); choice%material%nu_wheel = value%number
+            case ('nu_rail'); choice%material%nu_rail = value%number
+            case ('mu'); choice%mu = value%number
+            case ('cksi'); choice%creepage%cksi = value%number
+            case ('ceta'); choice%creepage%ceta = value%number
+            case ('cphi_rad_per_mm'); choice%creepage%cphi = value%number
+            case ('speed_mm_s'); choice%friction%speed = value%number
+            case ('normal'); methods%normal = normal_method(value%text)
+            case ('tangential'); methods%tangential = tangential_method(value%text)
+            case ('strips_per_patch'); methods%strips_per_patch = value%whole
+            case ('points_per_strip'); methods%points_per_strip = value%whole
+            case ('fastsim_nx'); methods%fastsim_nx = value%whole
+            case ('fastsim_ny'); methods%fastsim_ny = value%whole
+            case ('element_dx_mm')
+                methods%element_dx = value%number
+                methods%dx_is_given = .true.
+            case ('element_dy_mm')
+                methods%element_dy = value%number
+                methods%dy_is_given = .true.
+            case ('error_target'); methods%error_target = value%number
+            case ('max_elements'); methods%max_elements = value%whole
+            case ('norm_start'); methods%norm_start = value%whole
+            case ('resolution_limit'); choice%resolution_limit = value%number
+            case ('force_limit'); choice%force_limit = value%number
+            case ('yield_MPa'); choice%yield = value%number
+            case ('yield_shear_MPa'); choice%yield_shear = value%number
+            case ('smoothing_um'); choice%smoothing = mm_per_um*value%number
+            case ('tolerance')
+                wanted%tolerance = value%number
+                choice%tolerance_is_given = .true.
+            case ('target')
+                wanted%target = value%whole
+                choice%target_is_given = .true.
+            case ('budget_us'); wanted%budget_us = value%number
+            case ('gap_step_mm'); choice%gap_step = value%number
+            case ('gap_height_mm'); choice%gap_height = value%number
+            case ('wear_file')
+                call read_wear_law(value%text, choice%wear_law, choice%wear_source, status)
+                call fail_on_error(status)
+                choice%wear_file = value%text
+            case default
+                error stop 'faststrip: a setting has no place in a case'
+            end select
         end associate
-        call check_real('yield_MPa', case%yield, .true.)
-        call check_real('yield_shear_MPa', case%yield_shear, .true.)
-        call check_real('smoothing_um', smoothing_um, .true.)
-        call check_real('tolerance', case%wanted%tolerance, case%wanted%budget_us > 0.0_wp)
-        call check_real('budget_us', case%wanted%budget_us, .true.)
-
-    contains
-
-        subroutine check(name, number, least, most)
-            character(len=*), intent(in) :: name
-            integer, intent(in) :: number, least, most
-
-            if (number >= least .and. number <= most) return
-            if (len(what) > 0) return
-            what = name
-            range = 'a whole number from ' // integer_text(least) // ' to ' // integer_text(most)
-            value = integer_text(number)
-        end subroutine check
-
-        subroutine check_real(name, number, may_be_zero)
-            character(len=*), intent(in) :: name
-            real(wp), intent(in) :: number
-            logical, intent(in) :: may_be_zero
-
-            if (len(what) > 0) return
-            if (ieee_is_finite(number)) then
-                if (number > 0.0_wp .or. may_be_zero .and. number >= 0.0_wp) return
-            end if
-            what = name
-            range = 'a number above 0'
-            if (may_be_zero) range = 'a number from 0 on'
-            value = trim(number_text(number))
-        end subroutine check_real
-    end subroutine check_settings
-
-    !> What a word must be.
-    pure function one_of(words) result(text)
-        character(len=*), intent(in) :: words(:)
-        character(len=len('one of ') + sum(len_trim(words)) + len(', ')*(size(words) - 1)) :: text
-
-        integer :: i, filled
-
-        text = 'one of ' // trim(words(1))
-        filled = len('one of ') + len_trim(words(1))
-        do i = 2, size(words)
-            text(filled + 1:) = ', ' // trim(words(i))
-            filled = filled + len(', ') + len_trim(words(i))
-        end do
-    end function one_of
+    end subroutine put_setting
 
     !> Is it a method of the embeddable core?
     pure logical function in_core(table, number)

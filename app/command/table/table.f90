@@ -2,14 +2,14 @@
 module faststrip_command_table
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
-    use faststrip_base_text, only: parse_real, integer_text
+    use faststrip_base_text, only: integer_text
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_lsq, fit_minimax_error, fit_author
     use faststrip_command_program_console, only: fail_on_error, usage_error, progress
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer, option_word, &
-                                                 refuse_value
+                                                 option_pair, refuse_value
     use faststrip_command_table_audit, only: write_audit
     use faststrip_command_table_curves, only: write_curves, write_degrees
     use faststrip_command_table_distances, only: parse_distances
@@ -181,22 +181,11 @@ contains
         type(command_t), intent(in) :: command
         real(wp), intent(out) :: l_min, l_max
 
-        character(len=:), allocatable :: text
-        integer :: colon
-        logical :: low_valid, high_valid
+        real(wp) :: ends(2)
 
-        text = option_text(command, '--range', '')
-        colon = index(text, ':')
-        l_min = 0.0_wp
-        l_max = 0.0_wp
-        low_valid = .false.
-        high_valid = .false.
-        if (colon > 0) then
-            call parse_real(text(:colon - 1), l_min, low_valid)
-            call parse_real(text(colon + 1:), l_max, high_valid)
-        end if
-        if (.not. (low_valid .and. high_valid)) &
-            call refuse_value(command, '--range', 'LOW:HIGH, two numbers')
+        call option_pair(command, '--range', '', 'LOW:HIGH', ends)
+        l_min = ends(1)
+        l_max = ends(2)
     end subroutine take_range
 
     subroutine take_distances(command, default, n)

@@ -11,7 +11,8 @@ module faststrip_command_wheelset_conicity
                                            largest_amplitude
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, put_origin, &
                                                  tell_held, exit_bad_input
-    use faststrip_command_settings_case_wheelset, only: case_wheelset_t, read_case_wheelset
+    use faststrip_command_settings_case_file, only: read_bodies_of
+    use faststrip_command_settings_profiles, only: bodies_t
     use faststrip_command_wheelset_contact_functions, only: tabulate_functions, write_functions, &
                                                             put_wheelset
     use faststrip_geometry_contact_functions, only: contact_functions_t
@@ -55,7 +56,7 @@ contains
     !> Run the subcommand from the command line.
     subroutine run_conicity()
         type(command_t) :: command
-        type(case_wheelset_t) :: case
+        type(bodies_t) :: case
         type(contact_functions_t), allocatable :: functions(:)
         character(len=:), allocatable :: method, path
         real(wp), allocatable :: y(:), delta_r(:), amplitudes(:)
@@ -116,7 +117,7 @@ contains
                 command%name)
             if (y_step > y_max) call usage_error('--y-step must be at most --y-max, got ' &
                 // trim(number_text(y_step)) // ' and ' // trim(number_text(y_max)), command%name)
-            call read_case_wheelset(path, case)
+            call read_bodies_of(path, case)
             call tabulate_functions(path, case, y_step, int(y_max/y_step + step_slack), &
                                     given(command, '--roll'), functions)
             y = functions%shift
@@ -281,7 +282,7 @@ contains
         real(wp), intent(in) :: amplitudes(:)
         type(values_t), intent(in) :: values
         logical, intent(in) :: from_table
-        type(case_wheelset_t), intent(in) :: case
+        type(bodies_t), intent(in) :: case
 
         type(csv_writer_t) :: writer
         type(status_t) :: status

@@ -7,7 +7,7 @@ module faststrip_command_wheelset_contact_functions
     use faststrip_geometry_contact_functions, only: side_t, contact_functions_t, &
                                                     find_contact_functions
     use faststrip_geometry_rigid_contact, only: rigid_contact_t
-    use faststrip_command_settings_case_wheelset, only: case_wheelset_t
+    use faststrip_command_settings_profiles, only: bodies_t
     use faststrip_command_program_console, only: fail_on_error, put_origin
     implicit none
     private
@@ -25,7 +25,7 @@ contains
     !> a profile; ends the program if it does in the middle.
     subroutine tabulate_functions(path, case, y_step, n_steps, with_roll, functions)
         character(len=*), intent(in) :: path        !! of the case, for the message
-        type(case_wheelset_t), intent(in) :: case   !! both sides
+        type(bodies_t), intent(in) :: case   !! both sides
         real(wp), intent(in) :: y_step              !! of the shift, mm
         integer, intent(in) :: n_steps              !! from the middle to there
         logical, intent(in) :: with_roll            !! else the wheelset stays level
@@ -36,7 +36,7 @@ contains
         type(status_t) :: status
         integer :: i, direction, ends(-1:1)
 
-        right = side_t(case%right_wheel%profile, case%right_rail%profile, case%wheelset%radius)
+        right = side_t(case%wheel%profile, case%rail%profile, case%wheelset%radius)
         left = side_t(case%left_wheel%profile, case%left_rail%profile, case%left_wheel%radius)
         allocate (found(-n_steps:n_steps))
         call find(0)
@@ -65,7 +65,7 @@ contains
     !> One row a shift.
     subroutine write_functions(output, case, functions)
         character(len=*), intent(in) :: output               !! file, or `-`
-        type(case_wheelset_t), intent(in) :: case            !! both sides
+        type(bodies_t), intent(in) :: case            !! both sides
         type(contact_functions_t), intent(in) :: functions(:) !! to be written
 
         type(csv_writer_t) :: writer
@@ -105,20 +105,20 @@ contains
     !> What the wheelset of a case is, as comments.
     subroutine put_wheelset(writer, case)
         type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(case_wheelset_t), intent(in) :: case   !! both sides
+        type(bodies_t), intent(in) :: case   !! both sides
 
-        call put_comment(writer, 'right wheel ' // case%right_wheel%name // ', rail ' &
-                         // case%right_rail%name // ', radius ' &
+        call put_comment(writer, 'right wheel ' // case%wheel%name // ', rail ' &
+                         // case%rail%name // ', radius ' &
                          // trim(number_text(case%wheelset%radius)) // ' mm')
         call put_comment(writer, 'left wheel ' // case%left_wheel%name // ', rail ' &
                          // case%left_rail%name // ', radius ' &
                          // trim(number_text(case%left_wheel%radius)) // ' mm')
         call put_comment(writer, 'gauge ' // track_text() // ', flange backs ' // &
                          trim(number_text(case%wheelset%back_spacing)) // ' mm apart')
-        call tell(case%right_wheel%words)
-        call tell(case%right_rail%words)
-        if (case%left_wheel%name /= case%right_wheel%name) call tell(case%left_wheel%words)
-        if (case%left_rail%name /= case%right_rail%name) call tell(case%left_rail%words)
+        call tell(case%wheel%words)
+        call tell(case%rail%words)
+        if (case%left_wheel%name /= case%wheel%name) call tell(case%left_wheel%words)
+        if (case%left_rail%name /= case%rail%name) call tell(case%left_rail%words)
 
     contains
 

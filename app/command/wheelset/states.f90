@@ -9,43 +9,32 @@ module faststrip_command_wheelset_states
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_wheelset_types, only: wheelset_demand_t, wheelset_model_t, demand_position, &
                                         demand_loads, demand_axle_load, side_right, side_left
+    use faststrip_command_settings_table, only: n_state, state_names
     implicit none
     private
 
-    public :: given_state_t, state_names, state_columns_t, n_numbers
+    public :: given_state_t, state_columns_t
     public :: find_state_columns, read_state_row, take_state
 
-    !> How many numbers a state has.
-    integer, parameter :: n_numbers = 25
-    integer, parameter :: n_needed = 6 ! of them, in a table
-    ! Where they are.
+    integer, parameter :: n_needed = 6 ! numbers whose columns a table must have: the first
+    ! Where the numbers are.
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
                           at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20]
     integer, parameter :: n_rail = 6 ! numbers of a rail
 
-    !> Names of the numbers, in tables and in the group `&state`; the first six must be columns of a
-    !> table.
-    character(len=*), parameter :: state_names(n_numbers) = [character(len=26) :: &
-        'y_mm', 'roll_rad', 'yaw_rad', 'speed_mm_s', 'pitch_rate_rad_s', 'Fz_N', 'z_mm', &
-        'vy_mm_s', 'vz_mm_s', 'roll_rate_rad_s', 'yaw_rate_rad_s', 'curve_radius_mm', &
-        'roll_moment_Nmm', 'rail_right_y_mm', 'rail_right_z_mm', 'rail_right_roll_rad', &
-        'rail_right_vy_mm_s', 'rail_right_vz_mm_s', 'rail_right_roll_rate_rad_s', &
-        'rail_left_y_mm', 'rail_left_z_mm', 'rail_left_roll_rad', 'rail_left_vy_mm_s', &
-        'rail_left_vz_mm_s', 'rail_left_roll_rate_rad_s']
-
     !> A state as it was given.
     type :: given_state_t
         character(len=8) :: side = 'both'                !! left, right or both
-        real(wp) :: number(n_numbers) = 0.0_wp           !! those that are given
-        logical :: is_given(n_numbers) = .false.         !! which are
+        real(wp) :: number(n_state) = 0.0_wp           !! those that are given
+        logical :: is_given(n_state) = .false.         !! which are
     end type given_state_t
 
     !> Where the columns of a table are.
     type :: state_columns_t
         integer :: case = 0                  !! name of the row
         integer :: side = 0                  !! left, right or both
-        integer :: number(n_numbers) = 0     !! 0: there is none
+        integer :: number(n_state) = 0     !! 0: there is none
     end type state_columns_t
 
 contains
@@ -61,7 +50,7 @@ contains
         call require_column(table, 'case', columns%case, status)
         if (is_error(status)) return
         call require_column(table, 'side', columns%side, status)
-        do i = 1, n_numbers
+        do i = 1, n_state
             if (is_error(status)) return
             if (i <= n_needed) then
                 call require_column(table, trim(state_names(i)), columns%number(i), status)
@@ -84,7 +73,7 @@ contains
 
         call clear_status(status)
         given%side = cell_text(table, row, columns%side)
-        do i = 1, n_numbers
+        do i = 1, n_state
             if (columns%number(i) == 0) cycle
             given%is_given(i) = len(cell_text(table, row, columns%number(i))) > 0
             if (.not. given%is_given(i)) cycle
@@ -109,7 +98,7 @@ contains
                             // trim(given%side) // "'")
             return
         end if
-        do i = 1, n_numbers
+        do i = 1, n_state
             if (.not. given%is_given(i)) cycle
             if (.not. ieee_is_finite(given%number(i))) then
                 call set_status(status, st_bad_argument, trim(state_names(i)) // ' must be a ' // &

@@ -22,8 +22,9 @@ module faststrip_command_wheelset
     use faststrip_command_program_plot, only: plot_option, prepare_plot, plot_file
     use faststrip_command_program_outputs, only: open_outputs, close_outputs
     use faststrip_command_rows_result_csv, only: note_wear
-    use faststrip_command_rows_wear_figures, only: take_wear_law
-    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
+    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case, make_model
+    use faststrip_command_settings_method_options, only: method_options, method_notes, &
+                                                         take_method_options
     use faststrip_command_settings_case_doubts, only: count_pressure
     use faststrip_command_settings_doubts, only: tally_t, hold_tally
     use faststrip_command_wheelset_doubts, only: hold_wheelset_doubts
@@ -118,23 +119,19 @@ contains
                      'with a result)'), &
             option_t('--near-jumps', 'UM', 'list solutions UM to the left and right where ' // &
                      'contacts jump'), &
-            option_t('--yield-shear-MPa', 'MPA', 'yield stress in cyclic shear, for ' // &
-                     'fatigue_index'), &
-            option_t('--wear', 'FILE.csv', 'wear law, for wear_ug_per_m; faststrip, ' // &
-                     'faststrip-plain', reads=.true.)]
+            method_options()]
+        command%about = command%about // method_notes()
         call parse_command(command, 1)
         call prepare_plot(command)
-        call read_wheelset_case(command%arguments(1)%text, case, run%model)
+        call read_wheelset_case(command%arguments(1)%text, case)
+        call take_method_options(command, case)
+        call make_model(command%arguments(1)%text, case, run%model)
         if (given(command, '--states') .eqv. case%has_state) &
             call usage_error('the states are needed, from --states or from the group &state of ' &
                              // 'the case, and not from both', command%name)
         if (given(command, '--profiles-of') .and. .not. (given(command, '--profiles') .or. &
                                                          given(command, '--plot'))) &
             call usage_error('--profiles-of: it needs --profiles', command%name)
-        run%model%case%yield_shear = option_number(command, '--yield-shear-MPa', &
-                                                   case%yield_shear, least=0)
-        if (given(command, '--wear')) call take_wear_law(option_text(command, '--wear', ''), case)
-        run%model%case%wear_law = case%wear_law
         run%beside = um*option_number(command, '--near-jumps', 0.0_wp, least=0)
         run%wants_strips = given(command, '--strips')
         run%wants_fields = given(command, '--fields')

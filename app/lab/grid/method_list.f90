@@ -1,15 +1,13 @@
 !> Lists of methods and resolutions, CSV files of the reference folder: what benches compare.
 module faststrip_lab_grid_method_list
-    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, read_csv, require_column, column_index, cell_text, &
-                                   cell_integer, cell_number
+                                   cell_integer
     use faststrip_command_program_console, only: fail, fail_on_error, exit_bad_input
-    use faststrip_contact_wanted, only: target_number, target_names
-    use faststrip_command_settings_methods, only: settings_t, check_settings, settle_wanted, one_of
-    use faststrip_contact_methods, only: contact_methods_t, normal_method, tangential_method, &
-                                         normal_table, tangential_table
+    use faststrip_command_settings_methods, only: settings_t, put_setting, settle_wanted
+    use faststrip_command_settings_table, only: settings, value_t, of_group, find_setting, &
+                                                read_value, full_words, one_of, no_fault
     implicit none
     private
 
@@ -36,7 +34,6 @@ contains
 
         type(csv_table_t) :: table
         type(status_t) :: status
-        character(len=:), allocatable :: what, range, value
         integer :: row
 
         call read_csv(file, table, status)
@@ -48,20 +45,9 @@ contains
             entries(row)%when = text('when')
             if (all(stages /= entries(row)%stage)) &
                 call refuse('stage', one_of(stages), entries(row)%stage)
-            entries(row)%settings%methods%normal = normal_method(text('normal'))
-            if (entries(row)%settings%methods%normal < 0) &
-                call refuse('normal', one_of(normal_table%name), text('normal'))
-            entries(row)%settings%methods%tangential = tangential_method(text('tangential'))
-            if (entries(row)%settings%methods%tangential < 0) &
-                call refuse('tangential', one_of(tangential_table%name), text('tangential'))
-            call take_number('strips_per_patch', entries(row)%settings%methods%strips_per_patch)
-            call take_number('points_per_strip', entries(row)%settings%methods%points_per_strip)
-            call take_number('fastsim_nx', entries(row)%settings%methods%fastsim_nx)
-            call take_number('fastsim_ny', entries(row)%settings%methods%fastsim_ny)
-            call take_side(entries(row)%settings%methods)
-            call take_wanted(entries(row))
-            call check_settings(entries(row)%settings, 0.0_wp, what, range, value)
-            if (len(what) > 0) call refuse(what, range, value)
+            call take_settings(entries(row)%settings)
+            call take_sides(entries(row)%settings)
+            call take_across(entries(row)%across)
             call settle_wanted(entries(row)%settings)
         end do
 
@@ -78,19 +64,6 @@ contains
             text = cell_text(table, row, column)
         end function text
 
-        !> An empty cell leaves the default.
-        subroutine take_number(name, number)
-            character(len=*), intent(in) :: name
-            integer, intent(inout) :: number
-
-            integer :: column
-
-            if (text(name) == '') return
-            call require_column(table, name, column, status)
-            call cell_integer(table, row, column, number, status)
-            call fail_on_error(status)
-        end subroutine take_number
-
         !> A column that may be missing.
         function further(name)
             character(len=*), intent(in) :: name
@@ -99,45 +72,57 @@ contains
             further = cell_text(table, row, column_index(table, name))
         end function further
 
-        !> What belongs to contacts of many sizes, and to auto.
-        subroutine take_wanted(entry)
-            type(method_entry_t), intent(inout) :: entry
+        !> The columns that are named as settings; an empty cell leaves the default.
+        subroutine take_settings(case)
+            class(settings_t), intent(inout) :: case
 
-            integer :: column
+            type(value_t) :: value
+            integer, allocatable :: rows(:)
+            integer :: i
 
-            if (further('across') /= '') then
-                column = column_index(table, 'across')
-                call cell_integer(table, row, column, entry%across, status)
-                call fail_on_error(status)
-                if (entry%across < 2) &
-                    call refuse('across', 'a whole number from 2 on', further('across'))
-            end if
-            if (further('target') /= '') then
-                entry%settings%wanted%target = target_number(further('target'))
-                entry%settings%target_is_given = .true.
-            end if
-            if (entry%settings%wanted%target == 0) &
-                call refuse('target', one_of(target_names), further('target'))
-            if (further('tolerance') == '') return
-            column = column_index(table, 'tolerance')
-            call cell_number(table, row, column, entry%settings%wanted%tolerance, status)
-            call fail_on_error(status)
-        end subroutine take_wanted
+            rows = of_group('numerics')
+            do i = 1, size(rows)
+                if (further(trim(settings(rows(i))%key)) == '') cycle
+                call read_cell(rows(i), trim(settings(rows(i))%key), value)
+                call put_setting(case, trim(settings(rows(i))%key), value)
+            end do
+        end subroutine take_settings
 
         !> Elements are squares.
-        subroutine take_side(methods)
-            type(contact_methods_t), intent(inout) :: methods
+        subroutine take_sides(case)
+            class(settings_t), intent(inout) :: case
 
-            integer :: column
+            character(len=*), parameter :: sides(2) = ['element_dx_mm', 'element_dy_mm']
+            type(value_t) :: value
+            integer :: i
 
             if (further('element_mm') == '') return
-            column = column_index(table, 'element_mm')
-            call cell_number(table, row, column, methods%element_dx, status)
+            do i = 1, size(sides)
+                call read_cell(find_setting('numerics', sides(i)), 'element_mm', value)
+                call put_setting(case, sides(i), value)
+            end do
+        end subroutine take_sides
+
+        subroutine read_cell(setting, name, value)
+            integer, intent(in) :: setting
+            character(len=*), intent(in) :: name
+            type(value_t), intent(inout) :: value
+
+            integer :: fault
+
+            call read_value(settings(setting), further(name), value, fault)
+            if (fault /= no_fault) call refuse(name, full_words(settings(setting)), further(name))
+        end subroutine read_cell
+
+        !> What belongs to contacts of many sizes.
+        subroutine take_across(across)
+            integer, intent(inout) :: across
+
+            if (further('across') == '') return
+            call cell_integer(table, row, column_index(table, 'across'), across, status)
             call fail_on_error(status)
-            methods%element_dy = methods%element_dx
-            methods%dx_is_given = .true.
-            methods%dy_is_given = .true.
-        end subroutine take_side
+            if (across < 2) call refuse('across', 'a whole number from 2 on', further('across'))
+        end subroutine take_across
 
         subroutine refuse(name, must, wrong)
             character(len=*), intent(in) :: name, must, wrong

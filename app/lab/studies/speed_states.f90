@@ -11,7 +11,7 @@ module faststrip_lab_studies_speed_states
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_command_program_clock, only: cpu_microseconds
     use faststrip_command_program_console, only: fail_on_error
-    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
+    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case, make_model
     use faststrip_command_wheelset_states, only: given_state_t, state_columns_t, &
                                                  find_state_columns, read_state_row, take_state
     implicit none
@@ -50,7 +50,8 @@ contains
         type(status_t) :: status
         integer :: row, n
 
-        call read_wheelset_case(in_checkout('example/wheelset_states.nml'), case, states%model)
+        call read_wheelset_case(in_checkout('example/wheelset_states.nml'), case)
+        call make_model(in_checkout('example/wheelset_states.nml'), case, states%model)
         call reserve_wheelset(states%workspace, states%model, status)
         call fail_on_error(status)
         call read_csv(in_checkout('example/wheelset_states.csv'), table, status)

@@ -2,9 +2,10 @@
 module faststrip_command_lookup_wheel_case
     use faststrip_base_friction, only: falls
     use faststrip_base_kinds, only: wp
-    use faststrip_command_settings_case_wheelset, only: case_wheelset_t, read_case_wheelset
+    use faststrip_command_settings_case_file, only: read_bodies_of
+    use faststrip_command_settings_profiles, only: bodies_t
     use faststrip_command_program_console, only: fail, exit_bad_input
-    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case
+    use faststrip_command_wheelset_case, only: wheelset_case_t, read_wheelset_case, make_model
     use faststrip_wheelset_types, only: wheelset_model_t
     implicit none
     private
@@ -21,7 +22,8 @@ contains
 
         type(wheelset_case_t) :: case
 
-        call read_wheelset_case(path, case, model, for_table=.true.)
+        call read_wheelset_case(path, case, for_table=.true.)
+        call make_model(path, case, model)
         if (case%has_state) call fail(exit_bad_input, 'a lookup table is of all states: &state ' &
                                       // 'must not be given (' // path // ')')
         if (falls(case%friction) .or. case%friction%slope_factor < 1.0_wp .or. &
@@ -35,10 +37,10 @@ contains
         character(len=*), intent(in) :: path !! name of the `.nml` file
         character(len=:), allocatable :: text
 
-        type(case_wheelset_t) :: case
+        type(bodies_t) :: bodies
 
-        call read_case_wheelset(path, case)
-        text = 'right wheel ' // case%right_wheel%name // ' on rail ' // case%right_rail%name &
+        call read_bodies_of(path, bodies)
+        text = 'right wheel ' // bodies%wheel%name // ' on rail ' // bodies%rail%name &
                // new_line('a')
     end function wheel_text
 end module faststrip_command_lookup_wheel_case

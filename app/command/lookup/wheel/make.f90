@@ -13,7 +13,7 @@ module faststrip_command_lookup_wheel_make
     use faststrip_command_lookup_grid, only: sampled_axis_t, start_axis, refine_axis, nodes_of, &
                                              axis_q, axis_ratio
     use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
-                                                take_threads, take_ends, take_part, choice_text
+                                                take_threads, take_ends, choice_text
     use faststrip_command_lookup_parts, only: take_work, work_name
     use faststrip_command_lookup_wheel_case, only: read_wheel_case, wheel_text
     use faststrip_command_lookup_wheel_fill, only: set_source_t, begin_wheel_table, solve_sets
@@ -26,7 +26,7 @@ module faststrip_command_lookup_wheel_make
     use faststrip_command_lookup_scatter, only: least_drawn
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_number, option_integer, &
-                                                 option_word, refuse_value
+                                                 option_word, option_part, refuse_value
     use faststrip_command_program_system, only: set_progress
     use faststrip_files_bytes, only: remove_file
     use faststrip_lookup_axis, only: lookup_axis_t, make_axis
@@ -151,7 +151,7 @@ contains
                                       least=merge(100, least_drawn, given(command, '--axes-of')))
         if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
             == 'cubic') wanted%order = 2
-        call take_part(command, wanted%part, wanted%parts)
+        call option_part(command, wanted%part, wanted%parts)
         if (.not. given(command, '--axes-of')) then
             if (given(command, '--part') .or. given(command, '--resume')) &
                 call usage_error('--part and --resume go with --axes-of', command%name)

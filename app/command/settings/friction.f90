@@ -1,0 +1,175 @@
+!> Friction that is not one number, of case files and of rows of a batch.
+module faststrip_command_settings_friction
+    use faststrip_base_friction, only: friction_t, friction_constant, friction_kind
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+                                     st_bad_argument, st_file_format
+    use faststrip_files_csv, only: csv_table_t, column_index, cell_text
+    use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
+                                                value_of, number_of, refuse, refuse_each
+    use faststrip_command_settings_table, only: settings, value_t, find_setting, read_value, &
+                                                kind_words, range_words, no_fault, wrong_kind
+    implicit none
+    private
+
+    public :: read_friction_group, read_row_friction, friction_columns
+
+    ! What falls, as names of a case file: the kind, then what it needs, then what any may have.
+    character(len=*), parameter :: falling_names(4) = [character(len=20) :: &
+        'kind', 'mu_kinetic', 'half_slip_speed_mm_s', 'initial_slope_factor']
+    !> The columns that a table may have for it.
+    character(len=*), parameter :: friction_columns(5) = [character(len=20) :: &
+        'friction_kind', falling_names(2:), 'speed_mm_s']
+    integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5
+
+contains
+
+    !> Read the group of a case file, if there is one.
+    subroutine read_friction_group(content, mu, from_profiles, law)
+        type(case_text_t), intent(in) :: content !! a case file
+        real(wp), intent(in) :: mu               !! of `&material`, checked
+        logical, intent(in) :: from_profiles     !! is there a contact angle?
+        type(friction_t), intent(inout) :: law   !! has the speed of `&motion`, 0 if not given
+
+        type(group_t) :: group
+        type(value_t) :: values(at_slope)
+        character(len=:), allocatable :: what
+        real(wp) :: mu_flange
+        integer :: at
+
+        call read_group(content, 'friction', .false., group)
+        do at = 1, at_slope
+            values(at) = value_of(group, trim(falling_names(at)))
+        end do
+        call set_falling(values, mu, [character(len=60) :: &
+            'must not be given with kind constant', 'must be given', &
+            'must be at most &material mu, the static value', &
+            'must be constant without &motion speed_mm_s'], law, at, what)
+        if (at == at_speed) at = at_kind
+        if (at > 0) call refuse(group, trim(falling_names(at)), what, got(values(at)))
+        if (.not. is_set(group, 'mu_flange')) then
+            call refuse_each(group, [character(len=20) :: 'tread_angle_rad', 'flange_angle_rad'], &
+                             'must not be given without mu_flange')
+            return
+        end if
+        mu_flange = number_of(group, 'mu_flange', 0.0_wp)
+        if (.not. from_profiles) call refuse(group, 'mu_flange', 'must not be given with a gap ' &
+                                             // 'file, which has no contact angle', &
+                                             number_text(mu_flange))
+        if (mu <= 0.0_wp) call refuse(group, 'mu_flange', 'must not be given with &material mu 0', &
+                                      number_text(mu_flange))
+        call need('tread_angle_rad')
+        call need('flange_angle_rad')
+        law%flange_share = mu_flange/mu
+        law%tread_angle = number_of(group, 'tread_angle_rad', 0.0_wp)
+        law%flange_angle = number_of(group, 'flange_angle_rad', 0.0_wp)
+        if (law%flange_angle <= law%tread_angle) &
+            call refuse(group, 'flange_angle_rad', 'must be above tread_angle_rad', &
+                        number_text(law%flange_angle))
+
+    contains
+
+        subroutine need(key)
+            character(len=*), intent(in) :: key
+
+            if (.not. is_set(group, key)) &
+                call refuse(group, key, 'must be given with mu_flange', '')
+        end subroutine need
+    end subroutine read_friction_group
+
+    !> The friction of a row; an empty cell, or a column that is not there, is not given.
+    subroutine read_row_friction(table, row, mu, law, status)
+        type(csv_table_t), intent(in) :: table !! a table that was read
+        integer, intent(in) :: row             !! of it
+        real(wp), intent(in) :: mu             !! the static value
+        type(friction_t), intent(inout) :: law !! gets what is given
+        type(status_t), intent(out) :: status  !! `st_bad_argument`, `st_file_format`
+
+        type(value_t) :: values(at_speed)
+        character(len=:), allocatable :: text, what
+        integer :: at, fault, setting
+
+        call clear_status(status)
+        do at = 1, at_speed
+            text = cell_text(table, row, column_index(table, trim(friction_columns(at))))
+            if (len(text) == 0) cycle
+            setting = find_setting('motion', 'speed_mm_s')
+            if (at < at_speed) setting = find_setting('friction', trim(falling_names(at)))
+            call read_value(settings(setting), text, values(at), fault)
+            if (fault == no_fault) cycle
+            if (fault == wrong_kind) then
+                call refuse_cell(st_file_format, kind_words(settings(setting)))
+            else
+                call refuse_cell(st_bad_argument, &
+                                 range_words(settings(setting), values(at)%number))
+            end if
+            return
+        end do
+        if (values(at_speed)%is_given) law%speed = values(at_speed)%number
+        call set_falling(values(:at_slope), mu, [character(len=60) :: &
+            'must be empty with constant friction', 'must be given with falling friction', &
+            'must be at most mu, the static value', 'must be given with falling friction'], law, &
+            at, what)
+        if (at == 0) return
+        call set_status(status, st_bad_argument, trim(friction_columns(at)) // ' ' // what // &
+                        ", got '" // got(values(at)) // "'")
+
+    contains
+
+        subroutine refuse_cell(code, words)
+            integer, intent(in) :: code
+            character(len=*), intent(in) :: words
+
+            call set_status(status, code, trim(friction_columns(at)) // ' must be ' // words // &
+                            ", got '" // text // "'")
+        end subroutine refuse_cell
+    end subroutine read_row_friction
+
+    !> What falls with slip speed.
+    subroutine set_falling(values, mu, words, law, at, what)
+        type(value_t), intent(in) :: values(at_slope) ! each in its range
+        real(wp), intent(in) :: mu                    ! the static value
+        character(len=*), intent(in) :: words(4)      ! not wanted, missing, too large, no speed
+        type(friction_t), intent(inout) :: law        ! has the speed, 0 if it is not known
+        integer, intent(out) :: at                    ! what is wrong; 0: nothing is
+        character(len=:), allocatable, intent(out) :: what ! of `words`
+
+        at = 0
+        what = ''
+        if (values(at_kind)%is_given) law%kind = friction_kind(values(at_kind)%text)
+        if (values(at_slope)%is_given) law%slope_factor = values(at_slope)%number
+        if (law%kind == friction_constant) then
+            call blame(at_kinetic, values(at_kinetic)%is_given, words(1))
+            call blame(at_half, values(at_half)%is_given, words(1))
+            return
+        end if
+        call blame(at_kinetic, .not. values(at_kinetic)%is_given, words(2))
+        call blame(at_half, .not. values(at_half)%is_given, words(2))
+        call blame(at_kinetic, values(at_kinetic)%number > mu, words(3))
+        call blame(at_speed, law%speed <= 0.0_wp, words(4))
+        if (at > 0) return
+        law%kinetic_share = values(at_kinetic)%number/mu
+        law%half_slip_speed = values(at_half)%number
+
+    contains
+
+        subroutine blame(i, is_wrong, word)
+            integer, intent(in) :: i
+            logical, intent(in) :: is_wrong
+            character(len=*), intent(in) :: word
+
+            if (.not. is_wrong .or. at > 0) return
+            at = i
+            what = trim(word)
+        end subroutine blame
+    end subroutine set_falling
+
+    !> What was given, for a message.
+    function got(value) result(text)
+        type(value_t), intent(in) :: value
+        character(len=:), allocatable :: text
+
+        text = ''
+        if (allocated(value%text)) text = value%text
+    end function got
+end module faststrip_command_settings_friction

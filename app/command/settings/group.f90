@@ -1,0 +1,524 @@
+!> Case files: groups of names and values, read by the table of settings.
+!>
+!> The form is that of a Fortran namelist: `&group`, names and values, a slash; comments from an
+!> exclamation mark on; text in either quotes, which stand doubled inside; lists over several lines,
+!> with repeat counts. It is read here, not by the Fortran runtime, which does not tell what is
+!> wrong, nor where.
+module faststrip_command_settings_group
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_plausible, only: likely_mistake
+    use faststrip_base_status, only: status_t, number_text
+    use faststrip_base_text, only: trim_blanks, lower_case, integer_text
+    use faststrip_files_lines, only: text_file_t, open_text, read_line, close_text
+    use faststrip_command_program_console, only: fail, fail_on_error, exit_bad_input
+    use faststrip_command_program_files, only: take_input
+    use faststrip_command_settings_doubts, only: hold_value
+    use faststrip_command_settings_table, only: settings, value_t, of_group, find_setting, &
+                                                read_value, kind_words, range_words, a_text, &
+                                                a_path, a_word, a_number, a_list, wrong_kind, &
+                                                no_fault
+    implicit none
+    private
+
+    public :: case_text_t, group_t, read_case_text, read_group, is_set, value_of, number_of
+    public :: text_of, list_of, beside, refuse, refuse_each
+
+    ! Tuned [characters]: longest line of a case file. Origin: capacity.
+    integer, parameter :: line_length = 1024
+    ! Tuned [lines]: most of a case file. Origin: capacity: the longest lists take a few hundred.
+    integer, parameter :: most_case_lines = 10000
+    ! What names are made of.
+    character(len=*), parameter :: word_letters = &
+        'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
+
+    character(len=*), parameter :: groups(*) = [character(len=8) :: &
+        'contact', 'material', 'wheel', 'rail', 'motion', 'friction', 'numerics', 'sweep', 'state']
+
+    !> A case file as it was read.
+    type :: case_text_t
+        character(len=:), allocatable :: file              !! its name
+        character(len=line_length), allocatable :: line(:) !! its lines, comments blanked
+    end type case_text_t
+
+    !> The values of a group.
+    type :: group_t
+        character(len=:), allocatable :: file     !! its name
+        character(len=:), allocatable :: name     !! without the ampersand
+        integer :: first = 0                      !! line with the ampersand; 0: not there
+        integer :: last = 0                       !! line with the closing slash
+        integer, allocatable :: row(:)            !! of the table of settings
+        type(value_t), allocatable :: value(:)    !! one a row
+    end type group_t
+
+contains
+
+    !> Read a case file; ends the program if it is missing, has an unknown group, a group twice or
+    !> one that is not closed.
+    subroutine read_case_text(path, has_state, content)
+        character(len=*), intent(in) :: path       !! name of the file
+        logical, intent(in) :: has_state           !! may it have the group `state`?
+        type(case_text_t), intent(out) :: content  !! the lines
+
+        type(text_file_t) :: file
+        type(status_t) :: status
+        character(len=:), allocatable :: text
+        character(len=line_length), allocatable :: more(:)
+        integer :: n
+        logical :: found
+
+        call take_input(path)
+        content%file = path
+        call open_text(path, file, status)
+        call fail_on_error(status)
+        allocate (content%line(64))
+        n = 0
+        do
+            call read_line(file, text, found, status)
+            call fail_on_error(status)
+            if (.not. found) exit
+            if (n == size(content%line)) then
+                allocate (more(2*n))
+                more(:n) = content%line
+                call move_alloc(more, content%line)
+            end if
+            n = n + 1
+            if (n > most_case_lines) call refuse_line(path, n, 'a case file must have at most ' &
+                // integer_text(most_case_lines) // ' lines', '')
+            if (len(text) > line_length) call refuse_line(path, n, 'a line must have at most ' &
+                // integer_text(line_length) // ' characters', '')
+            content%line(n) = without_comment(text)
+        end do
+        call close_text(file)
+        content%line = content%line(:n)
+        call check_groups(content, groups(:size(groups) - merge(0, 1, has_state)))
+    end subroutine read_case_text
+
+    subroutine check_groups(content, known)
+        type(case_text_t), intent(in) :: content
+        character(len=*), intent(in) :: known(:)
+
+        character(len=:), allocatable :: text, name
+        integer :: i, at, open_at, slash
+        logical :: is_seen(size(known))
+
+        open_at = 0
+        is_seen = .false.
+        do i = 1, size(content%line)
+            text = trim_blanks(content%line(i))
+            if (len(text) == 0) cycle
+            if (text(1:1) == '&') then
+                if (open_at > 0) call refuse_open()
+                name = lower_case(first_word(text(2:)))
+                at = findloc(known == name, .true., dim=1)
+                if (at == 0) call refuse_line(content%file, i, 'unknown group: &' // name, '')
+                if (is_seen(at)) call refuse_line(content%file, i, 'a group must stand once', &
+                                                  '&' // name)
+                is_seen(at) = .true.
+                open_at = i
+            else if (open_at == 0) then
+                call refuse_line(content%file, i, 'text must stand in a group', text)
+            end if
+            if (first_outside_quotes(text, ';') > 0) &
+                call refuse_line(content%file, i, 'must not hold a semicolon', text)
+            slash = first_outside_quotes(text, '/')
+            if (slash > 0 .and. slash < len(text)) &
+                call refuse_line(content%file, i, 'a line must end at its slash', text)
+            if (slash > 0) open_at = 0
+        end do
+        if (open_at > 0) call refuse_open()
+
+    contains
+
+        subroutine refuse_open()
+            call refuse_line(content%file, open_at, 'a group must be closed by /', &
+                             trim_blanks(content%line(open_at)))
+        end subroutine refuse_open
+    end subroutine check_groups
+
+    !> Read a group; ends the program if it is missing but required, at an unknown name, at a value
+    !> that the table of settings does not allow and where one is missing that is needed.
+    subroutine read_group(content, name, is_required, group)
+        type(case_text_t), intent(in) :: content !! a case file
+        character(len=*), intent(in) :: name     !! lower case, without ampersand
+        logical, intent(in) :: is_required       !! is its absence an error?
+        type(group_t), intent(out) :: group      !! its values
+
+        integer :: i
+
+        group%file = content%file
+        group%name = name
+        group%row = of_group(name)
+        allocate (group%value(size(group%row)))
+        call find_lines(content, group)
+        if (group%first == 0) then
+            if (is_required) call fail(exit_bad_input, 'missing group: &' // name // ' (' &
+                                       // content%file // ')')
+            return
+        end if
+        call find_values(content, group)
+        do i = 1, size(group%row)
+            if (group%value(i)%is_given) then
+                call take_value(group, i)
+            else if (settings(group%row(i))%is_needed) then
+                call refuse(group, trim(settings(group%row(i))%key), 'must be given', '')
+            end if
+        end do
+    end subroutine read_group
+
+    subroutine find_lines(content, group)
+        type(case_text_t), intent(in) :: content
+        type(group_t), intent(inout) :: group
+
+        character(len=:), allocatable :: text
+        integer :: i
+
+        do i = 1, size(content%line)
+            text = trim_blanks(content%line(i))
+            if (len(text) == 0) cycle
+            if (group%first == 0 .and. text(1:1) == '&') then
+                if (lower_case(first_word(text(2:))) == group%name) group%first = i
+            end if
+            if (group%first == 0) cycle
+            group%last = i
+            if (first_outside_quotes(text, '/') > 0) return
+        end do
+    end subroutine find_lines
+
+    !> The text of each value of a group, over lines; of a name that stands twice the last.
+    subroutine find_values(content, group)
+        type(case_text_t), intent(in) :: content
+        type(group_t), intent(inout) :: group
+
+        character(len=:), allocatable :: line, name
+        integer :: i, at, row, from, name_at, equals
+
+        at = 0
+        do i = group%first, group%last
+            line = trim(content%line(i))
+            from = 1
+            if (i == group%first) from = index(line, '&') + len(group%name) + 1
+            do
+                call find_name(line, from, name_at, equals)
+                call add_text(line(from:name_at - 1))
+                if (equals > len(line)) exit
+                name = trim_blanks(line(name_at:equals - 1))
+                row = find_setting(group%name, name)
+                if (row == 0) call refuse_line(group%file, i, '&' // group%name // &
+                                               ' unknown name: ' // lower_case(name), '')
+                at = findloc(group%row, row, dim=1)
+                group%value(at)%is_given = .true.
+                group%value(at)%line = i
+                group%value(at)%text = ''
+                from = equals + 1
+            end do
+        end do
+
+    contains
+
+        subroutine add_text(part)
+            character(len=*), intent(in) :: part
+
+            character(len=:), allocatable :: text
+
+            text = trim_blanks(part)
+            if (i == group%last) text = without_end(text, '/')
+            if (len(text) == 0) return
+            if (at == 0) call refuse_line(group%file, i, '&' // group%name // &
+                                          ' must begin with a name', text)
+            if (settings(group%row(at))%kind == a_list) call check_part(text)
+            group%value(at)%text = trim_blanks(group%value(at)%text // ' ' // text)
+        end subroutine add_text
+
+        !> What stands on one line of a list, so that the line is named which is wrong.
+        subroutine check_part(text)
+            character(len=*), intent(in) :: text
+
+            type(value_t) :: part
+            integer :: fault
+
+            call read_value(settings(group%row(at)), without_end(text, ','), part, fault)
+            if (fault == wrong_kind) call refuse_line(group%file, i, '&' // group%name // ' ' &
+                // trim(settings(group%row(at))%key) // ' must be a list of numbers', text)
+        end subroutine check_part
+    end subroutine find_values
+
+    !> The next `name =` of a line: where the name starts, and where the equals sign is; both
+    !> beyond the line if there is none.
+    pure subroutine find_name(line, from, name_at, equals)
+        character(len=*), intent(in) :: line
+        integer, intent(in) :: from
+        integer, intent(out) :: name_at, equals
+
+        equals = first_outside_quotes(line(from:), '=')
+        if (equals == 0) then
+            name_at = len(line) + 1
+            equals = name_at
+            return
+        end if
+        equals = from + equals - 1
+        name_at = verify(line(:equals - 1), ' ' // achar(9), back=.true.)
+        do while (name_at >= from)
+            if (scan(line(name_at:name_at), word_letters // '()') == 0) exit
+            name_at = name_at - 1
+        end do
+        name_at = max(name_at + 1, from)
+    end subroutine find_name
+
+    !> Read a value that was found, and refuse it if it is not as the table says.
+    subroutine take_value(group, i)
+        type(group_t), intent(inout) :: group
+        integer, intent(in) :: i
+
+        character(len=:), allocatable :: text, key
+        integer :: fault
+
+        associate (setting => settings(group%row(i)), value => group%value(i))
+            key = trim(setting%key)
+            text = without_end(value%text, ',')
+            if (any(setting%kind == [a_text, a_path, a_word])) then
+                if (.not. is_quoted(text)) call refuse(group, key, 'must be text in quotes', text)
+                text = unquoted(text)
+            end if
+            call read_value(setting, text, value, fault)
+            if (fault == wrong_kind) &
+                call refuse(group, key, 'must be ' // kind_words(setting), text)
+            if (setting%kind == a_list) value%number = number_to_name(value%list, fault)
+            if (setting%quantity > 0) call hold_value(setting%quantity, '&' // group%name // ' ' &
+                                                      // key, value%number, place(group, i))
+            if (fault == no_fault) return
+            if (any(setting%kind == [a_number, a_list])) then
+                text = number_text(value%number)
+                if (setting%quantity > 0) &
+                    text = trim(text) // likely_mistake(setting%quantity, value%number)
+                if (.not. abs(value%number) <= huge(value%number)) &
+                    call refuse(group, key, 'must be a finite number', text)
+            end if
+            call refuse(group, key, 'must be ' // range_words(setting, value%number), text)
+        end associate
+    end subroutine take_value
+
+    !> The number of a list to speak of: the first that is not finite, else the least where one is
+    !> out of range, else the largest.
+    pure real(wp) function number_to_name(list, fault) result(number)
+        real(wp), intent(in) :: list(:)
+        integer, intent(in) :: fault
+
+        integer :: k
+
+        k = findloc(abs(list) <= huge(list), .false., dim=1)
+        if (k == 0) k = merge(maxloc(abs(list), dim=1), minloc(list, dim=1), fault == no_fault)
+        number = list(k)
+    end function number_to_name
+
+    !> Does the group give a name?
+    logical function is_set(group, key)
+        type(group_t), intent(in) :: group   !! that was read
+        character(len=*), intent(in) :: key  !! name in the group
+
+        is_set = group%value(at_key(group, key))%is_given
+    end function is_set
+
+    !> The value of a name.
+    function value_of(group, key) result(value)
+        type(group_t), intent(in) :: group   !! that was read
+        character(len=*), intent(in) :: key  !! name in the group
+        type(value_t) :: value
+
+        value = group%value(at_key(group, key))
+    end function value_of
+
+    !> The number of a name, or a default if it is not given.
+    real(wp) function number_of(group, key, default) result(number)
+        type(group_t), intent(in) :: group      !! that was read
+        character(len=*), intent(in) :: key     !! name in the group
+        real(wp), intent(in) :: default         !! if it is not given
+
+        number = default
+        associate (value => group%value(at_key(group, key)))
+            if (value%is_given) number = value%number
+        end associate
+    end function number_of
+
+    !> The text of a name, or a default if it is not given; a path is that beside the case file.
+    function text_of(group, key, default) result(text)
+        type(group_t), intent(in) :: group      !! that was read
+        character(len=*), intent(in) :: key     !! name in the group
+        character(len=*), intent(in) :: default !! if it is not given
+        character(len=:), allocatable :: text
+
+        text = default
+        associate (value => group%value(at_key(group, key)))
+            if (value%is_given) text = value%text
+        end associate
+    end function text_of
+
+    !> The numbers of a list; none if it is not given.
+    function list_of(group, key) result(list)
+        type(group_t), intent(in) :: group   !! that was read
+        character(len=*), intent(in) :: key  !! name in the group
+        real(wp), allocatable :: list(:)
+
+        allocate (list(0))
+        associate (value => group%value(at_key(group, key)))
+            if (value%is_given) list = value%list
+        end associate
+    end function list_of
+
+    integer function at_key(group, key) result(at)
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: key
+
+        do at = 1, size(group%row)
+            if (settings(group%row(at))%key == key) return
+        end do
+        error stop 'faststrip: a setting is asked for that is not in the table'
+    end function at_key
+
+    !> End the program with an error about a name of a group; the line is the one that gives it.
+    subroutine refuse(group, key, what, value)
+        type(group_t), intent(in) :: group       !! a group of a case file
+        character(len=*), intent(in) :: key      !! name in the group
+        character(len=*), intent(in) :: what     !! what is wrong
+        character(len=*), intent(in) :: value    !! the offending value; may be empty
+
+        integer :: at, line
+
+        at = at_key(group, key)
+        line = max(group%first, 1)
+        if (group%value(at)%is_given) line = group%value(at)%line
+        call refuse_line(group%file, line, '&' // group%name // ' ' // key // ' ' // what, value)
+    end subroutine refuse
+
+    !> The same about the first of some names that is given.
+    subroutine refuse_each(group, keys, what)
+        type(group_t), intent(in) :: group       !! a group of a case file
+        character(len=*), intent(in) :: keys(:)  !! names in the group
+        character(len=*), intent(in) :: what     !! what is wrong
+
+        integer :: i
+
+        do i = 1, size(keys)
+            if (is_set(group, trim(keys(i)))) call refuse(group, trim(keys(i)), what, '')
+        end do
+    end subroutine refuse_each
+
+    !> Where a value stands, as `FILE:LINE`.
+    function place(group, i)
+        type(group_t), intent(in) :: group
+        integer, intent(in) :: i
+        character(len=:), allocatable :: place
+
+        place = group%file // ':' // integer_text(group%value(i)%line)
+    end function place
+
+    !> End the program with an error about a line.
+    subroutine refuse_line(file, number, what, value)
+        character(len=*), intent(in) :: file
+        integer, intent(in) :: number
+        character(len=*), intent(in) :: what, value
+
+        character(len=:), allocatable :: text
+
+        text = what
+        if (len_trim(value) > 0) text = text // ', got ' // trim(value)
+        call fail(exit_bad_input, text // ' (' // file // ':' // integer_text(number) // ')')
+    end subroutine refuse_line
+
+    !> A path that is relative to the folder of another file.
+    pure function beside(file, path) result(resolved)
+        character(len=*), intent(in) :: file     !! name of that file
+        character(len=*), intent(in) :: path     !! as it stands there
+        character(len=len(path) + merge(0, index(file, '/', back=.true.), index(path, '/') == 1)) &
+            :: resolved
+
+        resolved = path
+        if (index(path, '/') /= 1) resolved = file(:index(file, '/', back=.true.)) // path
+    end function beside
+
+    !> The line up to an exclamation mark outside quotes.
+    pure function without_comment(text) result(kept)
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: kept
+
+        integer :: mark
+
+        mark = first_outside_quotes(text, '!')
+        if (mark == 0) mark = len(text) + 1
+        kept = text(:mark - 1)
+    end function without_comment
+
+    !> Position of the first such character that stands outside quotes; 0 if there is none.
+    pure integer function first_outside_quotes(text, mark) result(at)
+        character(len=*), intent(in) :: text
+        character, intent(in) :: mark
+
+        character :: quote
+
+        quote = ' '
+        do at = 1, len(text)
+            if (quote /= ' ') then
+                if (text(at:at) == quote) quote = ' '
+            else if (text(at:at) == '''' .or. text(at:at) == '"') then
+                quote = text(at:at)
+            else if (text(at:at) == mark) then
+                return
+            end if
+        end do
+        at = 0
+    end function first_outside_quotes
+
+    !> A text without one such character at its end, and the blanks before it.
+    pure function without_end(text, mark) result(kept)
+        character(len=*), intent(in) :: text
+        character, intent(in) :: mark
+        character(len=:), allocatable :: kept
+
+        kept = text
+        if (len(text) == 0) return
+        if (text(len(text):) == mark) kept = trim_blanks(text(:len(text) - 1))
+    end function without_end
+
+    pure function first_word(text) result(word)
+        character(len=*), intent(in) :: text
+        character(len=:), allocatable :: word
+
+        word = text(:scan(text // ' ', ' /' // achar(9)) - 1)
+    end function first_word
+
+    !> Is a value one text between quotes, which stand doubled inside?
+    pure logical function is_quoted(value)
+        character(len=*), intent(in) :: value
+
+        integer :: i
+
+        is_quoted = .false.
+        if (len(value) < 2) return
+        if (value(1:1) /= '''' .and. value(1:1) /= '"') return
+        i = 2
+        do while (i <= len(value))
+            if (value(i:i) == value(1:1)) then
+                is_quoted = i == len(value)
+                if (is_quoted) return
+                if (value(i + 1:i + 1) /= value(1:1)) return
+                i = i + 1
+            end if
+            i = i + 1
+        end do
+    end function is_quoted
+
+    !> What stands between the quotes.
+    pure function unquoted(value) result(text)
+        character(len=*), intent(in) :: value
+        character(len=:), allocatable :: text
+
+        integer :: i
+
+        text = ''
+        i = 2
+        do while (i < len(value))
+            text = text // value(i:i)
+            if (value(i:i) == value(1:1)) i = i + 1
+            i = i + 1
+        end do
+    end function unquoted
+end module faststrip_command_settings_group

@@ -1,0 +1,62 @@
+!> `faststrip settings`: what can be set, one row a setting.
+module faststrip_command_settings_list
+    use faststrip_base_status, only: status_t
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
+    use faststrip_command_settings_table, only: settings, full_words
+    implicit none
+    private
+
+    public :: run_settings
+
+contains
+
+    !> Run the subcommand from the command line.
+    subroutine run_settings()
+        type(command_t) :: command
+        type(csv_writer_t) :: writer
+        type(status_t) :: status
+        integer :: i
+
+        command%name = 'settings'
+        command%usage = ''
+        command%about = &
+            'All that case files can set, group by group: name, what it may be, what it is where' &
+            // new_line('a') // 'nothing is said, the option that goes before it, and what it ' &
+            // 'means. CSV.' // new_line('a')
+        command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
+                                    writes=.true.)]
+        call parse_command(command, 0)
+        call open_csv(writer, option_text(command, '-o', '-'), status)
+        call fail_on_error(status)
+        call put_origin(writer)
+        call put_header(writer, [character(len=7) :: 'group', 'name', 'may_be', 'default', &
+                                 'option', 'what'])
+        do i = 1, size(settings)
+            associate (setting => settings(i))
+                call put_cell(writer, trim(setting%group))
+                call put_cell(writer, trim(setting%key))
+                call put_cell(writer, full_words(setting))
+                call put_cell(writer, trim(setting%default))
+                call put_cell(writer, trim(setting%option))
+                call put_cell(writer, in_a_line(trim(setting%help)))
+                call end_row(writer)
+            end associate
+        end do
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine run_settings
+
+    pure function in_a_line(text) result(line)
+        character(len=*), intent(in) :: text
+        character(len=len(text)) :: line
+
+        integer :: i
+
+        line = text
+        do i = 1, len(line)
+            if (line(i:i) == new_line('a')) line(i:i) = ' '
+        end do
+    end function in_a_line
+end module faststrip_command_settings_list
