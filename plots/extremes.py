@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw what `faststrip-lab bench extremes` measured, from influence numbers to single precision.
+"""Draw what `faststrip-lab bench extremes` measured.
 
 Maps show a relative error by colour; a field is grey where there is no number, and the line above
 the map tells why. The files for rounding modes and for single precision are drawn if given.

@@ -17,7 +17,7 @@ from faststrip_plots.tables import InputError, read_table
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
 FORCES = "Fx and Fy, in % of mu N, and Mz, in % of mu N c"
 STAGES = {
-    "influence": ("Influence numbers in the strip method", "pressures and penetration against"
+    "influence": ("Influence coefficients in the strip method", "pressures and penetration against"
                   " the closed evaluation"),
     "normal": ("Normal contact", "penetration, largest pressure and area"),
     "tangential": ("Tangential contact", FORCES),

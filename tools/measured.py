@@ -57,7 +57,7 @@ def condense(folder):
         (tangential_time_rows, data / "bench_tangential.csv"),
         (extreme_rows, data / "extremes.csv"),
         (statement_rows, Path(folder) / "figures" / "paper" / "paper_statements.csv"),
-        (certificate_rows, data / "certificate.csv"),
+        (estimates_rows, data / "estimates.csv"),
     )
     rows = []
     for reader, path in sources:
@@ -285,7 +285,7 @@ def statement_rows(path):
             for verdict in dict.fromkeys(words)]
 
 
-def certificate_rows(path):
+def estimates_rows(path):
     """How often the estimated errors bound the true ones, and how much larger they are."""
     table = read_table(path, ("family", "estimator", "quantity", "true_err", "est_err", "covered"))
     true, estimated, covered = (table.numbers(name, missing=True)
@@ -304,10 +304,10 @@ def certificate_rows(path):
                     continue
                 name = f"{estimator}, {own}"
                 rows += [
-                    ("certificate", name, f"{quantity}_cases", str(int(mask.sum()))),
-                    ("certificate", name, f"{quantity}_bounded",
+                    ("estimates", name, f"{quantity}_cases", str(int(mask.sum()))),
+                    ("estimates", name, f"{quantity}_bounded",
                      covered[mask].mean()),
-                    ("certificate", name, f"{quantity}_ratio",
+                    ("estimates", name, f"{quantity}_ratio",
                      np.median(estimated[mask] / np.maximum(np.abs(true[mask]), TINY))),
                 ]
     return rows

@@ -6,14 +6,13 @@
     tools/speed.py --read FILE            print the table of such a file
 
 Methods are those of reference/speed_methods.csv on the paper's 20 contacts, then steps of a
-history, influence numbers, states of a wheelset, and rows of `batch`. Times are of the processor.
-All is timed in several rounds, turn about; of each contact, step or state the least counts, so
-that the tail (95th percentile, worst) is that of the contacts, not of the machine. Columns
-`over_...` are ratios of one contact each, then their median, 95th percentile and worst: to FASTSIM
-on 50 x 50 elements in the same run (on the same contact; where there is none, its median), to
-`base`, and to the times of CONTACT that reference/contact holds: of another machine, and of KPEC
-and ANALYN one evaluation at a known penetration.
-"""
+history, influence coefficients, states of a wheelset, and rows of `batch`. Times are of the
+processor. All is timed in several rounds, turn about; of each contact, step or state the least
+counts, so that the tail (95th percentile, worst) is that of the contacts, not of the machine.
+Columns `over_...` are ratios of one contact each, then their median, 95th percentile and worst: to
+FASTSIM on 50 x 50 elements in the same run (on the same contact; where there is none, its median),
+to `base`, and to the times of CONTACT that reference/contact holds: of another machine, and of KPEC
+and ANALYN one evaluation at a known penetration."""
 
 from __future__ import annotations
 
@@ -49,7 +48,7 @@ SECONDS = {"normal": ("cpu_norm_s", "cpu_norm_s"), "tangential": ("cpu_tang_s", 
 STEPS = {"load": "load 2.5 %", "shift": "place 0.1 mm", "both": "place 0.1 mm, load 5 %"}
 COLD = "from nothing, contacts and scenes"
 GROUPS = {"normal": "normal", "tangential": "tangential", "both": "normal and tangential",
-          "gap": "gap", "influence": "influence number", "wheelset": "wheelset"}
+          "gap": "gap", "influence": "influence coefficient", "wheelset": "wheelset"}
 FROM_NOTHING, FROM_BEFORE = "from nothing", "from the state before"
 GAP_READ, GAP_NEW = "row, gap read before", "row, new gap"
 # Steel of the references: nu 0.28, G 82000 MPa.

@@ -4,7 +4,7 @@
     tools/validation.py                 write docs/validation.md and fill the marked places
     tools/validation.py --check         exit 1 and name what is not as this tool would write it
     tools/validation.py --take FOLDER   before that, condense the full report in FOLDER, with
-                                        data/certificate.csv of `bench certificate`, into
+                                        data/estimates.csv of `bench estimates`, into
                                         reference/measured.csv
 
 A marked place of README.md or docs/*.md is `<!-- measured: NAME -->...<!-- end -->`. NAME is a
@@ -68,7 +68,7 @@ CONTACTS = {
     "strip + fastsim": "strips + FASTSIM on the equal ellipse",
     "hertz + fastsim": "Hertz + FASTSIM",
 }
-ESTIMATES = {"certificate": "strips", "richardson": "strips, from two numbers of them",
+ESTIMATES = {"residuals": "strips", "richardson": "strips, from two numbers of them",
              "norm": "kalker_normal"}
 SLIDERS = {"shift": "lateral displacement", "yaw": "yaw", "load": "wheel load",
            "cksi": "longitudinal creepage", "cphi": "spin", "mu": "friction"}
@@ -267,15 +267,15 @@ def extremes_table(figures):
                   for row in figures.measured.rows("extremes")])
 
 
-def certificate_table(figures):
+def estimates_table(figures):
     names = ("penetration", "pmax", "area")
 
     def cells(row):
         for name in names:
-            if ("certificate", row, f"{name}_bounded") in figures.measured.cells:
-                share = figures.measured.number("certificate", row, f"{name}_bounded")
-                ratio = figures.measured.number("certificate", row, f"{name}_ratio")
-                cases = figures.measured.word("certificate", row, f"{name}_cases")
+            if ("estimates", row, f"{name}_bounded") in figures.measured.cells:
+                share = figures.measured.number("estimates", row, f"{name}_bounded")
+                ratio = figures.measured.number("estimates", row, f"{name}_ratio")
+                cases = figures.measured.word("estimates", row, f"{name}_cases")
                 yield f"{100.0 * share:.0f} % of {cases}, {digits(ratio)} times"
             else:
                 yield "–"
@@ -283,7 +283,7 @@ def certificate_table(figures):
     return table(["estimate and contacts", *names],
                  [[f"{ESTIMATES.get(own, own)}: {contacts}", *cells(f"{own}, {contacts}")]
                   for own, contacts in (row.split(", ", 1)
-                                        for row in figures.measured.rows("certificate"))])
+                                        for row in figures.measured.rows("estimates"))])
 
 
 def promises_table(figures):
@@ -444,7 +444,7 @@ TABLES = {
     "page": page_table,
     "scale": scale_table,
     "extremes": extremes_table,
-    "certificate": certificate_table,
+    "estimates": estimates_table,
     "promises": promises_table,
     "force estimates": force_estimates_table,
     "statements": statements_table,
@@ -481,9 +481,9 @@ SECTIONS = (
      " signs, mean / largest.", "rolling"),
     ("What the error estimates bound",
      "How many of the true errors the estimates bound, and how many times as large they are in the"
-     " median (`bench certificate`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
+     " median (`bench estimates`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
      " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
-     " second of the 20 contacts and on random gaps of other distributions.", "certificate"),
+     " second of the 20 contacts and on random gaps of other distributions.", "estimates"),
     ("What the estimates of forces bound",
      "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
      " ellipses, each with two creepages (`faststrip-lab promises`; NORM and TANG, extrapolated,"

@@ -122,8 +122,9 @@ contains
             call show([figures%tangential%mz, figures%tangential%friction_power])
             call show([figures%tangential%stick_fraction, contact%force, contact%force_wheelset])
             call show(contact%moment)
-            call show([figures%certificate%est_err_penetration, figures%certificate%est_err_pmax])
-            call show([figures%certificate%est_err_area, figures%force_errors%fx])
+            call show([figures%normal_errors%est_err_penetration, &
+                       figures%normal_errors%est_err_pmax])
+            call show([figures%normal_errors%est_err_area, figures%force_errors%fx])
             call show([figures%force_errors%fy, figures%force_errors%mz])
         end associate
     end subroutine show_contact

@@ -40,8 +40,8 @@ module faststrip_kalker_methods
     use faststrip_kalker_tangential_estimate, only: estimate_tang, shares_of_grid, &
                                                     shares_of_strips
     use faststrip_kalker_tangential_pressures, only: sample_strips, sample_ellipse
-    use faststrip_kalker_unlike, only: unlike_problem_t, unlike_workspace_t, solve_unlike, &
-                                       release_unlike
+    use faststrip_kalker_dissimilar, only: dissimilar_problem_t, dissimilar_workspace_t, &
+                                           solve_dissimilar, release_dissimilar
     implicit none
     private
 
@@ -77,7 +77,7 @@ module faststrip_kalker_methods
         type(contact_grid_t) :: grid       ! pressures, unless they are NORM's
         type(tang_workspace_t) :: coarse   ! the same for elements twice as long and wide
         type(contact_grid_t) :: coarse_grid
-        type(unlike_workspace_t) :: unlike ! of unlike materials with NORM
+        type(dissimilar_workspace_t) :: dissimilar ! of dissimilar materials with NORM
         procedure(norm_watch), pointer, nopass :: watch_norm => null()
         procedure(tang_watch), pointer, nopass :: watch_tang => null()
     end type kalker_memory_t
@@ -161,7 +161,7 @@ contains
         call release_norm(kalker%memory%norm)
         call release_tang(kalker%memory%tang)
         call release_tang(kalker%memory%coarse)
-        call release_unlike(kalker%memory%unlike)
+        call release_dissimilar(kalker%memory%dissimilar)
         deallocate (kalker%memory)
         kalker%norm%memory => null()
         kalker%tang%memory => null()
@@ -271,13 +271,13 @@ contains
         type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        result%certificate = self%memory%norm%certificate
+        result%normal_errors = self%memory%norm%normal_errors
         result%has_residuals = .true.
         result%is_estimated = self%memory%norm%is_estimated
         if (result%is_estimated) &
-            call name_resolution(result%certificate%est_err_penetration, &
-                                 result%certificate%est_err_pmax, &
-                                 result%certificate%est_err_area, case%resolution_limit, status)
+            call name_resolution(result%normal_errors%est_err_penetration, &
+                                 result%normal_errors%est_err_pmax, &
+                                 result%normal_errors%est_err_area, case%resolution_limit, status)
     end subroutine estimate_by_norm
 
     !> What NORM, and TANG where forces are the target, cost and how wrong they say they are.
@@ -290,7 +290,7 @@ contains
     end function expected_of_norm
 
     !> Solve by TANG: on NORM's grid, or on one under the ellipse or the strips; on NORM's grid with
-    !> unlike materials both problems in turn, until the pressures stay.
+    !> dissimilar materials both problems in turn, until the pressures stay.
     subroutine solve_by_tang(self, workspace, case, result, status)
         class(tang_method_t), intent(in) :: self               !! TANG
         type(workspace_t), intent(inout), target :: workspace  !! with a normal solution
@@ -318,7 +318,7 @@ contains
         end associate
     end subroutine solve_by_tang
 
-    !> Solve both problems of unlike materials in turn on NORM's grid, until its pressures stay.
+    !> Solve both problems of dissimilar materials in turn on NORM's grid, until its pressures stay.
     subroutine settle_by_tang(memory, workspace, case, result, status)
         type(kalker_memory_t), intent(inout) :: memory
         type(workspace_t), intent(inout), target :: workspace
@@ -326,7 +326,7 @@ contains
         type(contact_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
-        type(unlike_problem_t) :: problem
+        type(dissimilar_problem_t) :: problem
         type(normal_result_t) :: settled
 
         problem%material = case%material
@@ -341,18 +341,18 @@ contains
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
             if (case%asked%field) call grow_field(workspace, size(grid%pressure), status)
             if (is_error(status)) return
-            call solve_unlike(memory%unlike, grid, problem, settled, result%tangential, status, &
-                              asked_field(workspace, case))
+            call solve_dissimilar(memory%dissimilar, grid, problem, settled, result%tangential, &
+                                  status, asked_field(workspace, case))
             if (is_error(status)) return
             settled%passes = result%normal%passes + settled%passes
             settled%iterations = result%normal%iterations + settled%iterations
             result%normal = settled
-            grid%pressure = memory%unlike%norm%grid%pressure
+            grid%pressure = memory%dissimilar%norm%grid%pressure
         end associate
     end subroutine settle_by_tang
 
-    !> Refuse unlike materials with a smaller initial slope: moduli that are lowered for it would
-    !> let pressures do more.
+    !> Refuse dissimilar materials with a smaller initial slope: moduli that are lowered for it
+    !> would let pressures do more.
     pure subroutine check_softness(case, status)
         type(contact_case_t), intent(in) :: case
         type(status_t), intent(out) :: status
@@ -360,7 +360,7 @@ contains
         call clear_status(status)
         if (are_alike(case%material) .or. case%friction%slope_factor >= 1.0_wp) return
         call set_status(status, st_bad_argument, 'tang takes no initial_slope_factor for bodies ' &
-                        // 'of unlike materials')
+                        // 'of dissimilar materials')
     end subroutine check_softness
 
     !> How wrong TANG's forces are, from elements twice as long and wide: a sixth of its time. More
@@ -401,7 +401,7 @@ contains
             end if
             if (is_norm) then
                 errors = estimate_tang(memory%norm%grid, case%mu, result%tangential, &
-                                       coarse, shares_of_grid(result%certificate))
+                                       coarse, shares_of_grid(result%normal_errors))
             else if (workspace%is_ellipse) then
                 errors = estimate_tang(memory%grid, case%mu, result%tangential, &
                                        coarse, spread(0.0_wp, 1, 3))
@@ -409,7 +409,7 @@ contains
                 if (is_error(estimate)) return
             else
                 errors = estimate_tang(memory%grid, case%mu, result%tangential, &
-                                       coarse, shares_of_strips(result%certificate))
+                                       coarse, shares_of_strips(result%normal_errors))
             end if
             result%forces_are_estimated = .true.
             call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &

@@ -138,7 +138,8 @@ contains
         right(:, 1) = w(:n)
         call dgetrf(n, n, matrix, n, pivot, info)
         if (info /= 0) then
-            call set_status(status, st_no_convergence, 'a singular matrix of influence numbers')
+            call set_status(status, st_no_convergence, &
+                            'a singular matrix of influence coefficients')
             return
         end if
         call dgetrs(merge('T', 'N', transposed), n, 1, matrix, n, pivot, right, n, info)

@@ -120,7 +120,7 @@ class Auto(ProgramTest):
             load = sum(float(element["pn_MPa"]) * float(element["area_mm2"]) for element in field)
             self.assert_close(load, 1e5, 0.01, what=target)
 
-    def test_unlike_materials_get_the_best_there_is(self):
+    def test_dissimilar_materials_get_the_best_there_is(self):
         row = self.auto(CASES / "polymer_roller.nml", "--tolerance", "0.02")
         self.assertEqual(steps_of(row)[-1][0], "norm", row["choice"])
         self.assertLess(float(row["Fx_N"]), 0.0)

@@ -334,7 +334,7 @@ class GapFile(ProgramTest):
             self.assertEqual(slides, element["state"] == "2")
             self.assertTrue(at_bound or not slides)
 
-    def test_unlike_materials(self):
+    def test_dissimilar_materials(self):
         text = gap_case(motion="cksi = 0.0")
         self.write("case.nml", text.replace("mu = 0.3", "mu = 0.3, E_rail_MPa = 7e4"))
         self.write("turned.nml", text.replace("mu = 0.3", "mu = 0.3, E_rail_MPa = 209920.0, "
@@ -361,7 +361,7 @@ class GapFile(ProgramTest):
         for tangential in ("faststrip", "fastsim", "linear", "polach"):
             done = self.run_program("contact", "case.nml", "--tangential", tangential)
             self.assertEqual(rows_of(done.stdout)[0]["status"], "under_resolved", tangential)
-            self.assertIn("unlike materials", done.stderr, tangential)
+            self.assertIn("dissimilar materials", done.stderr, tangential)
             if tangential == "faststrip":
                 error = abs(float(rows_of(done.stdout)[0]["Fx_N"]) - float(both["Fx_N"]))
                 self.assertGreater(error, 0.1 * 0.3 * 1e5)
@@ -373,7 +373,8 @@ class GapFile(ProgramTest):
                    + "&friction\n  initial_slope_factor = 0.6\n/\n")
         for normal in ("strip", "hertz", "norm"):
             self.refused(1, "contact", "unlike.nml", "--normal", normal, "--tangential", "tang",
-                         says=["tang", "initial_slope_factor", "unlike materials", "unlike.nml"])
+                         says=["tang", "initial_slope_factor", "dissimilar materials",
+                               "unlike.nml"])
         self.write("case.nml", text)
         self.refused(1, "contact", "case.nml", "--tangential", "tang", "--element-dx", "1e-3",
                      "--element-dy", "1e-3", says=["elements", "case.nml"])

@@ -12,7 +12,7 @@ MADE = ["worn_wheel.txt", "worn_wheel.whl", "near_conformal.csv", "polymer_rolle
 
 class Examples(ProgramTest):
     def example(self, name, *words):
-        # Of its unlike materials all other methods say that they leave something out.
+        # Of its dissimilar materials all other methods say that they leave something out.
         if name == "polymer_roller":
             words += ("--normal", "norm", "--tangential", "tang")
         row = self.good("contact", str(CASES / f"{name}.nml"), *words)[0]

@@ -74,7 +74,8 @@ class Quick(LabTest):
         self.assertEqual((self.folder / "speed.png").read_bytes()[:4], b"\x89PNG")
         self.assertEqual(
             {row["group"] for row in rows},
-            {"normal", "tangential", "normal and tangential", "gap", "influence number", "wheelset",
+            {"normal", "tangential", "normal and tangential", "gap", "influence coefficient",
+             "wheelset",
              "warm step, 15 strips", "cold, 15 strips", "batch"})
         for row in rows:
             for name in ("us", "over_fastsim", "over_base", "over_contact"):

@@ -139,9 +139,9 @@ contains
         case%methods%strips_per_patch = n
         call solve_contact(here%contact, case, figures, status)
         code = max(code, status%code)
-        call add(figures%certificate%est_err_pmax)
-        call add(figures%certificate%est_err_area)
-        call add(figures%certificate%overlap_outside)
+        call add(figures%normal_errors%est_err_pmax)
+        call add(figures%normal_errors%est_err_area)
+        call add(figures%normal_errors%overlap_outside)
         case%creepage = creepage_t(1.0e-3_wp, -5.0e-4_wp, 1.0e-4_wp)
         case%methods%normal = normal_auto
         call set_contact_gap(here%wanted, gap%y, gap%h, gap%inv2r, status)

@@ -1,4 +1,4 @@
-"""Every figure of every face is that of the Fortran interface, bit for bit: unlike bodies, gaps
+"""Every figure of every face is that of the Fortran interface, bit for bit: dissimilar bodies, gaps
 without symmetry, all creepages, every method, every field of every struct and array."""
 
 import math

@@ -1,5 +1,5 @@
-"""Every figure of C, Python and F77 against the program's, with nothing alike: unlike bodies, an
-unsymmetric gap, all three creepages, friction and numbers of points that are no defaults."""
+"""Every figure of C, Python and F77 against the program's: dissimilar bodies, an unsymmetric gap,
+all three creepages, friction and numbers of points that are no defaults."""
 
 import csv
 import importlib
@@ -13,7 +13,7 @@ from installed import HostTest
 POINTS = 401
 GAP = [(y, 2e-3 * (y - 1.0) ** 2 + 4e-5 * (y - 1.0) ** 3 + 0.25, (1.0 + 0.01 * y) / 920.0)
        for y in (-15.0 + 0.075 * i for i in range(POINTS))]
-# Unlike bodies whose pressures cause next to no slip.
+# Dissimilar bodies whose pressures cause next to no slip.
 E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL = 2.1e5, 1.686115e5, 0.28, 0.33
 MU, LOAD, CREEPAGE = 0.27, 9.0e4, (1.1e-3, -7.0e-4, 2.3e-4)
 CASE = f"""\

@@ -13,7 +13,7 @@ OTHERS = {"c_case_t", "newton_workspace_t"}
 SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"hertz_solve_gap\w*",
            "kpec_solve", "kpec_strips_solve", "analyn_solve", "replace_by_ellipses",
            "faststrip_tangential_solve", "paper_solve", "corrected_solve", r"fastsim\w*_solve",
-           "law_solve", "law_strips_solve", r"norm_solve\w*", "tang_solve", "solve_unlike")
+           "law_solve", "law_strips_solve", r"norm_solve\w*", "tang_solve", "solve_dissimilar")
 # Who calls one of them besides solve_contact.
 STUDIES = {
     # procedures without a workspace, a table of creep forces on ellipses
@@ -25,7 +25,7 @@ STUDIES = {
         "studies/errata", "studies/correction", "forces/features",
         # references by Kalker's methods, on grids and pressures of their own
         "forces/reference", "fuzz/norm_judge", "grid/tang", "promises/truth",
-        "studies/certificate_truth", "studies/kalker", "studies/reference",
+        "studies/estimates_reference", "studies/kalker", "studies/reference",
         "studies/reference_scenes", "studies/reference_tang", "studies/rolling"))}
 
 

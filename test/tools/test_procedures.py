@@ -1,4 +1,4 @@
-"""Procedures one can read: strip solver, certificate and influence numbers in small pieces."""
+"""Procedures one can read: strip solver, error estimates, coefficients in small pieces."""
 
 import pathlib
 import re
@@ -6,7 +6,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOM = ROOT / "src/faststrip/normal"
-FILES = sorted([*ROOM.glob("strip/*.f90"), *ROOM.glob("estimate/certificate*.f90"),
+FILES = sorted([*ROOM.glob("strip/*.f90"), *ROOM.glob("estimate/errors*.f90"),
                 *(ROOT / "src/faststrip/influence").rglob("*.f90")])
 MOST_LINES = 500       # of a file
 MOST_PROCEDURE = 80    # lines of a procedure, from its first line to its `end`

@@ -181,16 +181,16 @@ class Condensing(unittest.TestCase):
 
     def test_shares_that_are_bounded(self):
         """A truth in doubt does not count; neither does its estimate."""
-        rows = measured.certificate_rows(self.csv(
+        rows = measured.estimates_rows(self.csv(
             "c.csv", "family,estimator,quantity,true_err,est_err,covered",
-            "noise,certificate,pmax,0.1,0.3,1", "worn,certificate,pmax,0.2,0.1,0",
-            "worn,certificate,pmax,0.2,0.8,1", "worn,certificate,pmax,0.0,9.0,",
-            "ellipses,certificate,pmax,0.1,0.2,1"))
+            "noise,residuals,pmax,0.1,0.3,1", "worn,residuals,pmax,0.2,0.1,0",
+            "worn,residuals,pmax,0.2,0.8,1", "worn,residuals,pmax,0.0,9.0,",
+            "ellipses,residuals,pmax,0.1,0.2,1"))
         found = {(row, column): value for _, row, column, value in rows}
-        self.assertEqual(found["certificate, random families", "pmax_cases"], "3")
-        self.assertAlmostEqual(found["certificate, random families", "pmax_bounded"], 2 / 3)
-        self.assertAlmostEqual(found["certificate, random families", "pmax_ratio"], 3.0)
-        self.assertEqual(found["certificate, ellipses", "pmax_cases"], "1")
+        self.assertEqual(found["residuals, random families", "pmax_cases"], "3")
+        self.assertAlmostEqual(found["residuals, random families", "pmax_bounded"], 2 / 3)
+        self.assertAlmostEqual(found["residuals, random families", "pmax_ratio"], 3.0)
+        self.assertEqual(found["residuals, ellipses", "pmax_cases"], "1")
 
     def test_the_worst_force_counts_and_times_are_of_the_same_contacts(self):
         rows = measured.trade_rows(self.csv(

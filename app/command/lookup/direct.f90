@@ -12,7 +12,7 @@ module faststrip_command_lookup_direct
     use faststrip_kalker_tangential_pressures, only: sample_ellipse, sample_strips
     use faststrip_lookup_faces, only: n_forces
     use faststrip_lookup_hertz, only: n_lookup_state
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_tangential_fastsim, only: fastsim_solve
@@ -185,7 +185,7 @@ contains
                                         direct%choice%points, result, status)
         if (is_error(status) .or. direct%choice%method /= direct_auto) return
         call estimate_force_errors(direct%strips, material, mu, creepage, errors_of_fitted, &
-                                   direct%choice%points, certificate_t(), errors, status)
+                                   direct%choice%points, normal_errors_t(), errors, status)
         is_good = max(errors%fx, errors%fy, errors%mz) <= direct%choice%tolerance
     end subroutine solve_by_strips
 

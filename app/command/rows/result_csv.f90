@@ -86,12 +86,12 @@ contains
         end associate
         call put_cell(writer, result%times%normal_us, is_known=with_times)
         call put_cell(writer, result%times%tangential_us, is_known=with_times)
-        associate (certificate => result%certificate)
-            call put_cell(writer, certificate%residual_inside, is_known=result%has_residuals)
-            call put_cell(writer, certificate%overlap_outside, is_known=result%has_residuals)
-            call put_cell(writer, certificate%est_err_penetration, is_known=result%is_estimated)
-            call put_cell(writer, certificate%est_err_pmax, is_known=result%is_estimated)
-            call put_cell(writer, certificate%est_err_area, is_known=result%is_estimated)
+        associate (normal_errors => result%normal_errors)
+            call put_cell(writer, normal_errors%residual_inside, is_known=result%has_residuals)
+            call put_cell(writer, normal_errors%overlap_outside, is_known=result%has_residuals)
+            call put_cell(writer, normal_errors%est_err_penetration, is_known=result%is_estimated)
+            call put_cell(writer, normal_errors%est_err_pmax, is_known=result%is_estimated)
+            call put_cell(writer, normal_errors%est_err_area, is_known=result%is_estimated)
         end associate
         associate (errors => result%force_errors)
             call put_cell(writer, errors%fx, is_known=result%forces_are_estimated)

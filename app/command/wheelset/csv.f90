@@ -136,10 +136,10 @@ contains
             call put_cell(writer, normal%strips_across)
         end associate
         associate (figures => contact%figures)
-            call put_cell(writer, figures%certificate%est_err_penetration, &
+            call put_cell(writer, figures%normal_errors%est_err_penetration, &
                           is_known=figures%is_estimated)
-            call put_cell(writer, figures%certificate%est_err_pmax, is_known=figures%is_estimated)
-            call put_cell(writer, figures%certificate%est_err_area, is_known=figures%is_estimated)
+            call put_cell(writer, figures%normal_errors%est_err_pmax, is_known=figures%is_estimated)
+            call put_cell(writer, figures%normal_errors%est_err_area, is_known=figures%is_estimated)
             call put_cell(writer, figures%force_errors%fx, is_known=figures%forces_are_estimated)
             call put_cell(writer, figures%force_errors%fy, is_known=figures%forces_are_estimated)
             call put_cell(writer, figures%force_errors%mz, is_known=figures%forces_are_estimated)

@@ -26,7 +26,7 @@ contains
         character(len=*), intent(in) :: only       !! one of `extreme_parts`; empty: all
         logical, intent(in) :: quick               !! few points of everything
         character(len=*), intent(in) :: contacts   !! folder of the paper's contacts
-        character(len=*), intent(in) :: references !! folder of the influence numbers
+        character(len=*), intent(in) :: references !! folder of the influence coefficients
         character(len=*), intent(in) :: examples   !! folder of the examples
 
         type(references_t) :: influence_numbers(2)

@@ -29,7 +29,7 @@ module faststrip_lab_extremes_influence
                                         1.1_wp, 3.0_wp, 1.0e3_wp, 1.0e6_wp]
     integer, parameter :: refit_degree = 16
 
-    !> Committed influence numbers; X is 0 on the centre line.
+    !> Committed influence coefficients; X is 0 on the centre line.
     type :: references_t
         real(wp), allocatable :: n(:), b(:), x(:), value(:)
     end type references_t

@@ -267,7 +267,7 @@ contains
         end do
     end subroutine add_noise
 
-    !> Influence numbers in the four rounding modes.
+    !> Influence coefficients in the four rounding modes.
     subroutine round_influence(writer)
         type(csv_writer_t), intent(inout) :: writer
 

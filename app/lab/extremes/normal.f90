@@ -152,7 +152,7 @@ contains
         call put_row(writer, row)
     end subroutine put_solution
 
-    !> Condition number (1-norm) of the influence numbers between the strips of a solution, on
+    !> Condition number (1-norm) of the influence coefficients between the strips of a solution, on
     !> their centre lines; huge for a singular matrix.
     real(wp) function condition(strips)
         type(contact_strips_t), intent(in) :: strips

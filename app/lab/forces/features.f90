@@ -11,7 +11,7 @@ module faststrip_lab_forces_features
     use faststrip_contact_methods, only: most_strips
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_lab_pressures, only: solve_pressures
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_sub_patches, only: has_neck
@@ -141,14 +141,14 @@ contains
         call solve_pressures(workspace, contact, result, status)
         call fail_on_error(status, 'contact ' // integer_text(record%number))
         if (status%code /= st_ok .or. result%normal%n_patches > 1) return
-        call put_states(writer, workspace%strips, result%certificate, record, points)
+        call put_states(writer, workspace%strips, result%normal_errors, record, points)
     end subroutine put_contact
 
     !> The rows of one contact with its strips.
-    subroutine put_states(writer, strips, certificate, record, points)
+    subroutine put_states(writer, strips, normal_errors, record, points)
         type(csv_writer_t), intent(inout) :: writer
         type(contact_strips_t), intent(in) :: strips
-        type(certificate_t), intent(in) :: certificate
+        type(normal_errors_t), intent(in) :: normal_errors
         type(force_record_t), intent(in) :: record
         integer, intent(in) :: points
 
@@ -183,9 +183,9 @@ contains
                 call put_cell(writer, strips%n)
                 call put_cell(writer, merge(1, 0, &
                                             has_neck(strips%half_length(:strips%n))))
-                call put_cell(writer, certificate%est_err_penetration)
-                call put_cell(writer, certificate%est_err_pmax)
-                call put_cell(writer, certificate%est_err_area)
+                call put_cell(writer, normal_errors%est_err_penetration)
+                call put_cell(writer, normal_errors%est_err_pmax)
+                call put_cell(writer, normal_errors%est_err_area)
                 call put_cell(writer, ellipse%a)
                 call put_cell(writer, ellipse%b)
                 call put_cell(writer, ellipse%y)

@@ -58,8 +58,8 @@ contains
         if (.not. is_error(status) .and. workspace%is_estimated) then
             depth = verdict%result%penetration - curve%h_lowest
             norm_depth = norm%penetration - curve%h_lowest
-            own = [workspace%certificate%est_err_penetration, workspace%certificate%est_err_pmax, &
-                   workspace%certificate%est_err_area]
+            own = [workspace%normal_errors%est_err_penetration, &
+                   workspace%normal_errors%est_err_pmax, workspace%normal_errors%est_err_area]
             call compare(judge_norm_depth, 1, depth/norm_depth)
             call compare(judge_norm_pmax, 2, verdict%result%pmax/norm%pmax)
             call compare(judge_norm_area, 3, verdict%result%area/norm%area)

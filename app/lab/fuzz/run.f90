@@ -8,7 +8,7 @@ module faststrip_lab_fuzz_run
                                      st_fallback_used, st_out_of_range
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_limitations, only: name_resolution, default_resolution
     use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve_demand, &
@@ -221,20 +221,20 @@ contains
         end associate
     end subroutine solve_by_lattice
 
-    !> What the solution's certificate estimates of its errors.
+    !> What is estimated of the errors of the solution.
     subroutine estimate(case, workspace, verdict)
         class(contact_case_t), intent(in) :: case
         type(workspace_t), intent(in) :: workspace
         type(verdict_t), intent(inout) :: verdict
 
-        type(certificate_t) :: certificate
+        type(normal_errors_t) :: normal_errors
         type(status_t) :: status
 
         call estimate_strips(workspace%solver, normal_compliance(case%material), &
-                             workspace%strips, verdict%result, certificate, status)
+                             workspace%strips, verdict%result, normal_errors, status)
         if (is_error(status)) return
-        verdict%est_err = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                           certificate%est_err_area]
+        verdict%est_err = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
+                           normal_errors%est_err_area]
         call name_resolution(verdict%est_err(1), verdict%est_err(2), verdict%est_err(3), &
                              default_resolution, verdict%status)
     end subroutine estimate

@@ -23,7 +23,7 @@ module faststrip_lab_grid_bench
     use faststrip_lab_studies_correction, only: bench_correction
     use faststrip_lab_grid_examples, only: bench_examples
     use faststrip_lab_grid_trade, only: bench_trade
-    use faststrip_lab_studies_certificate, only: run_certificate_study
+    use faststrip_lab_studies_estimates, only: run_estimates_study
     use faststrip_lab_checkout, only: in_checkout
     implicit none
     private
@@ -93,9 +93,9 @@ contains
         case ('correction')
             call allow([character(len=name_length) :: '--quick'])
             call bench_correction(file, given(command, '--quick'))
-        case ('certificate')
+        case ('estimates')
             call allow([character(len=name_length) ::])
-            call run_certificate_study(file)
+            call run_estimates_study(file)
         case ('accuracy')
             call allow([character(len=name_length) :: '--contacts'])
             call bench_accuracy(file, folder)
@@ -180,7 +180,7 @@ contains
                      new_line('a') // 'methods, few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
-            option_t('--references', 'FOLDER', 'extremes: the influence numbers' &
+            option_t('--references', 'FOLDER', 'extremes: the influence coefficients' &
                      // ' (default reference/influence)', reads=.true.), &
             option_t('--scenes', 'FILE', 'forces, trade, steps: contacts of many kinds' &
                      // new_line('a') // '(default reference/scenes/scenes.csv)', reads=.true.), &
@@ -194,7 +194,7 @@ contains
         character(len=:), allocatable :: text
 
         character(len=*), parameter :: lines(53) = [character(len=84) :: &
-            'integral: nanoseconds an influence number costs and its largest relative error,', &
+            'integral: nanoseconds an influence coefficient costs, its largest relative error,', &
             'by the published polynomial (Horner, exp), fresh fits, the closed form and GSL;', &
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
             'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu,ns_p95,ns_worst; ns and ratio', &
@@ -209,8 +209,8 @@ contains
             'themselves. A row a solution, least of the rounds; median, 95th percentile, worst.', &
             'speed: microseconds of all methods of a list on the contacts, in one run: what', &
             './run speed sets beside FASTSIM and CONTACT. A row a method and contact, least of', &
-            'the rounds; also influence numbers of 15 strips, centre and tip, and the states of', &
-            'example/wheelset_states.csv.', &
+            'the rounds; also influence coefficients of 15 strips, centre and tip, and the', &
+            'states of example/wheelset_states.csv.', &
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
             'elements in contact: from nothing with new plans and with old ones (cold), from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
@@ -236,7 +236,7 @@ contains
             'Hertz on ellipses.', &
             'robust: the fallback''s errors against CONTACT and Hertz; kinks and flat tops with', &
             '15 and 31 strips and auto against 401.', &
-            'certificate: how often estimated errors bound the true ones, by family of gaps:', &
+            'estimates: how often estimated errors bound the true ones, by family of gaps:', &
             'ellipses exactly, all others by NORM on two grids (minutes; with -o FILE the', &
             'shares on stdout).', &
             'examples: the cases of example/cases by Hertz, strips, auto and Kalker''s methods.', &

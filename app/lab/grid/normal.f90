@@ -71,7 +71,7 @@ module faststrip_lab_grid_normal
         real(wp) :: gap_us = 0.0_wp     ! of handing over the gap
         real(wp) :: iterations = 0.0_wp ! steps
         real(wp) :: factorings = 0.0_wp ! those of them with a Jacobian
-        real(wp) :: values = 0.0_wp, gradients = 0.0_wp ! influence numbers computed
+        real(wp) :: values = 0.0_wp, gradients = 0.0_wp ! influence coefficients computed
         real(wp) :: operations = 0.0_wp ! of the linear algebra
         integer :: runs = 0
     end type times_t
@@ -311,8 +311,8 @@ contains
         times%operations = median(operations(:times%runs))
     end subroutine measure_start
 
-    !> Time of one influence number, ns: all columns of a solved contact, on the centre lines and at
-    !> the tips, as one iteration needs them, with derivatives or without.
+    !> Time of one influence coefficient, ns: all columns of a solved contact, on the centre lines
+    !> and at the tips, as one iteration needs them, with derivatives or without.
     real(wp) function entry_time(strips, with_derivatives)
         type(contact_strips_t), intent(in) :: strips
         logical, intent(in) :: with_derivatives

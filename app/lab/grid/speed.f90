@@ -1,10 +1,10 @@
 !> `faststrip-lab bench speed`: what the methods cost on the paper's contacts, all in one run.
 !>
 !> In each round every contact is solved by every method of a list, turn about; its gap is made a
-!> curve, and influence numbers of its 15 strips are computed. Then the states of a wheelset are
-!> solved. So what else happens on the machine falls on all of them, and ratios of two of them hold.
-!> Times are those of the processor, of each contact the least of the rounds: the tail over the
-!> contacts is the solver's own.
+!> curve, and influence coefficients of its 15 strips are computed. Then the states of a wheelset
+!> are solved. So what else happens on the machine falls on all of them, and ratios of two of them
+!> hold. Times are those of the processor, of each contact the least of the rounds: the tail over
+!> the contacts is the solver's own.
 module faststrip_lab_grid_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word
@@ -31,14 +31,14 @@ module faststrip_lab_grid_speed
 
     public :: bench_speed
 
-    !> The influence numbers that are timed: columns of one strip, seen on the centre lines or at
-    !> the tips of all.
+    !> The influence coefficients that are timed: columns of one strip, seen on the centre lines or
+    !> at the tips of all.
     character(len=*), parameter :: columns(4) = [character(len=23) :: &
         'centre', 'tip', 'centre with derivatives', 'tip with derivatives']
 
     ! Given: the friction of the references.
     real(wp), parameter :: mu = 0.3_wp
-    ! Tuned [strips]: whose influence numbers are computed. Origin: as users have them.
+    ! Tuned [strips]: whose influence coefficients are computed. Origin: as users have them.
     integer, parameter :: strips_across = 15
     ! Tuned [strips]: room for them on all patches. Origin: capacity.
     integer, parameter :: most_strips = 150
@@ -205,7 +205,7 @@ contains
         us = min(us, (cpu_microseconds() - from)/repetitions)
     end subroutine time_gap
 
-    !> Time the influence numbers of a contact's strips, ns each; kept if less than before.
+    !> Time the influence coefficients of a contact's strips, ns each; kept if less than before.
     subroutine time_columns(case, ns)
         type(bench_case_t), intent(in) :: case
         real(wp), intent(inout) :: ns(:) !! in the order of `columns`

@@ -3,7 +3,7 @@
 !> Each contact is solved with its own creepages, without spin and with much of it, all with
 !> adhesion and slip areas. Pressures are NORM's on the same grid, which is not counted. Iterations
 !> are those of GMRES in all Newton's steps together. Times are of the processor, from nothing with
-!> plans and influence numbers there, the median of all rounds.
+!> plans and influence coefficients there, the median of all rounds.
 module faststrip_lab_grid_tang
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
@@ -116,7 +116,7 @@ contains
         call fail_on_error(status)
         options%edges = edges_of_norm
         do k = 1, size(creepages)
-            ! Round 0 makes plans and influence numbers.
+            ! Round 0 makes plans and influence coefficients.
             do round = merge(0, 1, k == 1), rounds
                 from = cpu_microseconds()
                 call tang_solve(tang, norm%grid, case%material, mu, creepage_of(case, k), options, &

@@ -277,9 +277,9 @@ contains
         counts(:3) = .true.
         counts(4:7) = result%has_forces
         counts(8) = result%knows_stick
-        associate (certificate => result%certificate, forces => result%force_errors)
-            estimates = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                         certificate%est_err_area, forces%fx, forces%fy, forces%mz]
+        associate (normal_errors => result%normal_errors, forces => result%force_errors)
+            estimates = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
+                         normal_errors%est_err_area, forces%fx, forces%fy, forces%mz]
         end associate
         is_estimated(:3) = result%is_estimated
         is_estimated(4:) = result%forces_are_estimated

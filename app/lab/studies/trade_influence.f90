@@ -1,4 +1,4 @@
-!> The part of `faststrip-lab bench trade` on influence numbers inside the strip method.
+!> The part of `faststrip-lab bench trade` on influence coefficients inside the strip method.
 !>
 !> The largest patch of each contact is cut into 21 strips of equal width, as the published table
 !> needs it, with the lengths of the solved strips. Pressures and penetration then follow from

@@ -17,7 +17,7 @@ module faststrip_contact_auto
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument, st_workspace_too_small, st_more_strips, &
                                      st_fewer_strips
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
@@ -66,9 +66,9 @@ module faststrip_contact_auto
     ! Tuned [power]: Power of the number of strips by which their time grows. Origin: measured, 1.3
     ! from 5 to 15 strips, 1.6 from 15 to 31, 2.5 from there to 47.
     real(wp), parameter :: time_order = 1.6_wp
-    ! Tuned [us]: Time of strips by what they cost: always, of a step, of an influence number with
-    ! or without derivatives; of the estimate for a pair of strips. Origin: 58 contacts with 5 to 61
-    ! strips, of which nine in ten are within a third. Counts tell it alike on every machine,
+    ! Tuned [us]: Time of strips by what they cost: always, of a step, of an influence coefficient
+    ! with or without derivatives; of the estimate for a pair of strips. Origin: 58 contacts with 5
+    ! to 61 strips, of which nine in ten are within a third. Counts tell it alike on every machine,
     ! however busy.
     real(wp), parameter :: always_us = 40.0_wp, step_us = 3.6_wp, number_us = 0.058_wp, &
                            pair_us = 0.36_wp
@@ -259,7 +259,7 @@ contains
         if (workspace%steps%n == 0 .or. search%wanted%others%one_us <= 0.0_wp) return
         if (.not. needs_forces(search%wanted%target)) return
         ! An ellipse that is far off is no start for others.
-        if (search%last%certificate%est_err_area > nearly_ellipse) return
+        if (search%last%normal_errors%est_err_area > nearly_ellipse) return
         is_left = least_of_strips(search, workspace) > search%wanted%tolerance
     end function is_left
 
@@ -477,7 +477,7 @@ contains
         asked = search%last
         if (.not. asked%forces_are_estimated) return
         finer = max(search%wanted%most_strips/fall%across, 1.0_wp)
-        associate (c => asked%certificate)
+        associate (c => asked%normal_errors)
             c%est_err_pmax = c%est_err_pmax/finer**usual_order
             c%est_err_penetration = c%est_err_penetration/finer**usual_order
             c%est_err_area = c%est_err_area/finer**usual_order
@@ -504,7 +504,7 @@ contains
                                    softened(search%case%material, search%case%friction), &
                                    search%case%mu, search%case%creepage, errors_of_fitted, &
                                    max(search%wanted%most_strips, least_points), &
-                                   certificate_t(), asked%force_errors, status, &
+                                   normal_errors_t(), asked%force_errors, status, &
                                    search%wanted%most_strips/search%before%across)
         least = target_error(search%wanted%target, search%case, asked)
         if (is_error(status)) least = 0.0_wp

@@ -26,16 +26,16 @@ contains
         error = unknown_error
         if (.not. result%is_estimated) return
         if (needs_forces(target) .and. .not. result%forces_are_estimated) return
-        associate (certificate => result%certificate, errors => result%force_errors)
+        associate (normal_errors => result%normal_errors, errors => result%force_errors)
             select case (target)
             case (target_forces)
                 error = max(errors%fx, errors%fy, errors%mz)
             case (target_pmax)
-                error = certificate%est_err_pmax
+                error = normal_errors%est_err_pmax
             case (target_penetration)
-                error = certificate%est_err_penetration
+                error = normal_errors%est_err_penetration
             case (target_area)
-                error = certificate%est_err_area
+                error = normal_errors%est_err_area
             case (target_power)
                 error = power_error(case, result)
             end select

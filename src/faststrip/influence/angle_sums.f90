@@ -1,4 +1,4 @@
-!> Influence numbers off the centre line by rules whose nodes are constants.
+!> Influence coefficients off the centre line by rules whose nodes are constants.
 !>
 !> The integrals are those of faststrip_influence_offcentre. A node costs one square root and one
 !> division. How many nodes, and how many terms of a thin strip's kernel, the accuracy says.
@@ -121,8 +121,8 @@ contains
     !> u^2/sqrt(1 - u^2) times the kernel.
     !>
     !> Here and in `near_sums` each form of the kernel is written out. One loop over all forms for
-    !> both rules takes 1.05 to 1.06 times as long for an influence number of 9 to 61 strips, and
-    !> 1.04 to 1.09 times for a cold solution (medians of both in turn in one run, -O3).
+    !> both rules takes 1.05 to 1.06 times as long for an influence coefficient of 9 to 61 strips,
+    !> and 1.04 to 1.09 times for a cold solution (medians of both in turn in one run, -O3).
     pure subroutine far_sums(n, u, x, cl, cr, form, m)
         integer, intent(in) :: n, form
         real(wp), intent(in) :: u(n), x, cl, cr

@@ -1,4 +1,4 @@
-!> Columns of influence numbers on the centre line of the strip with the pressure, any edges.
+!> Columns of influence coefficients on the centre line of the strip with the pressure, any edges.
 !>
 !> The integrals are those of faststrip_influence_closed, arranged for vector arithmetic: field
 !> points are sorted by the two forms of G and evaluated side by side.

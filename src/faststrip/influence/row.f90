@@ -1,4 +1,4 @@
-!> Whole columns of influence numbers: one strip that carries pressure, many field points.
+!> Whole columns of influence coefficients: one strip that carries pressure, many field points.
 !>
 !> A column is what the matrix of the strip method is filled by: the source strip has half-length
 !> xd and edges y_left, y_right; field point k lies at (x_k, y_k). All lengths are in mm. This

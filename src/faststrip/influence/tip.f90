@@ -1,4 +1,5 @@
-!> Columns of influence numbers at the tips of strips, as many and as exact as an iteration needs.
+!> Columns of influence coefficients at the tips of strips, as many and as exact as an iteration
+!> needs.
 !>
 !> The same integrals as in faststrip_influence_row to a relative 3e-8, by
 !> faststrip_influence_angle_sums with the accuracy `coarse`. What fits no rule goes to the scalar

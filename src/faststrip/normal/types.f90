@@ -18,8 +18,8 @@ module faststrip_normal_types
     type :: cost_t
         integer :: iterations = 0 !! steps
         integer :: factorings = 0 !! those of them for which a Jacobian was factored
-        integer :: values = 0     !! influence numbers computed
-        integer :: gradients = 0  !! influence numbers computed with their derivatives
+        integer :: values = 0     !! influence coefficients computed
+        integer :: gradients = 0  !! influence coefficients computed with their derivatives
         real(wp) :: operations = 0.0_wp !! of the linear algebra, multiplications and additions
     end type cost_t
 

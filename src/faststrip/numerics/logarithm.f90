@@ -12,8 +12,8 @@ contains
     !>
     !> What rounding takes from d in 1 + d is given back to first order. The directive makes forms
     !> for whole vectors, so that loops marked `!$omp simd` in other modules remain vector loops. It
-    !> costs 1 to 2 % of a scalar influence number off the centre line against the expression in
-    !> place (gfortran 12); where it costs more a loop has its own.
+    !> costs 1 to 2 % of a scalar influence coefficient off the centre line against the expression
+    !> in place (gfortran 12); where it costs more a loop has its own.
     elemental real(wp) function log_1p(d)
         !$omp declare simd(log_1p) notinbranch
         real(wp), intent(in) :: d !! d, >= 0

@@ -15,7 +15,7 @@
 !> A patch that lies beside its ellipse (o), or a second one beside it (q), turns spin into
 !> longitudinal creepage, the more the wider it is. The factors bound 95 % of the differences of
 !> FASTSTRIP's forces on the ellipse and on 31 strips, of the gaps of
-!> `faststrip_normal_estimate_hertz_certificate` with six creepages each.
+!> `faststrip_normal_estimate_hertz_errors` with six creepages each.
 module faststrip_tangential_hertz_errors
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error

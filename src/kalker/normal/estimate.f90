@@ -20,7 +20,7 @@
 !> 11 families, 5 to 40 elements across, against the area under the border on 150 by 150.
 module faststrip_kalker_normal_estimate
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure
     use faststrip_kalker_border, only: border_area
     use faststrip_kalker_grid, only: contact_grid_t, element_y
@@ -42,12 +42,12 @@ module faststrip_kalker_normal_estimate
 contains
 
     !> Raise Richardson's estimates to what the grid itself tells.
-    pure subroutine raise_estimates(curve, compliance, grid, coarse, certificate)
+    pure subroutine raise_estimates(curve, compliance, grid, coarse, normal_errors)
         type(gap_curve_t), intent(in) :: curve            !! the gap that was solved, mm
         real(wp), intent(in) :: compliance                !! H of eq. (4), 1/MPa
         type(contact_grid_t), intent(in) :: grid          !! with pressures, some positive
         type(contact_grid_t), intent(in) :: coarse        !! the same with sides twice as long
-        type(certificate_t), intent(inout) :: certificate !! with Richardson's estimates
+        type(normal_errors_t), intent(inout) :: normal_errors !! with Richardson's estimates
 
         real(wp) :: around(4), pmax, y, unresolved, largest
         integer :: peak(2), i, j, border, contact, doubtful
@@ -74,12 +74,12 @@ contains
             end do
         end do
         around = neighbours(grid, peak(1), peak(2))
-        certificate%est_err_pmax = max(certificate%est_err_pmax, largest/pmax - 1.0_wp, &
+        normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, largest/pmax - 1.0_wp, &
                                        peak_share*(pmax - minval(around))/pmax)
-        certificate%est_err_area = area_error(grid, coarse, contact, border, doubtful)
-        certificate%est_err_penetration = max(certificate%est_err_penetration, &
-                                              penetration_share*certificate%est_err_pmax)
-        certificate%est_err_pmax = max(certificate%est_err_pmax, &
+        normal_errors%est_err_area = area_error(grid, coarse, contact, border, doubtful)
+        normal_errors%est_err_penetration = max(normal_errors%est_err_penetration, &
+                                              penetration_share*normal_errors%est_err_pmax)
+        normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
                                        largest_of_narrow(curve, compliance, grid)/pmax - 1.0_wp)
     end subroutine raise_estimates
 

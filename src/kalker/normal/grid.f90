@@ -117,7 +117,7 @@ contains
         end subroutine minimise_on
     end subroutine solve_on_grid
 
-    !> Influence numbers of the grid and their inverse, unless they are there.
+    !> Influence coefficients of the grid and their inverse, unless they are there.
     subroutine prepare_kernels(grid, kernels, plans, status)
         type(contact_grid_t), intent(in) :: grid
         type(kernels_t), intent(inout) :: kernels

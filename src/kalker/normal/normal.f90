@@ -32,7 +32,7 @@ module faststrip_kalker_normal
                                                 guess_pressures
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
-    use faststrip_normal_estimate_certificate, only: certificate_t, richardson_estimate
+    use faststrip_normal_estimate_errors, only: normal_errors_t, richardson_estimate
     use faststrip_normal_limitations, only: check_depth, check_lowest, name_step
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t, demand_t, above_lowest
@@ -68,7 +68,7 @@ module faststrip_kalker_normal
         type(contact_grid_t) :: grid       !! heights and pressures of the last solution
         type(contact_grid_t) :: coarse     !! the same of the level before, sides twice as long; no
                                            !! elements if there was none
-        type(certificate_t) :: certificate !! how well it fulfils the contact condition; errors
+        type(normal_errors_t) :: normal_errors !! how well it fulfils the contact condition; errors
                                            !! are estimated where there were two levels, else 0
         logical :: is_estimated = .false.  !! are they?
         integer :: convolutions = 0        !! of the last solution, all grids
@@ -342,14 +342,14 @@ contains
             end if
             if (level > 1) then
                 call richardson_estimate(coarse, result, 2.0_wp, workspace%curve%h_lowest, &
-                                         workspace%certificate, estimate)
+                                         workspace%normal_errors, estimate)
                 workspace%is_estimated = .not. is_error(estimate)
                 if (workspace%is_estimated) &
                     call raise_estimates(workspace%curve, compliance, workspace%grid, &
-                                         workspace%coarse, workspace%certificate)
+                                         workspace%coarse, workspace%normal_errors)
                 if (options%error_target > 0.0_wp .and. workspace%is_estimated .and. &
-                    max(workspace%certificate%est_err_penetration, &
-                        workspace%certificate%est_err_pmax) <= options%error_target) exit
+                    max(workspace%normal_errors%est_err_penetration, &
+                        workspace%normal_errors%est_err_pmax) <= options%error_target) exit
             end if
             if (level == levels) exit
             call keep(workspace)
@@ -472,8 +472,8 @@ contains
         type(minimised_t), intent(in) :: found
         type(normal_result_t), intent(inout) :: result
 
-        workspace%certificate%residual_inside = found%residual
-        workspace%certificate%overlap_outside = found%overlap
+        workspace%normal_errors%residual_inside = found%residual
+        workspace%normal_errors%overlap_outside = found%overlap
         call take_figures(workspace%solver, workspace%grid, compliance, found, result)
     end subroutine finish
 
@@ -496,7 +496,7 @@ contains
         call keep(workspace)
         workspace%solver%convolutions = 0
         workspace%convolutions = 0
-        workspace%certificate = certificate_t()
+        workspace%normal_errors = normal_errors_t()
         workspace%is_estimated = .false.
         workspace%coarse%nx = 0
     end subroutine begin

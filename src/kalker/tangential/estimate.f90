@@ -16,7 +16,7 @@
 !> elements across, against 72 and 108 carried on; for others see `docs/method.md`.
 module faststrip_kalker_tangential_estimate
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_grid, only: contact_grid_t, element_y
@@ -71,19 +71,19 @@ contains
     end function estimate_tang
 
     !> What errors of NORM's pressures make of the forces on its grid.
-    pure function shares_of_grid(certificate) result(shares)
-        type(certificate_t), intent(in) :: certificate !! of NORM's solution
+    pure function shares_of_grid(normal_errors) result(shares)
+        type(normal_errors_t), intent(in) :: normal_errors !! of NORM's solution
         real(wp) :: shares(3)
 
-        shares = share_of_penetration*certificate%est_err_penetration
+        shares = share_of_penetration*normal_errors%est_err_penetration
     end function shares_of_grid
 
     !> What errors of strips make of the forces on both grids.
-    pure function shares_of_strips(certificate) result(shares)
-        type(certificate_t), intent(in) :: certificate !! of the strips' solution
+    pure function shares_of_strips(normal_errors) result(shares)
+        type(normal_errors_t), intent(in) :: normal_errors !! of the strips' solution
         real(wp) :: shares(3)
 
-        shares = share_of_area*certificate%est_err_area
+        shares = share_of_area*normal_errors%est_err_area
     end function shares_of_strips
 
     !> Fx, Fy and Mz about y, over the radius.

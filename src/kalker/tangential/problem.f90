@@ -25,7 +25,7 @@
 !>
 !> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
 !>
-!> **Unlike materials.** Pressures move points along the surface too (K of
+!> **Dissimilar materials.** Pressures move points along the surface too (K of
 !> `faststrip_influence_rectangle`). With pressures given that is rigid slip: at the nodes the same
 !> differences of u, in a shift u itself.
 !>
@@ -87,7 +87,7 @@ module faststrip_kalker_tangential_problem
         real(wp), allocatable :: x(:), y(:) !! middle of an element, mm
         real(wp), allocatable :: pn(:)     !! its pressure, MPa
         real(wp), allocatable :: rigid(:, :) !! its rigid slip, shape (2, n)
-        real(wp), allocatable :: pressed(:, :) !! its part by the pressures of unlike materials
+        real(wp), allocatable :: pressed(:, :) !! its part by the pressures of dissimilar materials
         real(wp), allocatable :: edge(:, :)  !! slip at its node by its own traction, the leading
                                              !! edge's part, 1/MPa, shape (2, n)
         real(wp), allocatable :: own_row(:, :)
@@ -304,7 +304,8 @@ contains
         are_alike = abs(coupling_constant(material)) <= no_coupling
     end function are_alike
 
-    !> Add to the rigid slip what the pressures of unlike materials do, less what they did before.
+    !> Add to the rigid slip what the pressures of dissimilar materials do, less what they did
+    !> before.
     subroutine add_pressures(problem, history)
         type(problem_t), intent(inout) :: problem ! with elements and kernels
         type(tang_history_t), intent(in), optional :: history

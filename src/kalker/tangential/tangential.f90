@@ -9,7 +9,7 @@
 !> In steady rolling bodies store nothing: the friction power is what the forces do on the
 !> creepages, and is taken from these. The sum of tractions on slips lacks more the less slides, for
 !> the slip is then at the trailing edge, in less than an element: in the mean of 110 contacts 15 %
-!> with 18 elements across, 9 % with 36. Between unlike materials tractions work on the slip by
+!> with 18 elements across, 9 % with 36. Between dissimilar materials tractions work on the slip by
 !> pressures as well.
 !>
 !> Friction that falls with slip is found by repetition: a bound of each element's slip, tractions
@@ -387,8 +387,8 @@ contains
         end do
     end subroutine slide_freely
 
-    !> What tractions do on the slip by pressures of unlike materials: the mean of the nodes about
-    !> an element.
+    !> What tractions do on the slip by pressures of dissimilar materials: the mean of the nodes
+    !> about an element.
     pure real(wp) function power_on_pressed(newton, problem) result(power)
         type(newton_t), intent(in) :: newton
         type(problem_t), intent(in) :: problem

@@ -6,7 +6,7 @@ module faststrip_contact_method_hertz
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, is_error
     use faststrip_normal_simple_hertz, only: hertz_solve_gap_demand, hertz_strips
-    use faststrip_normal_estimate_hertz_certificate, only: certify_hertz
+    use faststrip_normal_estimate_hertz_errors, only: estimate_hertz_errors
     use faststrip_normal_limitations, only: check_lowest, name_resolution, name_steps
     use faststrip_normal_estimate_misfit, only: misfit_t, find_misfit
     use faststrip_normal_types, only: normal_result_t
@@ -75,12 +75,12 @@ contains
         type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        result%certificate = certify_hertz(misfit_of(workspace, case))
+        result%normal_errors = estimate_hertz_errors(misfit_of(workspace, case))
         result%is_estimated = .true.
         result%has_residuals = .true.
-        call name_resolution(result%certificate%est_err_penetration, &
-                             result%certificate%est_err_pmax, &
-                             result%certificate%est_err_area, case%resolution_limit, status)
+        call name_resolution(result%normal_errors%est_err_penetration, &
+                             result%normal_errors%est_err_pmax, &
+                             result%normal_errors%est_err_area, case%resolution_limit, status)
     end subroutine estimate_by_hertz
 
     !> Add to the errors of forces on the workspace's Hertz ellipse what its shape is wrong by.

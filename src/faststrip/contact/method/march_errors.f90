@@ -7,7 +7,7 @@ module faststrip_contact_method_march_errors
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, is_error, add_limitation, st_under_resolved
     use faststrip_influence_rectangle, only: coupling_constant
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_limitations, only: name_force_resolution
     use faststrip_tangential_force_errors, only: estimate_force_errors
     use faststrip_tangential_motion, only: cut_creepage
@@ -19,8 +19,8 @@ module faststrip_contact_method_march_errors
 
     public :: left_out_t, estimate_march, name_falling_friction
 
-    ! Tuned [1]: Force by the coupling of unlike materials, over K N; at most over mu N. Origin: a
-    ! line contact in free rolling (Bentall and Johnson 1967), linear.
+    ! Tuned [1]: Force by the coupling of dissimilar materials, over K N; at most over mu N. Origin:
+    ! a line contact in free rolling (Bentall and Johnson 1967), linear.
     real(wp), parameter :: force_of_coupling = 3.0_wp, most_left_out = 2.0_wp
 
     !> A tangential method of the core: no error is known, unless it says so; what it leaves out is
@@ -67,12 +67,12 @@ contains
             if (workspace%is_ellipse) then
                 ! Strips of an ellipse are exact; what is wrong with the ellipse is added.
                 call estimate_force_errors(workspace%strips, material, case%mu, creepage, march, &
-                                           points, certificate_t(), errors, estimate, finer)
+                                           points, normal_errors_t(), errors, estimate, finer)
                 if (.not. is_error(estimate)) &
                     call add_shape_errors(workspace, case, errors, estimate)
             else
                 call estimate_force_errors(workspace%strips, material, case%mu, creepage, march, &
-                                           points, result%certificate, errors, estimate, finer)
+                                           points, result%normal_errors, errors, estimate, finer)
             end if
             result%forces_are_estimated = .not. is_error(estimate)
             if (.not. result%forces_are_estimated) return
@@ -85,7 +85,7 @@ contains
     end subroutine estimate_march
 
     !> Name what methods of the core know nothing of: friction that falls with slip has no estimate,
-    !> pressures of unlike materials do not count.
+    !> pressures of dissimilar materials do not count.
     pure subroutine name_left_out(case, status)
         type(contact_case_t), intent(in) :: case !! what was solved
         type(status_t), intent(inout) :: status  !! limitations so far; `st_under_resolved`
@@ -93,13 +93,14 @@ contains
         if (falls(case%friction)) then
             call name_falling_friction(status)
         else if (left_out(case) > case%force_limit) then
-            call add_limitation(status, st_under_resolved, 'between unlike materials pressures ' &
-                                // 'cause slip, with which only tang reckons')
+            call add_limitation(status, st_under_resolved, 'between dissimilar materials ' &
+                                // 'pressures cause slip, which only tang takes into account')
         end if
     end subroutine name_left_out
 
-    !> What methods of the core leave out of forces over mu N where materials are unlike: pressures
-    !> cause slip of a creepage of about 1.25 K p0/G, which makes three times K N of force.
+    !> What methods of the core leave out of forces over mu N where materials are dissimilar:
+    !> pressures cause slip of a creepage of about 1.25 K p0/G, which makes three times K N of
+    !> force.
     pure real(wp) function left_out(case) result(error)
         type(contact_case_t), intent(in) :: case
 

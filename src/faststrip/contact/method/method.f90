@@ -10,7 +10,7 @@ module faststrip_contact_method
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
@@ -56,11 +56,11 @@ module faststrip_contact_method
     type :: contact_result_t
         type(normal_result_t) :: normal = normal_result_t()
             !! load, penetration, area, largest pressure, ...
-        type(certificate_t) :: certificate = certificate_t() !! how wrong they are
+        type(normal_errors_t) :: normal_errors = normal_errors_t() !! how wrong they are
         logical :: is_estimated = .false.
             !! is that known? Not of ellipses in the strips' place
         logical :: has_residuals = .false.
-            !! are the certificate's residuals known? Of strips, Hertz and norm
+            !! are residuals of the error estimates known? Of strips, Hertz and norm
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
         logical :: has_forces = .false.  !! are these known?

@@ -79,13 +79,13 @@ contains
         type(status_t) :: estimate
 
         call estimate_strips(workspace%solver, normal_compliance(case%material), &
-                             workspace%strips, result%normal, result%certificate, estimate)
+                             workspace%strips, result%normal, result%normal_errors, estimate)
         result%is_estimated = .not. is_error(estimate)
         result%has_residuals = result%is_estimated
         if (result%is_estimated) then
-            call name_resolution(result%certificate%est_err_penetration, &
-                                 result%certificate%est_err_pmax, &
-                                 result%certificate%est_err_area, case%resolution_limit, status)
+            call name_resolution(result%normal_errors%est_err_penetration, &
+                                 result%normal_errors%est_err_pmax, &
+                                 result%normal_errors%est_err_area, case%resolution_limit, status)
         else
             words = 'no error can be estimated:'
             words(len_trim(words) + 2:) = estimate%message

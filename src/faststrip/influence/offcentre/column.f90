@@ -1,4 +1,4 @@
-!> Columns of influence numbers at points anywhere.
+!> Columns of influence coefficients at points anywhere.
 !>
 !> What has no rule with constant nodes (faststrip_influence_angle_sums) goes to the scalar
 !> procedures of faststrip_influence_offcentre.

@@ -185,7 +185,7 @@ contains
 
         fields%size = c_sizeof(fields)
         associate (normal => handle%result%normal, tangential => handle%result%tangential, &
-                   certificate => handle%result%certificate, &
+                   normal_errors => handle%result%normal_errors, &
                    forces => handle%result%force_errors, workspace => handle%workspace, &
                    steps => handle%workspace%steps)
             fields%load = normal%load
@@ -206,11 +206,11 @@ contains
             fields%iterations = normal%iterations
             fields%is_estimated = merge(1, 0, handle%result%is_estimated)
             fields%strips_across = normal%strips_across
-            fields%est_err_penetration = certificate%est_err_penetration
-            fields%est_err_pmax = certificate%est_err_pmax
-            fields%est_err_area = certificate%est_err_area
-            fields%residual_inside = certificate%residual_inside
-            fields%overlap_outside = certificate%overlap_outside
+            fields%est_err_penetration = normal_errors%est_err_penetration
+            fields%est_err_pmax = normal_errors%est_err_pmax
+            fields%est_err_area = normal_errors%est_err_area
+            fields%residual_inside = normal_errors%residual_inside
+            fields%overlap_outside = normal_errors%overlap_outside
             fields%forces_are_estimated = merge(1, 0, handle%result%forces_are_estimated)
             fields%limitations = handle%limitations
             fields%est_err_fx = forces%fx

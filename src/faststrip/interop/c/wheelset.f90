@@ -331,9 +331,9 @@ contains
             fields%force_wheelset = contact%force_wheelset
             fields%moment = contact%moment
             fields%is_estimated = merge(1, 0, figures%is_estimated)
-            fields%est_err_penetration = figures%certificate%est_err_penetration
-            fields%est_err_pmax = figures%certificate%est_err_pmax
-            fields%est_err_area = figures%certificate%est_err_area
+            fields%est_err_penetration = figures%normal_errors%est_err_penetration
+            fields%est_err_pmax = figures%normal_errors%est_err_pmax
+            fields%est_err_area = figures%normal_errors%est_err_area
             fields%forces_are_estimated = merge(1, 0, figures%forces_are_estimated)
             fields%est_err_fx = figures%force_errors%fx
             fields%est_err_fy = figures%force_errors%fy

@@ -95,10 +95,10 @@ contains
         type(handle_t), intent(in) :: handle !! after a solution
         real(c_double) :: err(n_err)
 
-        associate (certificate => handle%result%certificate)
-            err = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                   certificate%est_err_area, certificate%residual_inside, &
-                   certificate%overlap_outside, merge(1.0_c_double, 0.0_c_double, &
+        associate (normal_errors => handle%result%normal_errors)
+            err = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
+                   normal_errors%est_err_area, normal_errors%residual_inside, &
+                   normal_errors%overlap_outside, merge(1.0_c_double, 0.0_c_double, &
                                                       handle%result%is_estimated), &
                    real(handle%result%normal%strips_across, c_double)]
         end associate

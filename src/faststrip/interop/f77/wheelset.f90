@@ -253,7 +253,7 @@ contains
         call contact_place(handle, i, side, k)
         associate (contact => handle%result%wheel(side)%contact(k))
             associate (normal => contact%figures%normal, forces => contact%figures%tangential, &
-                       errors => contact%figures%certificate, creepage => contact%creepage, &
+                       errors => contact%figures%normal_errors, creepage => contact%creepage, &
                        wrong => contact%figures%force_errors)
                 cont = [real([side, contact%status%code, normal%n_patches, normal%strips_across, &
                               merge(1, 0, contact%figures%is_estimated), &

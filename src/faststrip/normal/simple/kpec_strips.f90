@@ -6,9 +6,9 @@
 !>
 !>     H sum_s C_ks p_s = D - h_k,
 !>
-!> with the strips' exact influence numbers C: one linear system for p = D u - v, no iteration. Of
-!> a load D follows from it, so that KPEC's own need only be near. What is left out is the condition
-!> at the tips, which would move the lengths: area and length stay those of KPEC.
+!> with the strips' exact influence coefficients C: one linear system for p = D u - v, no iteration.
+!> Of a load D follows from it, so that KPEC's own need only be near. What is left out is the
+!> condition at the tips, which would move the lengths: area and length stay those of KPEC.
 !>
 !> As KPEC has it, a further patch h_0 above the lowest height is pressed in by D - 2 h_0 and does
 !> not feel the first, and a strip that would pull keeps a hundredth of KPEC's pressure.

@@ -1,6 +1,6 @@
-!> Influence numbers carried from the last exact evaluation to strips that have moved on.
+!> Influence coefficients carried from the last exact evaluation to strips that have moved on.
 !>
-!> The edges of a patch's strips lie at fixed parts of its width, so its influence numbers are
+!> The edges of a patch's strips lie at fixed parts of its width, so its influence coefficients are
 !> homogeneous of degree one in all its lengths: where a patch grows as a whole they grow with it.
 !> Kept are, of strips of half-lengths `l_s` in patches of widths `W`, the numbers `C_ks` on the
 !> centre lines and `T_ks` at the tips, and their derivatives in `l_s` and in the place `x_k` of the

@@ -76,8 +76,8 @@ module faststrip_normal_strip_coupled
 
 contains
 
-    !> Solve for strips and ends together by exact influence numbers; `settled` is false if that
-    !> does not succeed, and then nothing of the patches and the workspace's strips counts.
+    !> Solve for strips and ends together by exact influence coefficients; `settled` is false if
+    !> that does not succeed, and then nothing of the patches and the workspace's strips counts.
     pure subroutine settle_coupled(workspace, compliance, demand, tolerance, most_factorings, &
                                    patches, cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
@@ -94,9 +94,9 @@ contains
         if (settled) call meet_load(workspace, demand)
     end subroutine settle_coupled
 
-    !> The same from the last solution, by influence numbers that are carried on from the last exact
-    !> evaluation (`faststrip_normal_strip_carried`), and evaluated anew where strips have moved so
-    !> far that this would be seen.
+    !> The same from the last solution, by influence coefficients that are carried on from the last
+    !> exact evaluation (`faststrip_normal_strip_carried`), and evaluated anew where strips have
+    !> moved so far that this would be seen.
     pure subroutine settle_carried(workspace, compliance, demand, tolerance, patches, cost, settled)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa

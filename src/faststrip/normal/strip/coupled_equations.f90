@@ -29,7 +29,7 @@ contains
         real(wp), intent(in) :: compliance             !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand           !! load or penetration
         type(end_t), intent(in) :: ends(:)             !! of all patches
-        logical, intent(in) :: by_carried              !! influence numbers, or exact ones
+        logical, intent(in) :: by_carried              !! influence coefficients, or exact ones
         real(wp), intent(inout), contiguous :: residual(:) !! (2n + 1 + size(ends))
 
         integer :: e
@@ -54,7 +54,7 @@ contains
         type(patches_t), intent(in) :: patches !! whose strips these are
         type(end_t), intent(in) :: ends(:)   !! of all patches
         real(wp), intent(in) :: p_scale      !! unit of the pressures' changes, MPa
-        logical, intent(in) :: by_carried    !! influence numbers, or exact ones
+        logical, intent(in) :: by_carried    !! influence coefficients, or exact ones
         logical, intent(out) :: singular     !! is the Jacobian?
 
         type(patches_t) :: moved

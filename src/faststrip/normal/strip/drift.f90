@@ -1,4 +1,4 @@
-!> What carried influence numbers missed in the last step, and so will miss in the next one.
+!> What carried influence coefficients missed in the last step, and so will miss in the next one.
 !>
 !> A step of a history is solved by the numbers of the step before, which are evaluated anew where
 !> that leads, and the solution goes on from there. What the second part adds is of second order in

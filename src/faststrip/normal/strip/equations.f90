@@ -1,7 +1,7 @@
 !> The equations of strips with given lateral edges: residuals and Jacobian.
 !>
 !> Unknowns are the centre pressures p0_k, the half-lengths xd_k (as logarithms) and the
-!> penetration D. The paper gives the influence numbers (eqs. (2)-(4)) and no algorithm; the
+!> penetration D. The paper gives the influence coefficients (eqs. (2)-(4)) and no algorithm; the
 !> closure used is: the gap is closed on the centre line of every strip and at its exact tip,
 !>
 !>     H sum_s p0_s I_ks(0)    = D - h_k
@@ -28,8 +28,8 @@ module faststrip_normal_strip_equations
     !> its pressure can stay positive while its length tends to zero.
     !> Tuned [1]: Length over that of its neighbour. Origin: chosen.
     real(wp), parameter :: leaving_length_ratio = 0.15_wp
-    ! Tuned [influence numbers]: time of one operation of linear algebra. Origin: chosen for the
-    ! time.
+    ! Tuned [influence coefficients]: time of one operation of linear algebra. Origin: chosen for
+    ! the time.
     real(wp), parameter :: operation_cost = 0.01_wp
 
 contains
@@ -53,8 +53,8 @@ contains
         cost%gradients = cost%gradients + 2*n*n
     end subroutine add_cost
 
-    !> What was spent, in influence numbers: as many could have been computed in that time. One with
-    !> its derivatives counts three, and 100 operations of the linear algebra count one.
+    !> What was spent, in influence coefficients: as many could have been computed in that time. One
+    !> with its derivatives counts three, and 100 operations of the linear algebra count one.
     pure real(wp) function cost_work(cost) result(work)
         type(cost_t), intent(in) :: cost !! of a solution
 

@@ -8,7 +8,7 @@
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
-    use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells_lattice, only: lattice_solve, lattice_solve_penetration, &
                                               forget_lattice_errors
     use faststrip_normal_limitations, only: default_resolution
@@ -279,13 +279,14 @@ contains
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
 
-        type(certificate_t) :: certificate
+        type(normal_errors_t) :: normal_errors
         type(status_t) :: status
 
-        call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
+        call estimate_strip_errors(workspace%curve, compliance, strips, result, normal_errors, &
+                                   status)
         is_resolved = .not. is_error(status) &
-                      .and. max(certificate%est_err_penetration, certificate%est_err_pmax, &
-                                certificate%est_err_area) <= limit
+                      .and. max(normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
+                                normal_errors%est_err_area) <= limit
     end function is_resolved
 
     !> By which numbers of strips the asked one is reached.

@@ -66,7 +66,8 @@ module faststrip_normal_strip_settle
     ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all levels together: so much, and so many steps of all strips.
-    ! Tuned [influence numbers; steps]. Origin: chosen: bounds the time of gaps that do not settle.
+    ! Tuned [influence coefficients; steps]. Origin: chosen: bounds the time of gaps that do not
+    ! settle.
     real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip

@@ -34,7 +34,7 @@ module faststrip_normal_strip_state
         type(gap_curve_t) :: image  !! its mirror image, if the gap counts as one
         integer :: image_of = 0     !! the curve's version that this is the image of; 0: of none
         type(newton_workspace_t) :: newton
-        type(carried_t) :: carried  !! influence numbers of the last warm solution
+        type(carried_t) :: carried  !! influence coefficients of the last warm solution
         type(drift_t) :: drift      !! what they missed in it
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved

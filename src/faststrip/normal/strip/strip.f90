@@ -25,7 +25,7 @@ module faststrip_normal_strip
                                      st_fewer_strips, st_overlap_left, st_more_strips, &
                                      st_workspace_too_small
     use faststrip_base_material, only: check_compliance
-    use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips
+    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
@@ -238,25 +238,26 @@ contains
         result%y_max = -y_min
     end subroutine mirror_ends
 
-    !> How wrong the last solution of a workspace is: by its certificate, and by the estimate of the
-    !> lattice that was fallen back to. Nothing is allocated. Errors: those of `certify_strips`.
-    pure subroutine estimate_strips(workspace, compliance, strips, result, certificate, status)
+    !> Error estimates of the last solution of a workspace, and of the lattice that was fallen back
+    !> to. Nothing is allocated. Errors: those of `estimate_strip_errors`.
+    pure subroutine estimate_strips(workspace, compliance, strips, result, normal_errors, status)
         type(strip_workspace_t), intent(in) :: workspace !! with the gap that was solved
         real(wp), intent(in) :: compliance               !! H of eq. (4), 1/MPa
         type(contact_strips_t), intent(in) :: strips     !! the solution
         type(normal_result_t), intent(in) :: result      !! its figures
-        type(certificate_t), intent(out) :: certificate  !! residuals and estimated errors
+        type(normal_errors_t), intent(out) :: normal_errors  !! residuals and estimated errors
         type(status_t), intent(out) :: status            !! how it ended
 
         type(lattice_errors_t) :: errors
 
-        call certify_strips(workspace%curve, compliance, strips, result, certificate, status)
+        call estimate_strip_errors(workspace%curve, compliance, strips, result, normal_errors, &
+                                   status)
         if (is_error(status)) return
         errors = lattice_errors(workspace%lattice)
         if (.not. errors%is_known) return
-        certificate%est_err_penetration = errors%est_err_penetration
-        certificate%est_err_pmax = errors%est_err_pmax
-        certificate%est_err_area = errors%est_err_area
+        normal_errors%est_err_penetration = errors%est_err_penetration
+        normal_errors%est_err_pmax = errors%est_err_pmax
+        normal_errors%est_err_area = errors%est_err_area
     end subroutine estimate_strips
 
     subroutine check_input(workspace, compliance, options, strips, status)

@@ -11,7 +11,7 @@ module faststrip_tangential_force_errors
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_poisson_ratio
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch
     use faststrip_normal_sub_patches, only: has_neck
@@ -69,19 +69,19 @@ contains
 
     !> Estimate the errors of the forces that a method gives of strips.
     pure subroutine estimate_force_errors(strips, material, mu, creepage, method, points, &
-                                          certificate, errors, status, finer)
+                                          normal_errors, errors, status, finer)
         type(contact_strips_t), intent(in) :: strips     !! a normal solution, checked
         type(material_t), intent(in) :: material         !! moduli in MPa
         real(wp), intent(in) :: mu                       !! coefficient of friction
         type(creepage_t), intent(in) :: creepage         !! about the reference point
         integer, intent(in) :: method                    !! one of the `errors_of_` numbers
         integer, intent(in) :: points                    !! along a strip
-        type(certificate_t), intent(in) :: certificate   !! of the normal solution
+        type(normal_errors_t), intent(in) :: normal_errors   !! of the normal solution
         type(force_errors_t), intent(out) :: errors      !! of the sums over all patches
         type(status_t), intent(inout) :: status          !! that of `kalker_coefficients`
         real(wp), intent(in), optional :: finer
             !! what would be estimated of so many times as many strips, with `points` along each and
-            !! this certificate; default 1
+            !! these estimates; default 1
 
         type(patch_ellipse_t) :: ellipse
         type(patch_law_t) :: law
@@ -132,7 +132,7 @@ contains
             state = rolling_state_t(u, [induced%cksi - ellipse%y*induced%cphi, induced%ceta, &
                                         induced%cphi], ellipse%a, ellipse%b, &
                                     combined_poisson_ratio(material), law%sliding, points)
-            part = ellipse%load*errors_of_patch(state, shape, method, certificate, &
+            part = ellipse%load*errors_of_patch(state, shape, method, normal_errors, &
                                                 has_neck(strips%half_length(first:last)))
             if (coupling%n > 1) part = part + ellipse%load*coupling_errors(apart(k), tractions(k), &
                                                                            ellipse)
@@ -198,11 +198,11 @@ contains
     end function coupling_errors
 
     !> Errors of one patch, the moment about its centroid over mu N sqrt(ab).
-    pure function errors_of_patch(given, shape, method, certificate, is_necked) result(errors)
+    pure function errors_of_patch(given, shape, method, normal_errors, is_necked) result(errors)
         type(rolling_state_t), intent(in) :: given
         type(patch_shape_t), intent(in) :: shape
         integer, intent(in) :: method
-        type(certificate_t), intent(in) :: certificate
+        type(normal_errors_t), intent(in) :: normal_errors
         logical, intent(in) :: is_necked
         real(wp) :: errors(3)
 
@@ -222,8 +222,9 @@ contains
         associate (n => n_ellipse_inputs + n_shape_inputs)
             call network_inputs(state, shape, x(:n), v)
             x(n + 1:) = [log([shape%width, real(state%points, wp), &
-                              within([certificate%est_err_penetration, certificate%est_err_pmax, &
-                                      certificate%est_err_area], least_estimates*shape%width**2), &
+                              within([normal_errors%est_err_penetration, &
+                                      normal_errors%est_err_pmax, normal_errors%est_err_area], &
+                                     least_estimates*shape%width**2), &
                               abs(missing(:3)) + smallest_error, 1.0_wp + unlike]), &
                          merge(1.0_wp, 0.0_wp, is_necked)]
         end associate

@@ -15,14 +15,14 @@
 !> made up to 1000 times smaller, against 31 strips; of six other families they bound 99 %, of
 !> single patches of `faststrip-lab fuzz` 94 to 98 %, and are two to seven times the error in the
 !> median.
-module faststrip_normal_estimate_hertz_certificate
+module faststrip_normal_estimate_hertz_errors
     use faststrip_base_kinds, only: wp
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_estimate_misfit, only: misfit_t
     implicit none
     private
 
-    public :: certify_hertz
+    public :: estimate_hertz_errors
 
     ! Tuned [1]: The penetration's factors, see the module's head. Origin: calibrated, see the
     ! module's head.
@@ -35,21 +35,21 @@ module faststrip_normal_estimate_hertz_certificate
 
 contains
 
-    !> The certificate of a Hertz contact.
-    pure type(certificate_t) function certify_hertz(misfit) result(certificate)
+    !> The error estimates of a Hertz contact.
+    pure type(normal_errors_t) function estimate_hertz_errors(misfit) result(normal_errors)
         type(misfit_t), intent(in) :: misfit !! of its gap
 
-        certificate%residual_inside = misfit%inside
-        certificate%overlap_outside = misfit%overlap
-        certificate%est_err_penetration = over_truth( &
+        normal_errors%residual_inside = misfit%inside
+        normal_errors%overlap_outside = misfit%overlap
+        normal_errors%est_err_penetration = over_truth( &
             penetration_factor*(penetration_mean*abs(misfit%mean) + misfit%magnitude &
                                 + penetration_overlap*misfit%overlap))
-        certificate%est_err_pmax = over_truth(max( &
+        normal_errors%est_err_pmax = over_truth(max( &
             pmax_factor*((pmax_mean*abs(misfit%mean) + misfit%magnitude)/misfit%rise &
                          + misfit%overlap), misfit%peak - 1.0_wp))
-        certificate%est_err_area = &
+        normal_errors%est_err_area = &
             over_truth(area_factor*(misfit%tips/misfit%rise + area_overlap*misfit%overlap))
-    end function certify_hertz
+    end function estimate_hertz_errors
 
     !> An error over a figure as one over the truth, which may be smaller.
     elemental real(wp) function over_truth(error)
@@ -57,4 +57,4 @@ contains
 
         over_truth = error*(1.0_wp + error)
     end function over_truth
-end module faststrip_normal_estimate_hertz_certificate
+end module faststrip_normal_estimate_hertz_errors

@@ -1,9 +1,9 @@
 !> Overlap of the deformed surfaces outside the patches of a strip solution, for
-!> `faststrip_normal_estimate_certificate`.
-module faststrip_normal_estimate_certificate_outside
+!> `faststrip_normal_estimate_errors`.
+module faststrip_normal_estimate_outside
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, level_intervals
-    use faststrip_normal_estimate_certificate_samples, only: sample, sample_centre_line
+    use faststrip_normal_estimate_samples, only: sample, sample_centre_line
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch
     implicit none
     private
@@ -118,4 +118,4 @@ contains
                      .and. .not. any(strips%y_left(:strips%n) <= y &
                                      .and. strips%y_right(:strips%n) >= y)
     end function is_outside
-end module faststrip_normal_estimate_certificate_outside
+end module faststrip_normal_estimate_outside

@@ -1,18 +1,18 @@
-!> The study behind the certificate of strip solutions: how often its estimates bound the true
+!> The study behind the error estimates of strip solutions: how often its estimates bound the true
 !> errors, and by how much they are too large.
 !>
 !> Hertz ellipses are judged by the exact solution; the 20 gaps of the reference and random gaps by
-!> Kalker's method on two grids, carried on (`faststrip_lab_studies_certificate_truth`). Many strips
-!> are no truth: all strips share that their sections are taken for semi-ellipses. The gaps are
-!> compared with CONTACT as well, on its grid.
+!> Kalker's method on two grids, extrapolated (`faststrip_lab_studies_estimates_reference`). Many
+!> strips are no reference: all strips share that their sections are taken for semi-ellipses. The
+!> gaps are compared with CONTACT as well, on its grid.
 !>
-!> Most of the certificate's factors were chosen on random contacts of a script, which drew noise,
+!> Most factors of the error estimates were chosen on random contacts of a script, which drew noise,
 !> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
 !> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those
 !> of slopes and waves from strip to strip were settled with an eye on the same families, with seed
 !> 11, those of a varying 1/(2R), of wide strips and of load with 12, 13 and 21; the gaps here are
 !> of another seed.
-module faststrip_lab_studies_certificate
+module faststrip_lab_studies_estimates
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal
     use faststrip_base_text, only: integer_text
@@ -24,16 +24,16 @@ module faststrip_lab_studies_certificate
     use faststrip_files_gap, only: read_gap_file
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strips_auto
-    use faststrip_normal_estimate_certificate, only: certificate_t, certify_strips, &
+    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors, &
                                                      richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_pressures, only: solve_by_strips
-    use faststrip_lab_studies_certificate_tally, only: tally_t, start_tally, count_in, count_out, &
+    use faststrip_lab_studies_estimates_tally, only: tally_t, start_tally, count_in, count_out, &
                                                        print_tally, figures, n_figures
-    use faststrip_lab_studies_certificate_truth, only: truth_t, find_truth, is_certain, &
+    use faststrip_lab_studies_estimates_reference, only: truth_t, find_truth, is_certain, &
                                                        elements_along, elements_across
     use faststrip_command_program_console, only: fail_on_error, put_origin, progress
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
@@ -41,7 +41,7 @@ module faststrip_lab_studies_certificate
     implicit none
     private
 
-    public :: run_certificate_study
+    public :: run_estimates_study
 
     integer, parameter :: strips_tried(7) = [5, 9, 15, 21, 31, 41, strips_auto]
     integer, parameter :: n_tried = size(strips_tried)
@@ -64,8 +64,8 @@ module faststrip_lab_studies_certificate
         [character(len=12) :: 'ellipses', 'gaps', 'gaps_contact', random_families]
     integer, parameter :: set_ellipses = 1, set_gaps = 2, set_contact = 3
 
-    integer, parameter :: certificate_ = 1, richardson_ = 2, norm_ = 3
-    character(len=*), parameter :: estimators(3) = [character(len=11) :: 'certificate', &
+    integer, parameter :: residuals_ = 1, richardson_ = 2, norm_ = 3
+    character(len=*), parameter :: estimators(3) = [character(len=11) :: 'residuals', &
                                                     'richardson', 'norm']
 
     !> A contact and what its strips give.
@@ -73,7 +73,7 @@ module faststrip_lab_studies_certificate
         character(len=:), allocatable :: name
         real(wp) :: h_lowest = 0.0_wp
         type(normal_result_t) :: result(n_tried)
-        type(certificate_t) :: certificate(n_tried), halves(n_tried)
+        type(normal_errors_t) :: normal_errors(n_tried), halves(n_tried)
         logical :: is_smooth(n_tried) = .false. ! did all strips settle, no limitation?
         logical :: is_halved(n_tried) = .false. ! and is there a solution with half of them?
     end type studied_case_t
@@ -89,7 +89,7 @@ contains
 
     !> Run the study: one row per contact, solution, estimator and figure into a CSV file, the
     !> coverage and the ratios to the standard output.
-    subroutine run_certificate_study(path)
+    subroutine run_estimates_study(path)
         character(len=*), intent(in) :: path !! CSV file to write, or `-`
 
         type(study_t), allocatable :: study
@@ -119,11 +119,11 @@ contains
         call close_csv(study%writer, status)
         call fail_on_error(status)
         if (path == '-') return
-        call print_tally(study%tally(certificate_), estimators(certificate_), families, solutions)
+        call print_tally(study%tally(residuals_), estimators(residuals_), families, solutions)
         call print_tally(study%tally(richardson_), estimators(richardson_), families, solutions)
         call print_tally(study%tally(norm_), estimators(norm_), families, &
                          [character(len=22) :: 'coarser grid'])
-    end subroutine run_certificate_study
+    end subroutine run_estimates_study
 
     subroutine try_ellipses(study)
         type(study_t), intent(inout) :: study
@@ -283,9 +283,9 @@ contains
             contact%h_lowest = study%workspace%solver%curve%h_lowest
             contact%is_smooth(i) = is_smooth(status)
             if (.not. is_smooth(status)) cycle
-            call certify_strips(study%workspace%solver%curve, &
+            call estimate_strip_errors(study%workspace%solver%curve, &
                                 normal_compliance(contact%material), study%workspace%strips, &
-                                contact%result(i), contact%certificate(i), status)
+                                contact%result(i), contact%normal_errors(i), status)
             call fail_on_error(status)
             if (.not. contact%is_halved(i)) cycle
             call richardson_estimate(coarse, contact%result(i), real(n, wp)/half_of(n), &
@@ -337,7 +337,7 @@ contains
 
         do i = 1, n_tried
             if (.not. contact%is_smooth(i)) cycle
-            call enter_one(certificate_, i, contact%result(i), contact%certificate(i))
+            call enter_one(residuals_, i, contact%result(i), contact%normal_errors(i))
             if (contact%is_halved(i)) &
                 call enter_one(richardson_, i, contact%result(i), contact%halves(i))
         end do
@@ -345,18 +345,18 @@ contains
 
     contains
 
-        subroutine enter_one(estimator, solution, result, certificate)
+        subroutine enter_one(estimator, solution, result, normal_errors)
             integer, intent(in) :: estimator, solution
             type(normal_result_t), intent(in) :: result
-            type(certificate_t), intent(in) :: certificate
+            type(normal_errors_t), intent(in) :: normal_errors
 
             real(wp), dimension(n_figures) :: error, estimate
             integer :: q
 
             error = abs([result%penetration - contact%h_lowest, result%pmax, result%area] &
                         /truth%figure - 1.0_wp)
-            estimate = [certificate%est_err_penetration, certificate%est_err_pmax, &
-                        certificate%est_err_area]
+            estimate = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
+                        normal_errors%est_err_area]
             do q = 1, n_figures
                 call put_cell(study%writer, trim(families(family)))
                 call put_cell(study%writer, contact%name)
@@ -382,4 +382,4 @@ contains
             end do
         end subroutine enter_one
     end subroutine enter
-end module faststrip_lab_studies_certificate
+end module faststrip_lab_studies_estimates

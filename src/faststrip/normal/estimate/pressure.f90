@@ -1,9 +1,9 @@
 !> The pressure that the residuals of a strip ask for: the terms of
-!> `faststrip_normal_estimate_certificate` for one strip.
-module faststrip_normal_estimate_certificate_pressure
+!> `faststrip_normal_estimate_errors` for one strip.
+module faststrip_normal_estimate_pressure
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_estimate_certificate_samples, only: samples_t, largest
+    use faststrip_normal_estimate_samples, only: samples_t, largest
     use faststrip_normal_estimate_longitudinal, only: inv2r_samples_t
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, last_of_patch
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure, &
@@ -20,10 +20,10 @@ module faststrip_normal_estimate_certificate_pressure
     ! Tuned [1]: The largest pressure's, of gaps in sections. Origin: calibrated, see the module's
     ! head.
     real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.5_wp
-    !> Tuned [1]. Origin: calibrated, see the head of `faststrip_normal_estimate_certificate`.
+    !> Tuned [1]. Origin: calibrated, see the head of `faststrip_normal_estimate_errors`.
     real(wp), parameter :: unresolved_factor = 1.1_wp !! of heights that a strip does not resolve
     ! Tuned [1]: The largest pressure's, of waves. Origin: calibrated, see the head of
-    ! `faststrip_normal_estimate_certificate`.
+    ! `faststrip_normal_estimate_errors`.
     real(wp), parameter :: wave_factor = 0.012_wp
 
 contains
@@ -168,4 +168,4 @@ contains
             change = abs(values(0))
         end if
     end function change
-end module faststrip_normal_estimate_certificate_pressure
+end module faststrip_normal_estimate_pressure

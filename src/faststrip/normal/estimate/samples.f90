@@ -1,6 +1,6 @@
 !> The gap between the deformed surfaces of a strip solution, sampled where the contact condition
-!> was not asked for: `m`, `e` and `t` of `faststrip_normal_estimate_certificate`.
-module faststrip_normal_estimate_certificate_samples
+!> was not asked for: `m`, `e` and `t` of `faststrip_normal_estimate_errors`.
+module faststrip_normal_estimate_samples
     use faststrip_base_kinds, only: wp
     use faststrip_influence_row, only: center_influence_column, influence_column_gradient
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
@@ -200,4 +200,4 @@ contains
             node = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
         end if
     end function node
-end module faststrip_normal_estimate_certificate_samples
+end module faststrip_normal_estimate_samples

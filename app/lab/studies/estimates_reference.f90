@@ -4,12 +4,12 @@
 !> second order in the sides of the elements. Half the difference of the two grids is what the
 !> truth itself may be wrong by: where that is no small part of an error, nothing can be said of
 !> its estimate.
-module faststrip_lab_studies_certificate_truth
+module faststrip_lab_studies_estimates_reference
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_estimate_certificate, only: certificate_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
@@ -36,7 +36,7 @@ module faststrip_lab_studies_certificate_truth
         real(wp) :: figure(3) = 0.0_wp   !! penetration, mm, pmax, MPa, area, mm2
         real(wp) :: doubt(3) = 0.0_wp    !! what they may be wrong by, relative
         type(normal_result_t) :: coarse  !! of the coarser grid
-        type(certificate_t) :: estimated !! its own estimates
+        type(normal_errors_t) :: estimated !! its own estimates
     end type truth_t
 
 contains
@@ -67,7 +67,7 @@ contains
         call norm_solve_demand(workspace, compliance, contact%demand_t, options, truth%coarse, &
                                status)
         if (status%code /= st_ok .or. .not. workspace%is_estimated) return
-        truth%estimated = workspace%certificate
+        truth%estimated = workspace%normal_errors
         coarse_area = border_area(workspace%grid)
         options%dx = 0.5_wp*options%dx
         options%dy = 0.5_wp*options%dy
@@ -91,4 +91,4 @@ contains
 
         is_certain = doubt <= max(share_of_error*error, least)
     end function is_certain
-end module faststrip_lab_studies_certificate_truth
+end module faststrip_lab_studies_estimates_reference

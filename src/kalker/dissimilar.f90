@@ -1,11 +1,11 @@
-!> Normal and tangential problem of unlike materials, both ways: pressures move points along the
+!> Normal and tangential problem of dissimilar materials, both ways: pressures move points along the
 !> surface, tractions move them across it.
 !>
 !> NORM and TANG in turn (Panagiotopoulos' iteration, as CONTACT has it): tractions for the
 !> pressures, with what these do as rigid slip; pressures for the gap, with what the tractions do as
 !> heights; until the pressures stay. Each turn leaves about K mu of a change, K of
 !> `faststrip_influence_rectangle`.
-module faststrip_kalker_unlike
+module faststrip_kalker_dissimilar
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
                                      st_no_convergence
@@ -28,7 +28,7 @@ module faststrip_kalker_unlike
     implicit none
     private
 
-    public :: unlike_problem_t, unlike_workspace_t, solve_unlike, release_unlike
+    public :: dissimilar_problem_t, dissimilar_workspace_t, solve_dissimilar, release_dissimilar
 
     ! Given: numbers of kinds.
     integer, parameter :: kernel_zx = 1, kernel_zy = 2
@@ -39,46 +39,47 @@ module faststrip_kalker_unlike
     integer, parameter :: most_turns = 30
 
     !> What is to be solved on a grid.
-    type :: unlike_problem_t
+    type :: dissimilar_problem_t
         type(material_t) :: material     !! moduli in MPa
         type(demand_t) :: demand         !! load, or penetration from zero height
         real(wp) :: mu = 0.0_wp          !! coefficient of friction
         type(creepage_t) :: creepage     !! as of `tang_solve`
         type(friction_t) :: friction     !! as of `tang_solve`
         type(tang_options_t) :: options  !! as of `tang_solve`
-    end type unlike_problem_t
+    end type dissimilar_problem_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
-    type :: unlike_workspace_t
+    type :: dissimilar_workspace_t
         integer :: turns = 0             !! of the last solution
         type(norm_workspace_t) :: norm   !! with the grid of pressures that stay
         type(tang_workspace_t) :: tang   !! with their tractions
         type(convolution_t), private :: convolution
         real(wp), allocatable, private :: px(:, :), py(:, :), height(:, :)
         real(wp), private :: made_for(5) = 0.0_wp ! the kernels
-    end type unlike_workspace_t
+    end type dissimilar_workspace_t
 
 contains
 
     !> Give back what the compiler does not: plans of workspaces in an array.
-    subroutine release_unlike(workspace)
-        type(unlike_workspace_t), intent(inout) :: workspace !! serves again
+    subroutine release_dissimilar(workspace)
+        type(dissimilar_workspace_t), intent(inout) :: workspace !! serves again
 
         call release_norm(workspace%norm)
         call release_tang(workspace%tang)
         call release_convolution(workspace%convolution)
         workspace%made_for = 0.0_wp
-    end subroutine release_unlike
+    end subroutine release_dissimilar
 
     !> Solve both problems on NORM's grid, from its solution.
     !>
     !> Errors: those of `tang_solve` and `norm_solve_heights`; `st_out_of_range` also where
     !> tractions widen the contact to the rim of the grid; `st_no_convergence`: the pressures do
     !> not stay.
-    subroutine solve_unlike(workspace, grid, problem, normal, tangential, status, field, history)
-        type(unlike_workspace_t), intent(inout) :: workspace !! needs no preparation
+    subroutine solve_dissimilar(workspace, grid, problem, normal, tangential, status, field, &
+                                history)
+        type(dissimilar_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid             !! heights, and NORM's pressures
-        type(unlike_problem_t), intent(in) :: problem        !! materials, friction, ...
+        type(dissimilar_problem_t), intent(in) :: problem        !! materials, friction, ...
         type(normal_result_t), intent(out) :: normal         !! penetration, area, ...
         type(tangential_result_t), intent(out) :: tangential !! forces
         type(status_t), intent(out) :: status                !! how it ended
@@ -101,8 +102,8 @@ contains
                             problem%friction, history)
             if (is_error(status) .or. change <= settled) return
             if (workspace%turns >= most_turns) then
-                call set_status(status, st_no_convergence, 'pressures and tractions of unlike ' // &
-                                'materials do not settle: the pressures change by ' // &
+                call set_status(status, st_no_convergence, 'pressures and tractions of ' // &
+                                'dissimilar materials do not settle: the pressures change by ' // &
                                 number_text(change))
                 return
             end if
@@ -119,11 +120,11 @@ contains
             if (is_error(status)) return
             change = norm2(workspace%norm%grid%pressure - workspace%px)/norm2(workspace%px)
         end do
-    end subroutine solve_unlike
+    end subroutine solve_dissimilar
 
     !> Heights of the gap with what the tractions do.
     subroutine lift(workspace, grid, material, status)
-        type(unlike_workspace_t), intent(inout) :: workspace
+        type(dissimilar_workspace_t), intent(inout) :: workspace
         type(contact_grid_t), intent(in) :: grid
         type(material_t), intent(in) :: material
         type(status_t), intent(out) :: status
@@ -146,7 +147,7 @@ contains
 
     !> What tractions do to heights, unless it is there already.
     subroutine make_kernels(workspace, grid, material, status)
-        type(unlike_workspace_t), intent(inout) :: workspace
+        type(dissimilar_workspace_t), intent(inout) :: workspace
         type(contact_grid_t), intent(in) :: grid
         type(material_t), intent(in) :: material
         type(status_t), intent(out) :: status
@@ -177,4 +178,4 @@ contains
                         status)
         workspace%made_for = wanted
     end subroutine make_kernels
-end module faststrip_kalker_unlike
+end module faststrip_kalker_dissimilar

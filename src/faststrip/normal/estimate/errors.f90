@@ -1,4 +1,4 @@
-!> An a posteriori certificate of a strip solution: how well the contact condition holds where it
+!> A posteriori error estimates of a strip solution: how well the contact condition holds where it
 !> was not asked for, and how wrong penetration, largest pressure and area are by that.
 !>
 !> The solver closes the gap on the centre line and at the tip of each strip's middle. Here the
@@ -67,20 +67,20 @@
 !> `faststrip-lab fuzz`, as smooth contacts have such differences too: at 0.5 the estimates are a
 !> tenth larger in the median. That of C(m_k), 0.7 before, makes up in the median for the terms of
 !> A, of needles and of load, which were settled with seeds 12, 13 and 21.
-!> `faststrip-lab bench certificate` judges them with another.
+!> `faststrip-lab bench estimates` judges them with another.
 !> All factors are of experience, no bounds in the strict sense.
-module faststrip_normal_estimate_certificate
+module faststrip_normal_estimate_errors
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_no_contact, st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_estimate_certificate_outside, only: look_ahead, look_beyond, look_elsewhere
-    use faststrip_normal_estimate_certificate_pressure, only: missing_pressure, section_load, &
+    use faststrip_normal_estimate_outside, only: look_ahead, look_beyond, look_elsewhere
+    use faststrip_normal_estimate_pressure, only: missing_pressure, section_load, &
                                                               inv2r_about, find_unresolved, &
                                                               unresolved_factor
-    use faststrip_normal_estimate_certificate_samples, only: samples_t, take_samples, block, &
+    use faststrip_normal_estimate_samples, only: samples_t, take_samples, block, &
                                                              smallest, largest
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, first_of_patch, last_of_patch
     use faststrip_normal_types, only: normal_result_t
@@ -88,16 +88,16 @@ module faststrip_normal_estimate_certificate
     implicit none
     private
 
-    public :: certificate_t, certify_strips, richardson_estimate
+    public :: normal_errors_t, estimate_strip_errors, richardson_estimate
 
     !> How well a solution fulfils the contact condition, and its estimated relative errors.
-    type :: certificate_t
+    type :: normal_errors_t
         real(wp) :: residual_inside = 0.0_wp !! largest |gap| inside the patches over D - h_lowest
         real(wp) :: overlap_outside = 0.0_wp !! largest overlap outside over D - h_lowest
         real(wp) :: est_err_penetration = 0.0_wp !! of D - h_lowest, relative, not negative
         real(wp) :: est_err_pmax = 0.0_wp    !! relative, not negative
         real(wp) :: est_err_area = 0.0_wp    !! relative, not negative
-    end type certificate_t
+    end type normal_errors_t
 
     ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
     ! module's head.
@@ -148,12 +148,12 @@ contains
     !> strips, strips without length or out of order, no pressure), `st_bad_material`,
     !> `st_not_finite`, `st_no_contact` (penetration not above the lowest gap),
     !> `st_out_of_range` (a size beyond 1e-30 to 1e30).
-    pure subroutine certify_strips(curve, compliance, strips, result, certificate, status)
+    pure subroutine estimate_strip_errors(curve, compliance, strips, result, normal_errors, status)
         type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(contact_strips_t), intent(in) :: strips !! the solution
         type(normal_result_t), intent(in) :: result  !! its penetration and pmax are used
-        type(certificate_t), intent(out) :: certificate !! zeros after an error
+        type(normal_errors_t), intent(out) :: normal_errors !! zeros after an error
         type(status_t), intent(out) :: status        !! how it ended
 
         type(samples_t) :: samples
@@ -169,22 +169,22 @@ contains
         do from = 1, strips%n, block
             to = min(from + block - 1, strips%n)
             call take_samples(curve, compliance, strips, depth, from, samples, &
-                              certificate%residual_inside)
+                              normal_errors%residual_inside)
             call look_ahead(curve, compliance, strips, depth, from, to, &
-                            certificate%overlap_outside)
+                            normal_errors%overlap_outside)
             do k = from, to
                 if (starts_patch(strips, k)) &
                     call look_beyond(curve, compliance, strips, depth, k, &
-                                     certificate%overlap_outside)
+                                     normal_errors%overlap_outside)
             end do
             do k = from, to
                 call add_residuals(strips, k, k - from + 1, samples, sums)
                 call add_pressures(curve, compliance, strips, depth, k, k - from + 1, samples, sums)
             end do
         end do
-        call look_elsewhere(curve, compliance, strips, depth, certificate%overlap_outside)
-        call estimate(strips, result, sums, certificate)
-    end subroutine certify_strips
+        call look_elsewhere(curve, compliance, strips, depth, normal_errors%overlap_outside)
+        call estimate(strips, result, sums, normal_errors)
+    end subroutine estimate_strip_errors
 
     !> Add the residuals of strip k, whose samples are number i.
     pure subroutine add_residuals(strips, k, i, samples, sums)
@@ -239,43 +239,45 @@ contains
     end subroutine add_pressures
 
     !> The estimated errors from the sums.
-    pure subroutine estimate(strips, result, sums, certificate)
+    pure subroutine estimate(strips, result, sums, normal_errors)
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
         type(sums_t), intent(in) :: sums
-        type(certificate_t), intent(inout) :: certificate
+        type(normal_errors_t), intent(inout) :: normal_errors
 
         integer :: across
 
-        certificate%est_err_penetration = penetration_factor &
+        normal_errors%est_err_penetration = penetration_factor &
             *(sqrt(sums%edge/sums%widths) + penetration_middle*sums%middle/sums%widths)
         across = count(strips%patch(:strips%n) == strips%patch(sums%peak))
-        certificate%est_err_area = &
+        normal_errors%est_err_area = &
             area_factor*max(1.0_wp, area_strips/across) &
             *(sqrt(sums%tip/sums%widths) + area_middle*sums%middle/sums%widths) &
             + area_unresolved*sums%unresolved/sums%areas
-        certificate%est_err_pmax = max(sums%peak_extra/result%pmax, &
+        normal_errors%est_err_pmax = max(sums%peak_extra/result%pmax, &
                                        (sums%largest_p0 - strips%p0(sums%peak))/result%pmax, &
                                        pmax_least/across**2) + per_load*(sums%section/sums%loads)
-        certificate%est_err_pmax = max(certificate%est_err_pmax, &
+        normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
                                        1.0_wp - result%pmax/max(sums%off_centre, result%pmax))
-        if (certificate%overlap_outside > telling_overlap) then
-            certificate%est_err_pmax = max(certificate%est_err_pmax, certificate%overlap_outside)
-            certificate%est_err_area = max(certificate%est_err_area, certificate%overlap_outside)
+        if (normal_errors%overlap_outside > telling_overlap) then
+            normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
+                                             normal_errors%overlap_outside)
+            normal_errors%est_err_area = max(normal_errors%est_err_area, &
+                                             normal_errors%overlap_outside)
         end if
     end subroutine estimate
 
     !> Errors of a fine solution from it and a coarser one of the same contact, as Richardson: the
     !> difference over `ratio^2 - 1`, second order in the number of strips, times 3, Roache's
-    !> factor of safety for two grids. The residuals of the certificate are left as they are.
+    !> factor of safety for two grids. The residuals are left as they are.
     !>
     !> Errors: `st_bad_argument`: a ratio not above 1, or a result without pressure or area.
-    pure subroutine richardson_estimate(coarse, fine, ratio, h_lowest, certificate, status)
+    pure subroutine richardson_estimate(coarse, fine, ratio, h_lowest, normal_errors, status)
         type(normal_result_t), intent(in) :: coarse !! with fewer strips
         type(normal_result_t), intent(in) :: fine   !! with more strips, the errors are its
         real(wp), intent(in) :: ratio               !! of their numbers of strips, 2 for N/2 and N
         real(wp), intent(in) :: h_lowest            !! lowest height of the gap, mm
-        type(certificate_t), intent(inout) :: certificate !! its estimates are replaced
+        type(normal_errors_t), intent(inout) :: normal_errors !! its estimates are replaced
         type(status_t), intent(out) :: status       !! `st_bad_argument`, `st_not_finite`
 
         real(wp) :: factor
@@ -296,14 +298,14 @@ contains
                             //'area')
         else
             factor = two_grid_safety/(ratio**order - 1.0_wp)
-            certificate%est_err_penetration = factor*abs(coarse%penetration - fine%penetration) &
+            normal_errors%est_err_penetration = factor*abs(coarse%penetration - fine%penetration) &
                                               /(fine%penetration - h_lowest)
-            certificate%est_err_pmax = factor*abs(coarse%pmax - fine%pmax)/fine%pmax
-            certificate%est_err_area = factor*abs(coarse%area - fine%area)/fine%area
+            normal_errors%est_err_pmax = factor*abs(coarse%pmax - fine%pmax)/fine%pmax
+            normal_errors%est_err_area = factor*abs(coarse%area - fine%area)/fine%area
         end if
     end subroutine richardson_estimate
 
-    !> Whether there is a solution to certify.
+    !> Whether there is a solution to estimate the errors of.
     pure subroutine check_solution(curve, compliance, strips, result, status)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance
@@ -327,7 +329,8 @@ contains
             call set_status(status, st_workspace_too_small, &
                             'no workspace was reserved for the strips')
         else if (strips%n < 1) then
-            call set_status(status, st_bad_argument, 'there must be strips to certify, got none')
+            call set_status(status, st_bad_argument, 'there must be strips to estimate the errors &
+                            &of, got none')
         else if (result%penetration <= curve%h_lowest) then
             call set_status(status, st_no_contact, 'the penetration is not above the lowest gap: ' &
                             //trim(number_text(result%penetration))//' mm')
@@ -362,4 +365,4 @@ contains
             call set_status(status, st_bad_argument, 'no strip carries pressure')
         end if
     end subroutine check_solution
-end module faststrip_normal_estimate_certificate
+end module faststrip_normal_estimate_errors

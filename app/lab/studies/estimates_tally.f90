@@ -1,5 +1,5 @@
 !> Estimates beside true errors, counted and summed up in a table.
-module faststrip_lab_studies_certificate_tally
+module faststrip_lab_studies_estimates_tally
     use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: say
@@ -149,4 +149,4 @@ contains
                 quantile = values(i)
         end do
     end function quantile
-end module faststrip_lab_studies_certificate_tally
+end module faststrip_lab_studies_estimates_tally
