@@ -13,7 +13,7 @@ from faststrip_plots.tables import InputError, read_table
 CONVERGENCE = "out/convergence.csv"
 QUANTITIES = {
     "penetration_err": "Approach",
-    "pmax_err": "Largest pressure",
+    "pmax_err": "Maximum pressure",
     "area_err": "Contact area",
 }
 ORDER = -2.0

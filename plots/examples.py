@@ -18,7 +18,7 @@ from faststrip_plots.tables import InputError, read_table
 REFERENCE = "Kalker"
 COLOURS = ("#c9a227", "#f08519", "#0b3c78", "#2f7d32", "#a8326e")
 MARKERS = ("x", "s", "o", "D", "^")
-PANELS = (("pmax", "largest pressure"), ("forces", "forces, over $\\mu\\cdot N$"))
+PANELS = (("pmax", "maximum pressure"), ("forces", "forces, over $\\mu\\cdot N$"))
 LEAST = 1e-3  # %, what is drawn for less
 
 
@@ -44,7 +44,7 @@ def main(arguments=None):
         ("examples.png", "Examples", "Distance of each method from Kalker's on ten cases; what is"
          " left out has no result.", "examples")])
     write_rows(options.folder, "tables.csv", header, [
-        ("examples_table.csv", "Examples by method", "Errors in % of Kalker's largest pressure and"
+        ("examples_table.csv", "Examples by method", "Errors in % of Kalker's maximum pressure and"
          " of mu N; times in microseconds.", "examples"),
         ("examples_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
 

@@ -19,7 +19,7 @@ from faststrip_plots.tables import InputError, read_table
 EXTREMES = "out/extremes/extremes.csv"
 NAMES = ("chapter", "case", "method", "x_name", "x", "y_name", "y", "quantity", "value", "judge",
          "status")
-FIGURES = {"penetration": "approach", "pmax": "largest pressure", "area": "area", "Fx": "$F_x$",
+FIGURES = {"penetration": "approach", "pmax": "maximum pressure", "area": "area", "Fx": "$F_x$",
            "Fy": "$F_y$", "Mz": "$M_z$"}
 COLOURS = ("#0b3c78", "#f08519", "#4b8f3c", "#a8326e", "#5f4ba8", "#8a8a8a")
 LINES = ("-", (0, (5, 1.8)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (3, 1, 1, 1, 1, 1)),
@@ -215,9 +215,9 @@ def draw_normal(path, rows, stamp):
     limits = (1e-5, 1e-1)
     maps = (
         (axes[0, 1], "ellipses", "penetration_err", "Approach, 15 strips"),
-        (axes[0, 2], "ellipses", "pmax_err", "Largest pressure, 15 strips"),
+        (axes[0, 2], "ellipses", "pmax_err", "Maximum pressure, 15 strips"),
         (axes[1, 1], "flat_gaps", "penetration_err", "Approach, flat gaps"),
-        (axes[1, 2], "flat_gaps", "pmax_err", "Largest pressure, flat gaps"),
+        (axes[1, 2], "flat_gaps", "pmax_err", "Maximum pressure, flat gaps"),
     )
     names = {"ellipses": ("axes of the ellipse $a/b$", "load, N"),
              "flat_gaps": ("lateral relative curvature, 1/mm", "points of the gap")}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw the overview for the README: outlines, pressure map, largest pressure and force."""
+"""Draw the overview for the README: outlines, pressure map, maximum pressure and force."""
 
 import sys
 

@@ -38,7 +38,7 @@ KEPT, BROKEN, NONE = "#0b3c78", "#d22f27", "#9a9a9a"
 AUTO = "#d22f27"
 HEADINGS = {
     "forces": "Forces and moment: the worst of $F_x$, $F_y$, $M_z$",
-    "pmax": "Largest pressure",
+    "pmax": "Maximum pressure",
     "penetration": "Penetration",
     "area": "Contact area",
     "power": "Friction power",

@@ -19,7 +19,7 @@ FORCES = "Fx and Fy, in % of mu N, and Mz, in % of mu N c"
 STAGES = {
     "influence": ("Influence coefficients in the strip method", "pressures and penetration against"
                   " the closed evaluation"),
-    "normal": ("Normal contact", "penetration, largest pressure and area"),
+    "normal": ("Normal contact", "penetration, maximum pressure and area"),
     "tangential": ("Tangential contact", FORCES),
     "both": ("Both together", FORCES),
 }

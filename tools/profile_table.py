@@ -3,7 +3,7 @@
 
     profile_table.py FOLDER -o FILE.csv [--load N] [--yield-MPa P]
 
-Eleven lateral shifts each, by strips and FASTSTRIP. A row a contact: patches, largest pressure,
+Eleven lateral shifts each, by strips and FASTSTRIP. A row a contact: patches, maximum pressure,
 status, and what it says. Files that need to be told something have it in TOLD. Where the folder is
 not there, nothing is made: profiles of others are no part of the project.
 """
@@ -39,7 +39,7 @@ COLUMNS = ["wheel", "rail", "shift_mm", "n_patches", "pmax_MPa", "status", "mess
 
 
 def solved(folder, load, wheel, rail, shift, options):
-    """Patches, largest pressure, status and message of one contact, and the program's stamp."""
+    """Patches, maximum pressure, status and message of one contact, and the program's stamp."""
     (folder / "case.nml").write_text(CASE.format(load=load, wheel=wheel, rail=rail, shift=shift),
                                      encoding="utf-8")
     done = subprocess.run([PROGRAM, "contact", "case.nml", *options], cwd=folder, check=False,

@@ -462,7 +462,7 @@ SECTIONS = (
      " precision; ellipses with a/b from 1e-3 to 1e3 under loads from 1e-6 to 1e9 N, 15 strips,"
      " against Hertz (`bench extremes`).", "extremes"),
     ("Validation: against other codes",
-     "CONTACT's penetration and largest pressure are those of its 0.1 mm grid; everything else is"
+     "CONTACT's penetration and maximum pressure are those of its 0.1 mm grid; everything else is"
      " extrapolated in its grid. References of `kalker_normal` and `kalker_tangential` are this"
      " project's own, themselves compared with CONTACT.", "validation"),
     ("The 20 contacts of the paper's section 5",

@@ -249,7 +249,7 @@ def _beside_the_centre_line(field):
 
 
 def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None, norm=None):
-    """Pressure along the strip with the largest pressure."""
+    """Pressure along the strip with the maximum pressure."""
     patch, k = strips.strongest()
     y = patch.y[k]
     look = style.normal_look("strip")

@@ -126,7 +126,7 @@ def _columns(curves):
 
 
 def shift_pictures(fine, reference):
-    """Figs 11 and 12, largest pressure, and 13 and 14, area, in fine steps of the shift."""
+    """Figs 11 and 12, maximum pressure, and 13 and 14, area, in fine steps of the shift."""
     for name, left, right in (("pmax", 11, 12), ("area", 13, 14)):
         quantity = QUANTITIES[name]
         figure = style.new_figure(WIDTH, 4.2)
@@ -170,7 +170,7 @@ def broken(x, y):
 
 
 def normal_picture(sweep, reference, mu):
-    """Figs 17 to 20: approach, area and largest pressure, and the last over CONTACT's."""
+    """Figs 17 to 20: approach, area and maximum pressure, and the last over CONTACT's."""
     figure = style.new_figure(WIDTH, 7.0)
     grid = figure.subplots(2, 2, sharex=True)
     for axes, number, name in zip(grid.flat, (17, 18, 19), ("penetration", "area", "pmax")):
@@ -184,7 +184,7 @@ def normal_picture(sweep, reference, mu):
     figure.align_ylabels(grid)
     style.legend_above(figure, *grid.flat)
     caption = (
-        "The 20 contacts of Table 2: approach of the bodies, contact area and largest pressure, and"
+        "The 20 contacts of Table 2: approach of the bodies, contact area and maximum pressure, and"
         f" its ratio to CONTACT's. {_normal_errors(sweep, reference, mu)}"
     )
     return Picture("fig17_20", "Figs 17 to 20: normal contact against CONTACT", caption, figure,

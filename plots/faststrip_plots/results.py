@@ -37,7 +37,7 @@ QUANTITIES = {
     ),
     "area": Quantity("area_mm2", "area_extrap_mm2", "$A$", "contact area", "mm²", 1.0, "value"),
     "pmax": Quantity(
-        "pmax_MPa", "pmax_MPa", r"$p_\mathrm{max}$", "largest pressure", "MPa", 1.0, "value"
+        "pmax_MPa", "pmax_MPa", r"$p_\mathrm{max}$", "maximum pressure", "MPa", 1.0, "value"
     ),
     "Fx": Quantity("Fx_N", "Fx_extrap_N", "$F_x$", "longitudinal force", "kN", 1e-3, "mu N"),
     "Fy": Quantity("Fy_N", "Fy_extrap_N", "$F_y$", "lateral force", "kN", 1e-3, "mu N"),
@@ -277,7 +277,7 @@ class Strips:
         self.stamp = stamp
 
     def strongest(self):
-        """Patch and index of the strip with the largest pressure."""
+        """Patch and index of the strip with the maximum pressure."""
         patch = max(self.patches, key=lambda p: p.p0.max())
         return patch, int(np.argmax(patch.p0))
 

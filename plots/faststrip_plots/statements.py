@@ -272,7 +272,7 @@ def _normal(data):
         share, detail = math.nan, ""
     yield judged(
         "N4", "Figs 17-20", "Strips are nearer to Kalker's method than Hertz is",
-        "shift, area and largest pressure of each contact", "share in which strips are nearer",
+        "shift, area and maximum pressure of each contact", "share in which strips are nearer",
         share, "%", Limits(100.0, 75.0, least=True), detail, "sweep A, CONTACT set A",
     )
 
@@ -287,7 +287,7 @@ def roughness(values):
 
 
 def _smoothness(data):
-    for number, name, words in ((5, "area", "area"), (6, "pmax", "largest pressure")):
+    for number, name, words in ((5, "area", "area"), (6, "pmax", "maximum pressure")):
         for method in data.fine.normals():
             if method.normal != "strip":
                 continue

@@ -686,7 +686,7 @@ def hertz(inv2r_x: float, inv2r_y: float, load: float,
     penetration : float
         mm.
     pmax : float
-        Largest pressure, MPa.
+        Maximum pressure, MPa.
     """
     figures = (c_double * 4)()
     check(library.faststrip_hertz(*_material_of(material), number("inv2r_x", inv2r_x),

@@ -73,7 +73,7 @@ class ManyResult(Shown):
     area : ndarray of float
         mm^2.
     pmax : ndarray of float
-        Largest pressure, MPa.
+        Maximum pressure, MPa.
     mz : ndarray of float
         Moment about the reference point, N mm.
     friction_power : ndarray of float

@@ -64,7 +64,7 @@ class Result(Row):
     area : float
         Of all patches, mm^2.
     pmax : float
-        Largest pressure, MPa.
+        Maximum pressure, MPa.
     y_min, y_max : float
         Ends of the contact along y, mm.
     x_max : float

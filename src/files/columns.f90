@@ -46,7 +46,7 @@ module faststrip_files_columns
         column_t('message', holds_text, 'what there is to say about the status'), &
         column_t('penetration_mm', holds_numbers, 'penetration'), &
         column_t('area_mm2', holds_numbers, 'contact area'), &
-        column_t('pmax_MPa', holds_numbers, 'largest pressure'), &
+        column_t('pmax_MPa', holds_numbers, 'maximum pressure'), &
         column_t('ymin_mm', holds_numbers, 'least y of the contact'), &
         column_t('ymax_mm', holds_numbers, 'largest y of the contact'), &
         column_t('xmax_mm', holds_numbers, 'largest half-length of the contact'), &
@@ -86,7 +86,7 @@ module faststrip_files_columns
         column_t('y_left_mm', holds_numbers, 'left edge of the strip'), &
         column_t('y_right_mm', holds_numbers, 'right edge of the strip'), &
         column_t('half_length_mm', holds_numbers, 'half-length of the strip'), &
-        column_t('p0_MPa', holds_numbers, 'largest pressure of the strip'), &
+        column_t('p0_MPa', holds_numbers, 'maximum pressure of the strip'), &
         column_t('load_N', holds_numbers, 'load of the strip'), &
         column_t('wear_depth_mm_per_pass', holds_numbers, 'wear depth per pass'), &
         column_t('wear_depth_mm_per_km', holds_numbers, 'wear depth per distance rolled'), &

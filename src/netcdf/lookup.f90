@@ -52,7 +52,7 @@ module faststrip_netcdf_lookup
         number_t('rolling_radius', 'rolling radius', 'mm', 0), &
         number_t('z_wheelset', 'z of the centre of the wheelset', 'mm', 0), &
         number_t('area', 'area of the contact', 'mm2', 2), &
-        number_t('pmax', 'largest pressure', 'MPa', 1), &
+        number_t('pmax', 'maximum pressure', 'MPa', 1), &
         number_t('c', 'length of the moment', 'mm', 1), &
         number_t('l1', 'squared length of the longitudinal creepage', 'mm2', 2), &
         number_t('l2', 'squared length of the lateral creepage', 'mm2', 2), &

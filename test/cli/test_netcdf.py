@@ -81,7 +81,7 @@ class Results(Netcdf):
         data = self.opened("c.nc")
         for name, unit in UNITS.items():
             self.assertEqual(data[name].attrs["units"], unit, name)
-        self.assertEqual(data.pmax_MPa.attrs["long_name"], "largest pressure")
+        self.assertEqual(data.pmax_MPa.attrs["long_name"], "maximum pressure")
         self.assertEqual(dict(data.sizes), {"record": 1})
         self.assertEqual(data.n_patches.dtype, np.int32)
         self.assertEqual(data.pmax_MPa.dtype, np.float64)

@@ -70,7 +70,7 @@ class TestTerminal(PeopleTest):
                 lines[words[0]] = words[1:]
         self.assertEqual(lines["status"], ["ok"])
         for name, column, unit in (("normal force", "N_N", "N"),
-                                   ("largest pressure", "pmax_MPa", "MPa"),
+                                   ("maximum pressure", "pmax_MPa", "MPa"),
                                    ("contact angle", "gamma_rad", "rad"),
                                    ("contact area", "area_mm2", "mm^2"),
                                    ("longitudinal force on the rail", "Fx_N", "N"),

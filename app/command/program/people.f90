@@ -35,7 +35,7 @@ module faststrip_command_program_people
         label_t('cphi_rad_per_mm', 'spin creepage', 'rad/mm'), &
         label_t('penetration_mm', 'penetration', ''), &
         label_t('area_mm2', 'contact area', 'mm^2'), &
-        label_t('pmax_MPa', 'largest pressure', ''), &
+        label_t('pmax_MPa', 'maximum pressure', ''), &
         label_t('Fx_N', 'longitudinal force on the rail', ''), &
         label_t('Fy_N', 'lateral force on the rail', ''), &
         label_t('Fs_N', 'lateral force on the rail', ''), &

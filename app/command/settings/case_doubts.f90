@@ -59,7 +59,7 @@ contains
         call hold_tally(tally, path)
     end subroutine hold_sweep_doubts
 
-    !> Count that the largest pressure is beyond all steel.
+    !> Count that the maximum pressure is beyond all steel.
     subroutine count_pressure(tally, pmax, i)
         type(tally_t), intent(inout) :: tally !! of the contacts so far
         real(wp), intent(in) :: pmax          !! MPa
@@ -83,7 +83,7 @@ contains
         names%gap = [character(len=24) :: 'y_mm', 'h_mm', 'inv2R_per_mm']
     end function case_names
 
-    !> Keep that the largest pressure is beyond all steel.
+    !> Keep that the maximum pressure is beyond all steel.
     subroutine hold_pressure(pmax, path)
         real(wp), intent(in) :: pmax         !! MPa
         character(len=*), intent(in) :: path !! name of the case file

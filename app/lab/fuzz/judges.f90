@@ -43,7 +43,7 @@ module faststrip_lab_fuzz_judges
         'finite numbers, no floating exception', &
         'positive pressures and lengths, edges in order', &
         'the pressures carry the load', &
-        'pmax is the largest pressure', &
+        'pmax is the maximum pressure', &
         'area is that of the strips', &
         'ends, length and number of patches are the strips''', &
         'the bodies overlap, the penetration is above the gap', &
@@ -65,7 +65,7 @@ module faststrip_lab_fuzz_judges
         'creep forces under y -> -y', &
         'creep forces change sign with the creepages', &
         'penetration by NORM on a grid', &
-        'largest pressure by NORM on a grid', &
+        'maximum pressure by NORM on a grid', &
         'area by NORM on a grid']
 
     !> What came of one case.

@@ -2,7 +2,7 @@
 !>
 !> Methods come from a CSV file, contacts from the reference folder. One row per contact and
 !> method, so that whoever reads them can take means, largest values and fronts as wanted. A
-!> method of stage `normal` is judged by penetration, largest pressure and area, one of stage
+!> method of stage `normal` is judged by penetration, maximum pressure and area, one of stage
 !> `tangential` or `both` by forces and moment, in units of mu N and mu N c, c = sqrt(area/pi).
 !> Times are those of the processor: of some runs of a contact the median (`us` is an older name of
 !> it), the 95th percentile and the worst; they begin with the curve through the gap's points. Of

@@ -1,6 +1,6 @@
 !> The truth that estimates of errors are judged by: Kalker's method on two grids, carried on.
 !>
-!> Penetration, largest pressure and the area under the border (`faststrip_kalker_border`) are of
+!> Penetration, maximum pressure and the area under the border (`faststrip_kalker_border`) are of
 !> second order in the sides of the elements. Half the difference of the two grids is what the
 !> truth itself may be wrong by: where that is no small part of an error, nothing can be said of
 !> its estimate.

@@ -54,7 +54,7 @@ METHODS = (("strips", STRIPS), ("hertz", HERTZ), ("norm", NORM))
 # Symbol, unit, attribute, what one unit is, format, estimated error and what it is a part of.
 ROWS = (("penetration", "mm", "penetration", 1.0, ".4f", "est_err_penetration"),
         ("contact area", "mm²", "area", 1.0, ".1f", "est_err_area"),
-        ("largest pressure", "MPa", "pmax", 1.0, ".0f", "est_err_pmax"),
+        ("maximum pressure", "MPa", "pmax", 1.0, ".0f", "est_err_pmax"),
         ("Fx", "kN", "fx", 1e3, ".3f", "est_err_fx"),
         ("Fy", "kN", "fy", 1e3, ".3f", "est_err_fy"),
         ("Mz", "N m", "mz", 1e3, ".2f", "est_err_mz"),

@@ -99,7 +99,7 @@ module faststrip_base_plausible
         quantity_t('yield stress', 'MPa', over_one, any_size, 10.0_wp, 1.0e4_wp, 'GPa', &
                    'Pa or kPa'), &
         quantity_t('noise', 'um', over_one, any_size, 0.01_wp, 500.0_wp, 'mm', 'nm'), &
-        quantity_t('largest pressure', 'MPa', over_one, any_size, 0.0_wp, 4.2e3_wp, '', &
+        quantity_t('maximum pressure', 'MPa', over_one, any_size, 0.0_wp, 4.2e3_wp, '', &
                    'a unit, or an edge that would yield')]
 
 contains

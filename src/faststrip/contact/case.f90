@@ -44,7 +44,7 @@ module faststrip_contact_case
         real(wp) :: yield_shear = 0.0_wp
             !! yield stress in cyclic shear, for the fatigue index, MPa; 0: not known
         real(wp) :: yield = 0.0_wp
-            !! `st_beyond_yield` names a largest pressure above this, MPa; 0: no limit
+            !! `st_beyond_yield` names a maximum pressure above this, MPa; 0: no limit
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
         ! Tuned [1]. Origin: as that of strip_options_t.
         real(wp) :: strip_tolerance = 1.0e-6_wp !! relative size of the strips' last step

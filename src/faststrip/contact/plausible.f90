@@ -122,7 +122,7 @@ contains
         call add_doubt(doubts, of_friction, names%mu, case%mu)
     end subroutine doubt_material
 
-    !> Is the largest pressure beyond what any steel carries?
+    !> Is the maximum pressure beyond what any steel carries?
     pure subroutine doubt_pressure(name, pmax, doubts)
         character(len=*), intent(in) :: name    !! as the caller knows it
         real(wp), intent(in) :: pmax            !! MPa

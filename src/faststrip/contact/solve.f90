@@ -162,7 +162,7 @@ contains
         call restore_environment(environment)
     end subroutine estimate_contact
 
-    !> Name a largest pressure above the limit that the user has set.
+    !> Name a maximum pressure above the limit that the user has set.
     pure subroutine name_yield(limit, pmax, status)
         real(wp), intent(in) :: limit           !! MPa; 0: none
         real(wp), intent(in) :: pmax            !! MPa

@@ -18,7 +18,7 @@ module faststrip_contact_wanted
     ! Given: numbers of kinds, in the order of `target_names`; they stay for ever.
     integer, parameter, public :: target_forces = 1
         !! Fx and Fy over mu N and Mz over mu N c, c = sqrt(area/pi), the worst of the three
-    integer, parameter, public :: target_pmax = 2        !! largest pressure, relative
+    integer, parameter, public :: target_pmax = 2        !! maximum pressure, relative
     integer, parameter, public :: target_penetration = 3 !! of the depth below the lowest point
     integer, parameter, public :: target_area = 4        !! relative
     integer, parameter, public :: target_power = 5       !! friction power, relative

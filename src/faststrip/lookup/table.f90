@@ -24,7 +24,7 @@ module faststrip_lookup_table
 
     !> Numbers of a contact of a wheel: normal force, N; contact angle, rad; y, z on the rail's
     !> profile, mm; place ahead of the wheelset's centre, mm; y on the wheel's profile, mm; rolling
-    !> radius, mm; height of the wheelset's centre, mm; area, mm2; largest pressure, MPa; length c
+    !> radius, mm; height of the wheelset's centre, mm; area, mm2; maximum pressure, MPa; length c
     !> of the moment, mm; two squared lengths of cksi and ceta, mm2, and a cubed one of cphi, mm3:
     !> over mu N and times G they normalise the creepages.
     !> Given: numbers of the file format.

@@ -61,7 +61,7 @@ module faststrip_normal_limitations
     ! Height of a step over the penetration. Lower ones change it by less than 0.5 %.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: doubtful_step = 0.01_wp
-    ! Slope of a step over penetration by half the patch's width. With 0.5 the largest pressure is
+    ! Slope of a step over penetration by half the patch's width. With 0.5 the maximum pressure is
     ! off by up to 20 %, with 0.1 by less than 1 %.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: doubtful_steepness = 0.2_wp
@@ -268,7 +268,7 @@ contains
     !> Add `st_under_resolved` to a status if an estimated error is above a limit, or no number.
     pure subroutine name_resolution(penetration, pmax, area, limit, status)
         real(wp), intent(in) :: penetration     !! estimated relative error of the penetration
-        real(wp), intent(in) :: pmax            !! of the largest pressure
+        real(wp), intent(in) :: pmax            !! of the maximum pressure
         real(wp), intent(in) :: area            !! of the area
         real(wp), intent(in) :: limit           !! largest that is called resolved
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays

@@ -28,7 +28,7 @@ module faststrip_normal_types
         real(wp) :: load = 0.0_wp        !! normal force, N
         real(wp) :: penetration = 0.0_wp !! approach D of the bodies, from h = 0, mm
         real(wp) :: area = 0.0_wp        !! contact area, mm2
-        real(wp) :: pmax = 0.0_wp        !! largest pressure, MPa
+        real(wp) :: pmax = 0.0_wp        !! maximum pressure, MPa
         real(wp) :: y_min = 0.0_wp       !! left end of the contact, mm
         real(wp) :: y_max = 0.0_wp       !! right end of the contact, mm
         real(wp) :: x_max = 0.0_wp       !! largest half-length along x, mm

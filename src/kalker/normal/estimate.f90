@@ -4,7 +4,7 @@
 !> may agree better than either with the truth, where a peak lies between the elements. So the grid
 !> itself says how large an error must be reckoned with:
 !>
-!> - pmax: half the largest difference of the largest pressure and its four neighbours,
+!> - pmax: half the largest difference of the maximum pressure and its four neighbours,
 !>   or what heights of the gap between the rows of elements ask for, which no row resolves
 !>   (`faststrip_normal_estimate_unresolved`), or, of another patch of few rows, where the largest
 !>   pressure may lie as well, the same half, and what a line contact of its load on the gap's
@@ -96,7 +96,7 @@ contains
                  + border_share*border*(real(border, wp)/contact) + doubtful)/contact
     end function area_error
 
-    !> The largest pressure that patches of few rows may have: at each peak of theirs half of what
+    !> The maximum pressure that patches of few rows may have: at each peak of theirs half of what
     !> it stands above its lowest neighbour more, or that of a line contact.
     pure real(wp) function largest_of_narrow(curve, compliance, grid) result(largest)
         type(gap_curve_t), intent(in) :: curve
@@ -140,7 +140,7 @@ contains
         end do
     end subroutine find_rows
 
-    !> Largest pressure of a line contact with the load of some rows on the curvature of their gap.
+    !> Maximum pressure of a line contact with the load of some rows on the curvature of their gap.
     pure real(wp) function line_pressure(curve, compliance, grid, i, first, last)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance

@@ -55,7 +55,7 @@ module faststrip_contact_method
     !> Figures of one contact.
     type :: contact_result_t
         type(normal_result_t) :: normal = normal_result_t()
-            !! load, penetration, area, largest pressure, ...
+            !! load, penetration, area, maximum pressure, ...
         type(normal_errors_t) :: normal_errors = normal_errors_t() !! how wrong they are
         logical :: is_estimated = .false.
             !! is that known? Not of ellipses in the strips' place

@@ -25,11 +25,11 @@
 !> PAR(6) load, N, or penetration, mm                  PAR(7) longitudinal creepage
 !> PAR(8) lateral creepage                             PAR(9) spin, rad/mm
 !> RES(1) load, N           RES(2) penetration, mm     RES(3) area, mm^2
-!> RES(4) largest pressure  RES(5), RES(6) ends, mm    RES(7) largest half-length, mm
+!> RES(4) maximum pressure  RES(5), RES(6) ends, mm    RES(7) largest half-length, mm
 !> RES(8) Fx, N             RES(9) Fy, N               RES(10) Mz, N mm, all on the rail
 !> RES(11) friction power over rolling speed, N        RES(12) share in adhesion
 !> RES(13) number of patches                           RES(14) number of strips
-!> ERR(1) estimated error of the penetration, ERR(2) of the largest pressure, ERR(3) of the area,
+!> ERR(1) estimated error of the penetration, ERR(2) of the maximum pressure, ERR(3) of the area,
 !>        all relative; that of the penetration to D - h_lowest, the depth below the lowest point
 !> ERR(4) largest gap that is left inside the patches, over that depth
 !> ERR(5) largest overlap outside of them, over that depth
@@ -38,7 +38,7 @@
 !> FERR(1), FERR(2) estimated error of Fx and of Fy over mu N, FERR(3) of Mz over mu N c, where c is
 !>        the radius of a circle of the contact's area
 !> FERR(4) 1: FERR(1) to FERR(3) are known; 0: they are zero, of a method without, or by FSLIMT
-!> ITARG  what auto is to know: 1 forces, 2 largest pressure, 3 penetration, 4 area, 5 power
+!> ITARG  what auto is to know: 1 forces, 2 maximum pressure, 3 penetration, 4 area, 5 power
 !> TAKN(1) steps that auto took     TAKN(2) the best of them, whose solution is the result
 !> TAKN(3) estimated error of what was wanted          TAKN(4) 1: it is known, 0: TAKN(3) is zero
 !> TAKN(5) 1: it is within the tolerance

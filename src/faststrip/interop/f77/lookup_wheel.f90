@@ -6,7 +6,7 @@
 !>          forces, N, of place I
 !> CONTAC(K,L,I) number K of slot L: normal force, N; contact angle, rad; Y, Z on the rail, mm; X in
 !>          the track, mm; Y on the wheel, mm; rolling radius, mm; Z of the wheelset, mm; area, mm2;
-!>          largest pressure, MPa; length c, mm; lengths of the creepages, mm2, mm2, mm3
+!>          maximum pressure, MPa; length c, mm; lengths of the creepages, mm2, mm2, mm3
 !> DCON(K,L,J,I) derivative of CONTAC(K,L,I) by PLACE(J,I)
 !> ISLOT(I) which contact, from 1
 !> STATE(1,I) to STATE(3,I) as PLACE     STATE(4,I) mu

@@ -33,7 +33,7 @@
 !> CONT(13) to CONT(15) x, y, z on the wheel, mm       CONT(16,K) rolling radius, mm
 !> CONT(17,K) rolling speed, mm/s                      CONT(18) to CONT(20) creepages, -, -, rad/mm
 !> CONT(21,K) normal force, N       CONT(22,K) penetration, mm         CONT(23,K) area, mm^2
-!> CONT(24,K) largest pressure, MPa   CONT(25), CONT(26) ends, mm      CONT(27,K) half-length, mm
+!> CONT(24,K) maximum pressure, MPa   CONT(25), CONT(26) ends, mm      CONT(27,K) half-length, mm
 !> CONT(28), CONT(29) Fx, Fy in the tangent plane, N   CONT(30,K) Mz, N mm, all on the rail
 !> CONT(31,K) friction power, N     CONT(32,K) share in adhesion
 !> CONT(33) to CONT(35) force in the track, N

@@ -10,7 +10,7 @@
 !>     pmax          1.2 |difference| + 1/n^2 + 1.1 largest wave where p0 > pmax/2
 !>     area          3.3 |difference| + 0.9 (area of the strips at the ends)
 !>
-!> each over the value itself or pmax, n the strips of the patch with the largest pressure. The
+!> each over the value itself or pmax, n the strips of the patch with the maximum pressure. The
 !> factors were calibrated on random gaps, solved by strips and by falling back, against NORM.
 module faststrip_normal_cells_estimate
     use faststrip_base_kinds, only: wp
@@ -33,7 +33,7 @@ module faststrip_normal_cells_estimate
         real(wp) :: depth = 0.0_wp !! penetration above the lowest height, mm
         real(wp) :: pmax = 0.0_wp  !! MPa
         real(wp) :: area = 0.0_wp  !! mm2
-        integer :: across = 0      !! strips of the patch with the largest pressure
+        integer :: across = 0      !! strips of the patch with the maximum pressure
         ! Tuned [1]: Of the area, by the cells at the ends. Origin: calibrated on random gaps, see
         ! the module's head.
         real(wp) :: ends = 0.0_wp  !! area of the strips at the ends of patches, mm2

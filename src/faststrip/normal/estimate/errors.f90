@@ -1,5 +1,5 @@
 !> A posteriori error estimates of a strip solution: how well the contact condition holds where it
-!> was not asked for, and how wrong penetration, largest pressure and area are by that.
+!> was not asked for, and how wrong penetration, maximum pressure and area are by that.
 !>
 !> The solver closes the gap on the centre line and at the tip of each strip's middle. Here the
 !> gap between the deformed surfaces, from the exact influence integral, is sampled in between,
@@ -20,13 +20,13 @@
 !>     penetration   0.60 (rms e + 3 mean |m|)
 !>     area          1.50 (rms t + 3.5 mean |m|) + 0.5 mean u_k/p0_k, each at most 1
 !>
-!> with means over y. Of n strips across the patch with the largest pressure, fewer than eight raise
+!> with means over y. Of n strips across the patch with the maximum pressure, fewer than eight raise
 !> the area's estimate by 8/n, because a cubic through few lengths tells less of the tips. These
 !> factors were calibrated so that 95 % of the Hertz ellipses of a/b = 0.004 to 100 and of every
 !> second of the 20 gaps of the reference are bounded, with 5 to 41 strips, and then raised by
 !> about 1.3.
 !>
-!> The largest pressure may be wrong in its strip, or another strip may carry more. Each strip k of
+!> The maximum pressure may be wrong in its strip, or another strip may carry more. Each strip k of
 !> a patch of n strips has a pressure of its own that its residuals ask for. A wave of amplitude d
 !> and wave number c is closed by the pressure c d/(pi H) on a half-space, so that
 !>
@@ -40,7 +40,7 @@
 !>         + p0_k (sqrt(A/line) - 1)/(1 + xd/w)       A between the middles of the strips:
 !>                                                    `faststrip_normal_estimate_longitudinal`
 !>
-!>     pmax = max( max d_k/pmax of the strip with the largest pressure and its neighbours,
+!>     pmax = max( max d_k/pmax of the strip with the maximum pressure and its neighbours,
 !>                 max (p0_k + d_k)/pmax - max p0_k/pmax of all strips,
 !>                 0.40/n^2 )
 !>            + 1/3 sum w xd 0.45 |m_k| D/(H xd) / sum w xd p0_k
@@ -109,14 +109,14 @@ module faststrip_normal_estimate_errors
     ! Tuned [1]: The area's, with few strips and of unresolved heights. Origin: calibrated, see the
     ! module's head.
     real(wp), parameter :: area_strips = 8.0_wp, area_unresolved = 0.5_wp
-    ! Tuned [1]: The largest pressure's least estimate, times n squared. Origin: calibrated, see the
+    ! Tuned [1]: The maximum pressure's least estimate, times n squared. Origin: calibrated, see the
     ! module's head.
     real(wp), parameter :: pmax_least = 0.4_wp
 
     ! Tuned [1]: Overlap outside the patches over the penetration from where it counts. Origin: as
     ! what is called `st_overlap_left`.
     real(wp), parameter :: telling_overlap = 0.01_wp
-    ! The largest pressure goes with the cube root of the load of its surroundings.
+    ! The maximum pressure goes with the cube root of the load of its surroundings.
     ! Tuned [power]: The power. Origin: a point contact of Hertz.
     real(wp), parameter :: per_load = 1.0_wp/3.0_wp
 
@@ -126,7 +126,7 @@ module faststrip_normal_estimate_errors
 
     !> Sums over the strips, and the largest of what their residuals ask for.
     type :: sums_t
-        integer :: peak = 0            ! the strip with the largest pressure
+        integer :: peak = 0            ! the strip with the maximum pressure
         real(wp) :: variation = 0.0_wp ! of A in all strips
         real(wp) :: widths = 0.0_wp, areas = 0.0_wp, loads = 0.0_wp
         real(wp) :: edge = 0.0_wp, tip = 0.0_wp      ! squares, times widths
@@ -134,7 +134,7 @@ module faststrip_normal_estimate_errors
         real(wp) :: section = 0.0_wp, unresolved = 0.0_wp ! of load, of area
         real(wp) :: peak_extra = 0.0_wp ! pressure that the peak and its neighbours ask for, MPa
         real(wp) :: largest_p0 = 0.0_wp ! with what its strip asks for, MPa
-        real(wp) :: off_centre = 0.0_wp ! largest pressure off the centre line, MPa
+        real(wp) :: off_centre = 0.0_wp ! maximum pressure off the centre line, MPa
     end type sums_t
 
 contains

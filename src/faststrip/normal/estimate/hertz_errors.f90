@@ -28,7 +28,7 @@ module faststrip_normal_estimate_hertz_errors
     ! module's head.
     real(wp), parameter :: penetration_factor = 0.3_wp, penetration_mean = 4.0_wp, &
                            penetration_overlap = 2.0_wp
-    ! Tuned [1]: The largest pressure's factors. Origin: calibrated, see the module's head.
+    ! Tuned [1]: The maximum pressure's factors. Origin: calibrated, see the module's head.
     real(wp), parameter :: pmax_factor = 0.43_wp, pmax_mean = 2.0_wp
     ! Tuned [1]: The area's factors. Origin: calibrated, see the module's head.
     real(wp), parameter :: area_factor = 1.6_wp, area_overlap = 0.6_wp

@@ -4,7 +4,7 @@
 !> escape it:
 !>
 !> - *Locally.* In strips that are short beside their width the contact is one of plane strain
-!>   along x, whose line load hardly changes along y. Its largest pressure goes with sqrt(A), so
+!>   along x, whose line load hardly changes along y. Its maximum pressure goes with sqrt(A), so
 !>   that A above the line through the middles of the strips means a pressure above theirs. In
 !>   long strips A moves the tips and leaves the pressure on the centre line alone: 1/(1 + xd/w).
 !> - *Off the centre line.* At x the gap differs from the centre line's by A(y) x^2. A strip whose
@@ -46,7 +46,7 @@ module faststrip_normal_estimate_longitudinal
 
     ! Share of the pressure above that counts: u is an upper bound, as the free surface stays
     ! pressed in somewhat. With 0.5 to 0.7 random gaps whose A falls by steps are told from those
-    ! whose largest pressure stays on the centre line; with 0.25 the half is missed, with 1
+    ! whose maximum pressure stays on the centre line; with 0.25 the half is missed, with 1
     ! exponential ones are taken for them.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: off_centre_share = 0.6_wp
@@ -127,7 +127,7 @@ contains
         rise = (sqrt(ratio) - 1.0_wp)/(1.0_wp + half_length/(y_right - y_left))
     end subroutine local_rise
 
-    !> The largest pressure of a strip, on the centre line or off it, MPa. Where A varies so little
+    !> The maximum pressure of a strip, on the centre line or off it, MPa. Where A varies so little
     !> that it cannot be off it, that is not looked for.
     pure real(wp) function off_centre_pressure(curve, compliance, depth, y_left, y_right, &
                                                y_from, y_to, half_length, p0, variation, &

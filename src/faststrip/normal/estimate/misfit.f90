@@ -34,7 +34,7 @@ module faststrip_normal_estimate_misfit
         real(wp) :: odd = 0.0_wp     !! mean of y/b times d: left and right are unlike
         real(wp) :: overlap = 0.0_wp !! largest beside the ellipse
         real(wp) :: aside = 0.0_wp   !! largest overlap times its distance from the ellipse over b
-        real(wp) :: peak = 0.0_wp    !! largest pressure by which a valley beside it would close
+        real(wp) :: peak = 0.0_wp    !! maximum pressure by which a valley beside it would close
                                      !! that, over the ellipse's
         real(wp) :: rise = 0.0_wp    !! of the parabola from the middle to y = b
     end type misfit_t
@@ -187,7 +187,7 @@ contains
         misfit%aside = max(misfit%aside, overlap*(t - 1.0_wp))
     end subroutine take_overlap
 
-    !> Largest pressure of the Hertz contact of a place of the gap for a penetration, MPa; zero if
+    !> Maximum pressure of the Hertz contact of a place of the gap for a penetration, MPa; zero if
     !> it is no valley.
     pure real(wp) function pressure_of_valley(curve, compliance, y, depth) result(pressure)
         type(gap_curve_t), intent(in) :: curve

@@ -14,15 +14,15 @@ module faststrip_normal_estimate_pressure
     public :: missing_pressure, section_load, inv2r_about, find_unresolved
     public :: unresolved_factor
 
-    ! Tuned [1]: The largest pressure's, of gaps at edges of strips. Origin: calibrated, see the
+    ! Tuned [1]: The maximum pressure's, of gaps at edges of strips. Origin: calibrated, see the
     ! module's head.
     real(wp), parameter :: edge_factor = 0.3_wp, slope_factor = 0.35_wp
-    ! Tuned [1]: The largest pressure's, of gaps in sections. Origin: calibrated, see the module's
+    ! Tuned [1]: The maximum pressure's, of gaps in sections. Origin: calibrated, see the module's
     ! head.
     real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.5_wp
     !> Tuned [1]. Origin: calibrated, see the head of `faststrip_normal_estimate_errors`.
     real(wp), parameter :: unresolved_factor = 1.1_wp !! of heights that a strip does not resolve
-    ! Tuned [1]: The largest pressure's, of waves. Origin: calibrated, see the head of
+    ! Tuned [1]: The maximum pressure's, of waves. Origin: calibrated, see the head of
     ! `faststrip_normal_estimate_errors`.
     real(wp), parameter :: wave_factor = 0.012_wp
 
@@ -116,7 +116,7 @@ contains
     end function pressure_wave
 
     !> The pressure that heights in strip k ask for which it does not resolve, and how far a
-    !> longitudinal term that it does not resolve raises the largest pressure above its own. The
+    !> longitudinal term that it does not resolve raises the maximum pressure above its own. The
     !> smooth curve meets the gap where it is sampled: in its middle, at its edges and in its
     !> neighbours' middles.
     pure subroutine find_unresolved(curve, compliance, strips, k, pressure, rise)

@@ -34,7 +34,7 @@ module faststrip_normal_estimate_unresolved
 
 contains
 
-    !> The largest pressure in a strip that unresolved heights of the gap ask for, MPa; not
+    !> The maximum pressure in a strip that unresolved heights of the gap ask for, MPa; not
     !> negative.
     !> Zero where fewer than three points of the gap lie between the nodes.
     pure real(wp) function unresolved_pressure(curve, compliance, y_left, y_right, node) &
@@ -49,7 +49,7 @@ contains
                    /(pi**2*compliance)
     end function unresolved_pressure
 
-    !> The same of A = 1/(2R): the largest pressure that grows with x^2 in a strip, MPa/mm^2.
+    !> The same of A = 1/(2R): the maximum pressure that grows with x^2 in a strip, MPa/mm^2.
     pure real(wp) function unresolved_pressure_growth(curve, compliance, y_left, y_right, node) &
         result(growth)
         type(gap_curve_t), intent(in) :: curve    !! the gap that was solved, mm

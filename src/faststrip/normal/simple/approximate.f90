@@ -89,7 +89,7 @@ module faststrip_normal_simple_approximate
             real(wp), intent(in) :: y              !! mm
             real(wp), intent(out) :: left          !! positive in the patch, zero at its ends, mm
             real(wp), intent(out) :: square        !! half-length squared; 0 outside; mm2
-            real(wp), intent(out) :: p0            !! largest pressure, MPa
+            real(wp), intent(out) :: p0            !! maximum pressure, MPa
         end subroutine find_row
     end interface
 
@@ -277,7 +277,7 @@ contains
         n_strips = min(n_strips, capacity/size(widths))
     end subroutine share_zones
 
-    !> Cut the patches into strips of equal width, and fill area, largest pressure and length.
+    !> Cut the patches into strips of equal width, and fill area, maximum pressure and length.
     pure subroutine put_strips(curve, zones, strips_per_patch, strips, result)
         type(gap_curve_t), intent(in) :: curve
         class(zone_t), intent(in) :: zones(:) ! in the order of y
@@ -327,7 +327,7 @@ contains
         if (half_length > 0.0_wp) p0 = 0.5_wp*sum(peak*sqrt(square))/half_length
     end subroutine mean_row
 
-    !> Area, largest pressure and length of a patch.
+    !> Area, maximum pressure and length of a patch.
     pure subroutine add_figures(curve, zone, result)
         type(gap_curve_t), intent(in) :: curve
         class(zone_t), intent(in) :: zone

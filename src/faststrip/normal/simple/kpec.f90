@@ -63,7 +63,7 @@ module faststrip_normal_simple_kpec
         real(wp) :: depth = 0.0_wp !! its penetration D, from the lowest point, mm
         ! eps D is `peak - fall*(y - middle)**2`.
         real(wp) :: peak = 0.0_wp, fall = 0.0_wp, middle = 0.0_wp
-        real(wp) :: stiffness = 0.0_wp !! largest pressure over half-length, p_0/x_0, MPa/mm
+        real(wp) :: stiffness = 0.0_wp !! maximum pressure over half-length, p_0/x_0, MPa/mm
     contains
         procedure :: row => kpec_row
     end type kpec_zone_t

@@ -140,7 +140,7 @@ contains
         end associate
     end subroutine solve_patch
 
-    !> Pressures, the load to the last digit, the largest pressure.
+    !> Pressures, the load to the last digit, the maximum pressure.
     pure subroutine take_pressures(depth, demand, history, strips, result, status)
         real(wp), intent(in) :: depth
         type(demand_t), intent(in) :: demand

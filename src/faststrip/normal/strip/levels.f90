@@ -26,7 +26,7 @@ module faststrip_normal_strip_levels
     public :: strip_options_t, strips_auto, strips_auto_most
     public :: solve_by_levels
 
-    !> As many strips as the largest pressure and the penetration need to settle, 15 to 41, or to be
+    !> As many strips as the maximum pressure and the penetration need to settle, 15 to 41, or to be
     !> resolved, up to `strips_auto_most`.
     !> Given: number of a kind.
     integer, parameter :: strips_auto = 0

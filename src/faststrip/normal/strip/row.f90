@@ -321,7 +321,7 @@ contains
         end do
     end subroutine close_tips
 
-    !> Largest pressure of an elliptic contact times pi H/(A a); 1 in plane strain.
+    !> Maximum pressure of an elliptic contact times pi H/(A a); 1 in plane strain.
     pure real(wp) function pressure_ratio(a, b)
         real(wp), intent(in) :: a, b ! half axes along x and y, mm
 

@@ -96,7 +96,7 @@ contains
     !> Cut the patches into strips and start them from the previous pass.
     !>
     !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
-    !> ends, the largest pressure and the penetration of the 20 contacts of the paper's section 5
+    !> ends, the maximum pressure and the penetration of the 20 contacts of the paper's section 5
     !> come out best.
     pure subroutine position_strips(workspace, patches, n)
         type(strip_workspace_t), intent(inout) :: workspace

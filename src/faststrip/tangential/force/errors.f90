@@ -53,7 +53,7 @@ module faststrip_tangential_force_errors
     ! Tuned [1]: How much of a shape or proportion counts as seen at least: estimates grow to five
     ! times what they are. Origin: chosen.
     real(wp), parameter :: least_seen = 0.2_wp
-    ! Tuned [1]: Least estimates of penetration, largest pressure and area of the ellipses that
+    ! Tuned [1]: Least estimates of penetration, maximum pressure and area of the ellipses that
     ! were fitted, over the squared width of their strips. Origin: measured on them.
     real(wp), parameter :: least_estimates(3) = [0.02_wp, 0.07_wp, 0.16_wp]
 

@@ -12,7 +12,7 @@
 !>
 !> FI_surf: A. Ekberg, E. Kabo, H. Andersson, An engineering model for prediction of rolling
 !> contact fatigue of railway wheels, Fatigue Fract. Engng Mater. Struct. 25 (2002) 899-909. Theirs
-!> is `2 pi a b k/(3 N)`, k over the largest pressure of the ellipse; the area A stands for pi a b.
+!> is `2 pi a b k/(3 N)`, k over the maximum pressure of the ellipse; the area A stands for pi a b.
 module faststrip_tangential_wear_numbers
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
