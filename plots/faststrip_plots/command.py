@@ -30,7 +30,7 @@ def run(main, arguments=None) -> int:
 
 
 def shift_file(kind: str, shift: float) -> str:
-    """Where the program leaves a file of one shift unless told otherwise."""
+    """Where the program leaves a file of one shift by default."""
     return f"out/{kind}_shift_{shift:g}.csv"
 
 

@@ -101,7 +101,7 @@ BY_GRID = 2, 5, 6
 
 @dataclass(frozen=True)
 class Material:
-    """Elastic constants of both bodies; steel on steel unless told otherwise.
+    """Elastic constants of both bodies; steel on steel by default.
 
     Parameters
     ----------
@@ -454,11 +454,11 @@ class Contact:
         warm_start : bool
             Begin with the last solution, if there is one.
         target : str
-            Of a contact with normal ``auto``: one of ``TARGETS``, ``forces`` unless told otherwise.
+            Of a contact with normal ``auto``: one of ``TARGETS``, ``forces`` by default.
             Where it needs forces, ``faststrip`` gives them, whatever tangential is, but not
             ``none``.
         tolerance : float
-            The largest estimated error of the target that will do, 0.02 unless told otherwise;
+            The largest estimated error of the target that will do, 0.02 by default;
             ``target_missed`` is as near as strips come.
         budget_us : float
             Time for it, us: without a tolerance it gives the least estimated error in that time.

@@ -347,7 +347,7 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     chain : int
         Contacts from one cold start to the next with warm_start.
     threads : int
-        At most so many; unless told otherwise as many as there are cores.
+        At most so many; by default as many as there are cores.
 
     Returns
     -------

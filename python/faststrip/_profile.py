@@ -211,7 +211,7 @@ class Profile(Shown):
         resample : float
             Points at this distance along the profile, mm.
         kink_angle : float
-            What turns by more in one point is a kink, degrees; 20 unless told otherwise.
+            What turns by more in one point is a kink, degrees; 20 by default.
         round_kinks : bool
             Smooth and resample over kinks?
 

@@ -351,9 +351,9 @@ class Wheelset:
         A `Profile` or a name (``s1002``, ``cone20``, ``cone40``; ``uic60``, ``60e1``, ``54e1``),
         for both sides as one of the right side.
     wheel_left, rail_left : str or Profile, optional
-        Of the left side; alike unless told otherwise.
+        Of the left side; alike by default.
     radius, radius_left : float
-        Rolling radii at the tape circle, mm; alike unless told otherwise.
+        Rolling radii at the tape circle, mm; alike by default.
     back_spacing : float, optional
         Distance of the flange backs, mm; unless said that which belongs to the gauge: 1360 to 1435,
         1440 to 1520.

@@ -5,7 +5,7 @@ import statistics
 
 from cli_program import ProgramTest, gap_case
 
-# Steel on steel, as the program has it unless told otherwise
+# Steel on steel, as the program has it by default
 MODULUS = 209920.0 / (2.0 * (1.0 - 0.28 ** 2))
 
 

@@ -36,7 +36,7 @@ CONSTANTS = (
     ("estimate/errors.f90", "penetration_middle", "3.0", "e + 3\\, \\mathrm{mean} \\lvert m"),
     ("estimate/errors.f90", "area_factor", "1.5", "$1.50\\, (\\mathrm{rms}\\, t + 3.5"),
     ("estimate/errors.f90", "area_middle", "3.5", "t + 3.5\\, \\mathrm{mean} \\lvert m"),
-    ("limitations.f90", "default_resolution", "0.1", "(10 % unless told otherwise)"),
+    ("limitations.f90", "default_resolution", "0.1", "(10 % by default)"),
     ("limitations.f90", "doubtful_slope", "0.2", "slopes above 0.2"),
     ("patch_law.f90", "gamma_length", "0.375", "$\\gamma = 3/8$"),
 )

@@ -99,7 +99,7 @@ module faststrip_tangential_faststrip
 
     public :: faststrip_tangential_solve, default_points, most_points
 
-    !> Points along each strip unless told otherwise.
+    !> Points along each strip by default.
     !> Tuned [points]. Origin: as many as strips.
     integer, parameter :: default_points = 15
     ! Tuned [1]: Times that forces of several patches are found before those that count. Origin:
