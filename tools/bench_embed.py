@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Time the same contacts through the four faces of an installed library.
+"""Time the same contacts through the four interfaces of an installed library.
 
     bench_embed.py --prefix FOLDER -o FILE.csv
 
-CSV: what,face,ns,over_fortran_ns; the least of many rounds, one core, one process for the compiled
-faces and this one for Python. Python's own are many contacts in one call, ns a contact, and the
-import of the package where numpy is there already, in processor time.
+CSV: what,face,ns,over_fortran_ns (face: the interface); the least of many rounds, one core, one
+process for the compiled interfaces and this one for Python. Python's own are many contacts in one
+call, ns a contact, and the import of the package where numpy is there already, in processor time.
 """
 
 import argparse

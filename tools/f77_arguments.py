@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the arguments of the F77 face into docs/embedding.md, from its sources.
+"""Write the arguments of the F77 interface into docs/embedding.md, from its sources.
 
     f77_arguments.py [--check]
 
@@ -18,7 +18,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "embedding.md"
-# The modules of the face, and what their arrays are about.
+# The modules of the interface, and what their arrays are about.
 FACE = {"f77": "contacts", "f77_doubts": "doubts", "f77_wheelset": "wheelsets",
         "f77_wear": "friction, wear", "f77_geometry": "geometry", "f77_lookup": "tables",
         "f77_lookup_wheel": "tables of a wheel"}
@@ -70,12 +70,12 @@ class Constants:
 
 
 def source(name):
-    """The file of a module of the face."""
+    """The file of a module of the interface."""
     return ROOT / "src/faststrip/interop/f77" / f"{name.removeprefix('f77_')}.f90"
 
 
 def calls(name, constants):
-    """Name, words and arguments of the subroutines of a module of the face; an argument is its
+    """Name, words and arguments of the subroutines of a module of the interface; an argument is its
     F77 name with its size, in, out or inout, and what it is."""
     text = source(name).read_text(encoding="utf-8")
     for match in CALL.finditer(text):

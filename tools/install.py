@@ -10,7 +10,7 @@ The archives could be handed on as they are, but for what hosts of other languag
 they must not see:
 
 - Only public names are visible: what `use faststrip` gives, the modules that its head lists, the C
-  and F77 faces. No host can come to depend on a procedure behind them, or clash with it. Local
+  and F77 interfaces. No host can come to depend on a procedure behind them, or clash with it. Local
   names do not reach across files, so what the public names need of the archives is linked into one
   object first. The rest, words for the packages above, stays out, and with it variables of the
   compiler's.
@@ -157,7 +157,7 @@ def public_names(archives):
     c_face = {name for name in defined if re.fullmatch(r"faststrip_[a-z_]+", name)}
     f77_face = {name for name in defined if re.fullmatch(r"fs[a-z]{1,4}_", name)}
     if not c_face or not f77_face:
-        sys.exit(f"install: {archives[0]} has no C or F77 face")
+        sys.exit(f"install: {archives[0]} has no C or F77 interface")
     return (fortran_names() & defined) | c_face | f77_face, f77_face
 
 

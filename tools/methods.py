@@ -5,7 +5,7 @@
 
 The list is that of src/faststrip/contact/methods.f90: one row a method. Written from it, between
 lines with `BEGIN methods` and `END methods`, are the numbers there, what `use faststrip` gives, the
-enumerations of the C header, the comment of the F77 face, Python's dictionaries and the tables
+enumerations of the C header, the comment of the F77 interface, Python's dictionaries and the tables
 of docs/usage.md. The command line and its help, and so the man page, read the list itself. With
 --check nothing is written; the exit code is 1 if something would be.
 """

@@ -1,5 +1,5 @@
-!> What a call costs through each compiled face: the same contact by `use faststrip`, the C face and
-!> the F77 face, in turn, the least time of many rounds. CSV: what,face,ns.
+!> What a call costs through each compiled interface: the same contact by `use faststrip`, the C
+!> interface and the F77 interface, in turn, the least time of many rounds. CSV: what,face,ns.
 program bench
     use, intrinsic :: iso_c_binding
     use, intrinsic :: iso_fortran_env, only: int64

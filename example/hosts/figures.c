@@ -1,4 +1,4 @@
-/* The same figures by the C face; see figures.f90. */
+/* The same figures by the C interface; see figures.f90. */
 #include <faststrip.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-C     The same figures by the F77 face; see figures.f90. Contacts with a
+C     The same figures by the F77 interface; see figures.f90. Contacts with a
 C     turn are left out, which this face does not take, and limits and
 C     tolerances that FSLIMT and FSWANT refuse.
       PROGRAM FIGURE

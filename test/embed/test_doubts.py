@@ -1,4 +1,4 @@
-"""What no contact can be is named by the library too, in every face; no status and no figure
+"""What no contact can be is named by the library too, in every interface; no status and no figure
 depends on it."""
 
 import unittest

@@ -1,5 +1,5 @@
-"""Every figure of every face is that of the Fortran interface, bit for bit: dissimilar bodies, gaps
-without symmetry, all creepages, every method, every field of every struct and array."""
+"""Every figure of every interface is that of the Fortran interface, bit for bit: dissimilar bodies,
+gaps without symmetry, all creepages, every method, every field of every struct and array."""
 
 import math
 import random

@@ -1,5 +1,5 @@
-"""Contact geometry functions and equivalent conicity are the same in every face, and those of the
-program; what cannot be is refused."""
+"""Contact geometry functions and equivalent conicity are the same in every interface, and those of
+the program; what cannot be is refused."""
 
 import csv
 import math

@@ -1,4 +1,4 @@
-"""A lookup table gives the same forces in every face; what is none is refused."""
+"""A lookup table gives the same forces in every interface; what is none is refused."""
 
 import csv
 import math

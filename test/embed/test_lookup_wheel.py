@@ -1,4 +1,4 @@
-"""The lookup table of a wheel gives the same contacts and forces in every face."""
+"""The lookup table of a wheel gives the same contacts and forces in every interface."""
 
 import math
 import struct

@@ -201,7 +201,7 @@ class Values(HostTest):
         return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
 
     def test_classics_of_both_against_formulas(self):
-        """Hertz by his equations, FASTSIM by its linear limit, and one face by the other."""
+        """Hertz by his equations, FASTSIM by its linear limit, and one interface by the other."""
         faststrip = self.faststrip
         material = faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
         _, _, kalker, hertz, forces = self.host(1, 1, 5, 5, 10, 10)

@@ -1,4 +1,4 @@
-"""Friction and wear are the same in every face, bit for bit; what cannot be is refused."""
+"""Friction and wear are the same in every interface, bit for bit; what cannot be is refused."""
 
 import csv
 import math

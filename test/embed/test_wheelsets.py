@@ -1,4 +1,4 @@
-"""Wheelsets are the same in every face: every figure of every contact, bit for bit."""
+"""Wheelsets are the same in every interface: every figure of every contact, bit for bit."""
 
 import csv
 import ctypes

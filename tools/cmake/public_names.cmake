@@ -1,6 +1,6 @@
 # The linker's names that stay visible, found where tools/install.py finds them: what
 # `use faststrip` gives, what is public of the modules beside it, of types the tables of their
-# procedures, what a host's own methods inherit, and the C and F77 faces. Names of types and
+# procedures, what a host's own methods inherit, and the C and F77 interfaces. Names of types and
 # constants are among them; the linker passes over what is no symbol.
 
 # Modules that hosts may use beside `faststrip`, as the head of that one lists them.
@@ -63,9 +63,9 @@ function(public_names all f77)
     string(REGEX MATCHALL "\nint faststrip_[a-z_]+" c_names "${text}")
     list(TRANSFORM c_names REPLACE "\nint " "")
     set(text)
-    file(GLOB faces src/faststrip/interop/f77/*.f90 src/files/profile/f77.f90)
-    foreach(face IN LISTS faces)
-        file(READ "${face}" more)
+    file(GLOB interfaces src/faststrip/interop/f77/*.f90 src/files/profile/f77.f90)
+    foreach(interface IN LISTS interfaces)
+        file(READ "${interface}" more)
         string(APPEND text "${more}")
     endforeach()
     string(REGEX MATCHALL "\n *subroutine fs[a-z]+" f77_names "${text}")

@@ -3,7 +3,7 @@
 !>
 !> Noise moves every height and every curvature of a gap up or down by the same share, at random.
 !> A figure that depends on the gap continuously moves in proportion to the noise; one that does
-!> not (a decision taken differently) moves by the same at any noise: a jump. Penetration, largest
+!> not (a decision taken differently) moves by the same at any noise: a jump. Penetration, maximum
 !> pressure and area are measured against themselves, forces against mu N, the moment against
 !> mu N sqrt(area/pi).
 !>

@@ -49,7 +49,7 @@ module faststrip_base_plausible
     !> Tuned [see unit]. Origin: chosen: dry rails and brake tests; aluminium to hard metal, and
     !> below Poisson's ratios of 0.4 nothing softer; discs of 2-disc machines to wheels of
     !> locomotives, flanges of 75 degrees; a wheel of 460 mm under 4 kN; sliding wheels in tests;
-    !> 1 to 600 km/h; curves of works tracks; model tracks to cranes; ISO 76:2006 for the largest
+    !> 1 to 600 km/h; curves of works tracks; model tracks to cranes; ISO 76:2006 for the maximum
     !> pressure that hardened steel carries at rest.
     type(quantity_t), parameter :: quantities(*) = [ &
         quantity_t('coefficient of friction', '1', over_one, any_size, 0.0_wp, 1.0_wp, '', &

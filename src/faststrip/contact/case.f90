@@ -1,5 +1,5 @@
-!> One contact to be solved: what case files, rows of a batch, benches and the faces fill, and what
-!> every method takes. What only one of them needs extends it.
+!> One contact to be solved: what case files, rows of a batch, benches and the interfaces fill, and
+!> what every method takes. What only one of them needs extends it.
 module faststrip_contact_case
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t

@@ -86,7 +86,7 @@ module faststrip_contact_methods
 
     ! The one list of the methods. From it come the names of the command line and its help; and,
     ! written by tools/methods.py, the numbers above, what `use faststrip` gives, the enumerations
-    ! of the C header, the comment of the F77 face, Python's dictionaries, the README's tables.
+    ! of the C header, the comment of the F77 interface, Python's dictionaries, the README's tables.
     ! A number stays for ever: host programs know it.
 
     !> The normal methods, in the order that people see.

@@ -1,4 +1,4 @@
-!> Wheel and rail profiles of every kind behind one face.
+!> Wheel and rail profiles of every kind behind one interface.
 !>
 !> The frame is that of a right wheel and a right rail: y to the field side, z down. A wheel has
 !> y = 0 at its mean tread line; a rail is inclined already, with the origin at its highest point

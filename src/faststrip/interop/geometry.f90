@@ -1,5 +1,5 @@
-!> Contact geometry functions and equivalent conicity for the C and F77 faces, in rows of numbers:
-!> nowhere else is it said which place is which component.
+!> Contact geometry functions and equivalent conicity for the C and F77 interfaces, in rows of
+!> numbers: nowhere else is it said which place is which component.
 !>
 !> ```
 !> functions (of a shift) 1 delta r, mm     2, 3 rolling radius of the right and left wheel, mm
@@ -29,7 +29,7 @@ module faststrip_interop_geometry
     public :: table_functions, table_conicity, n_function, n_conicity
 
     !> Lengths of the rows.
-    !> Given: by the faces.
+    !> Given: by the interface.
     integer, parameter :: n_function = 10, n_conicity = 6
 
 contains

@@ -1,5 +1,6 @@
-!> What stands behind the handles of the C and F77 faces: a workspace, a field and the words of the
-!> last call, in one piece that the caller makes and frees, and names by a number of the register.
+!> What stands behind the handles of the C and F77 interfaces: a workspace, a field and the words of
+!> the last call, in one piece that the caller makes and frees, and names by a number of the
+!> register.
 module faststrip_interop_handle
     use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -26,8 +27,8 @@ module faststrip_interop_handle
     type :: handle_t
         type(workspace_t) :: workspace
         type(contact_case_t) :: case      !! filled in anew for every call, without a gap; but that
-                                          !! the F77 face sets friction, how errors are estimated
-                                          !! and what is wanted of auto once
+                                          !! the F77 interface sets friction, how errors are
+                                          !! estimated and what is wanted of auto once
         real(wp) :: contact_angle = 0.0_wp !! for friction of tread and flange, rad
         type(contact_result_t) :: result  !! figures of the last contact
         type(status_t) :: status          !! of the last call

@@ -1,4 +1,4 @@
-!> Lookup tables behind the handles of the C and F77 faces.
+!> Lookup tables behind the handles of the C and F77 interfaces.
 module faststrip_interop_lookup_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_loc, c_f_pointer
     use, intrinsic :: iso_fortran_env, only: int8
@@ -18,7 +18,7 @@ module faststrip_interop_lookup_handle
     public :: find_contacts, look_up_wheels, describe_wheel, n_about_wheel
 
     !> Numbers about a table.
-    !> Given: by the faces.
+    !> Given: by the interface.
     integer, parameter :: n_about = 23, n_about_wheel = 60
 
 contains

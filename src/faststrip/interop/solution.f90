@@ -1,6 +1,6 @@
 !> What a workspace holds of its last solution, copied into a caller's arrays for the C and F77
-!> faces: strips, elements, steps of auto. Of a wheelset's contact they are as they are, not as in
-!> the mirror that it was solved in.
+!> interfaces: strips, elements, steps of auto. Of a wheelset's contact they are as they are, not as
+!> in the mirror that it was solved in.
 module faststrip_interop_solution
     use, intrinsic :: iso_c_binding, only: c_int, c_double
     use faststrip_contact_method, only: workspace_t

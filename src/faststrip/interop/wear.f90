@@ -1,4 +1,4 @@
-!> T gamma, wear and fatigue of the last solution behind a handle of the C and F77 faces.
+!> T gamma, wear and fatigue of the last solution behind a handle of the C and F77 interfaces.
 !>
 !> They are figures of what was solved, with its creepages and its friction; a law of wear and the
 !> yield stress come with each question.

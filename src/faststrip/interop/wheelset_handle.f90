@@ -1,4 +1,4 @@
-!> What stands behind the handles of wheelsets in the C and F77 faces.
+!> What stands behind the handles of wheelsets in the C and F77 interfaces.
 module faststrip_interop_wheelset_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
@@ -27,7 +27,7 @@ module faststrip_interop_wheelset_handle
         type(wheelset_workspace_t) :: workspace
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
-        type(rail_state_t) :: rail(2) !! right, left: of the F77 face, which sets them once
+        type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
     end type wheelset_handle_t

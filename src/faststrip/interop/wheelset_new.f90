@@ -1,4 +1,5 @@
-!> The making of the C and F77 faces' wheelsets, from the dimensions and where profiles come from.
+!> The making of the C and F77 interfaces' wheelsets, from the dimensions and where profiles come
+!> from.
 module faststrip_interop_wheelset_new
     use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t, c_loc
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,5 +1,5 @@
-!> Profile files in the C face: what `include/faststrip.h` declares, and where it is documented. The
-!> one call of the library that reads a file.
+!> Profile files in the C interface: what `include/faststrip.h` declares, and where it is
+!> documented. The one call of the library that reads a file.
 module faststrip_files_profile_c
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_ptr, c_size_t, &
                                            c_associated, c_f_pointer

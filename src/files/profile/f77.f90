@@ -1,4 +1,4 @@
-!> Profile files in the F77 face.
+!> Profile files in the F77 interface.
 !>
 !> ```
 !> PATH     CHARACTER*(*), name of the file; blanks at its end do not count

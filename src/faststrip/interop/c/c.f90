@@ -1,4 +1,4 @@
-!> The C face: what `include/faststrip.h` declares, and where it is documented.
+!> The C interface: what `include/faststrip.h` declares, and where it is documented.
 !>
 !> Every function returns a code of `faststrip_base_status`. Pointers, sizes and handles are checked
 !> here; numbers are checked by the procedures that take them.

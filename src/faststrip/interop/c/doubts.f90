@@ -1,4 +1,4 @@
-!> What is outside of practice in the last call of a workspace or a wheelset, in the C face.
+!> What is outside of practice in the last call of a workspace or a wheelset, in the C interface.
 module faststrip_interop_c_doubts
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_intptr_t, &
                                            c_associated, c_f_pointer, c_null_char

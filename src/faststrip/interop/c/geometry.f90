@@ -1,4 +1,4 @@
-!> Contact geometry functions and equivalent conicity in the C face: what `include/faststrip.h`
+!> Contact geometry functions and equivalent conicity in the C interface: what `include/faststrip.h`
 !> declares, and where it is documented.
 module faststrip_interop_c_geometry
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_associated, &

@@ -1,4 +1,5 @@
-!> Lookup tables in the C face: what `include/faststrip.h` declares, and where it is documented.
+!> Lookup tables in the C interface: what `include/faststrip.h` declares, and where it is
+!> documented.
 module faststrip_interop_c_lookup
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_size_t, c_ptr, &
                                            c_associated, c_f_pointer

@@ -1,4 +1,5 @@
-!> Many contacts in one call of the C face: by several threads, each with a workspace of its own.
+!> Many contacts in one call of the C interface: by several threads, each with a workspace of its
+!> own.
 !>
 !> A result does not depend on the threads. A contact is solved from nothing, or, within a chain,
 !> from the contact before it; a chain is one thread's, and its first contact starts from nothing.

@@ -1,5 +1,5 @@
-!> Gaps of profiles, and of the contacts of a wheelset, in the C face: what `include/faststrip.h`
-!> declares, and where it is documented.
+!> Gaps of profiles, and of the contacts of a wheelset, in the C interface: what
+!> `include/faststrip.h` declares, and where it is documented.
 module faststrip_interop_c_profiles
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_intptr_t, c_ptr, &
                                            c_associated, c_f_pointer

@@ -1,4 +1,4 @@
-!> A gap and a case of the C face, handed to a handle: for one contact and for many.
+!> A gap and a case of the C interface, handed to a handle: for one contact and for many.
 module faststrip_interop_c_solve
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_associated, c_f_pointer
     use faststrip_base_status, only: set_status, count_text, st_bad_argument

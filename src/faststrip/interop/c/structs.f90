@@ -1,5 +1,5 @@
-!> The structs of the C face, `faststrip_case` and `faststrip_result` of the header, and what they
-!> are in Fortran: nowhere else is it said which member is which component.
+!> The structs of the C interface, `faststrip_case` and `faststrip_result` of the header, and what
+!> they are in Fortran: nowhere else is it said which member is which component.
 !>
 !> `size` of a case says which header the caller was compiled with; another one than that of this
 !> library is refused.

@@ -1,4 +1,5 @@
-!> The wheelsets of the C face: what `include/faststrip.h` declares, and where it is documented.
+!> The wheelsets of the C interface: what `include/faststrip.h` declares, and where it is
+!> documented.
 !>
 !> `size` of a setup says which header the caller was compiled with, for all structs of wheelsets.
 module faststrip_interop_c_wheelset

@@ -1,4 +1,4 @@
-!> What is outside of practice in the last call of a workspace or a wheelset, in the F77 face.
+!> What is outside of practice in the last call of a workspace or a wheelset, in the F77 interface.
 module faststrip_interop_f77_doubts
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t
     use faststrip_base_status, only: message_length

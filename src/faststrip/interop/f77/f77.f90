@@ -1,4 +1,4 @@
-!> The F77 face: external subroutines with plain arguments, names of at most six letters.
+!> The F77 interface: external subroutines with plain arguments, names of at most six letters.
 !>
 !> INTEGER is four bytes, DOUBLE PRECISION eight; FSINTS tells a host that was compiled with others,
 !> and where IOPT shows it, it is refused. Names carry the trailing underscore most Fortran

@@ -1,4 +1,5 @@
-!> Contact geometry functions and equivalent conicity in the F77 face; neither needs a workspace.
+!> Contact geometry functions and equivalent conicity in the F77 interface; neither needs a
+!> workspace.
 !>
 !> ```
 !> SETUP, NPROF, YPROF, ZPROF as FSWNEW takes them; SETUP(9) does not count

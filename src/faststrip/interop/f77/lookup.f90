@@ -1,4 +1,4 @@
-!> Lookup tables in the F77 face.
+!> Lookup tables in the F77 interface.
 !>
 !> ```
 !> BYTES    bytes of a table's file, in an array of any type

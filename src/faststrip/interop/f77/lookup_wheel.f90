@@ -1,4 +1,4 @@
-!> Lookup tables of a wheel on a rail in the F77 face. FSLOPN opens them, FSLFRE frees them.
+!> Lookup tables of a wheel on a rail in the F77 interface. FSLOPN opens them, FSLFRE frees them.
 !>
 !> ```
 !> IORDER   interpolation: 1 linear, 3 cubic

@@ -1,5 +1,5 @@
-!> The rows of the F77 face, as `faststrip_interop_f77` lists them, and what they are in Fortran:
-!> nowhere else is it said which place is which component.
+!> The rows of the F77 interface, as `faststrip_interop_f77` lists them, and what they are in
+!> Fortran: nowhere else is it said which place is which component.
 module faststrip_interop_f77_rows
     use, intrinsic :: iso_c_binding, only: c_int, c_double
     use faststrip_base_creepage, only: creepage_t
@@ -17,7 +17,7 @@ module faststrip_interop_f77_rows
     public :: res_of, err_of, ferr_of, takn_of
 
     !> Lengths of the rows.
-    !> Given: by the face.
+    !> Given: by the interface.
     integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14, n_err = 7, n_ferr = 4, n_takn = 5, &
                           n_fric = 8
 

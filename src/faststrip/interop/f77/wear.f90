@@ -1,4 +1,4 @@
-!> Friction, wear and fatigue in the F77 face, of workspaces of FSINIT and of FSWNEW alike.
+!> Friction, wear and fatigue in the F77 interface, of workspaces of FSINIT and of FSWNEW alike.
 !>
 !> ```
 !> KIND     how friction falls with slip: 0 it does not, 2 linear, 3 rational, 4 exponential

@@ -1,5 +1,6 @@
-!> The wheelsets of the F77 face, with the conventions of `faststrip_interop_f77`: `IOPT` and `PAR`
-!> from there, of which methods, material and friction count; `IWORK` is as long as FSINIT says.
+!> The wheelsets of the F77 interface, with the conventions of `faststrip_interop_f77`: `IOPT` and
+!> `PAR` from there, of which methods, material and friction count; `IWORK` is as long as FSINIT
+!> says.
 !>
 !> ```
 !> SETUP(1), SETUP(2) nominal radius of the right and left wheel, mm

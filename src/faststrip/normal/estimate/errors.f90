@@ -51,7 +51,7 @@
 !> with 1/l = 1/(2w) + 1/[2 pi xd (1 + ln(1 + w/xd))]: strips shorter than wide are needles, which
 !> press in what is about as long as they are, not as wide, and take more pressure to close a gap.
 !> The sum is the load that sections which are no semi-ellipses have too much or too little:
-!> others take it, and their pressures go with its cube root, wherever they are. q_k is the largest
+!> others take it, and their pressures go with its cube root, wherever they are. q_k is the maximum
 !> pressure of a strip off the centre line (`faststrip_normal_estimate_longitudinal`).
 !>
 !> C(a_k) = |a_k - (a_k-1 + a_k+1)/2|. The fourth difference is what steps instead of a wave
