@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draw the time of Kalker's variational method against the number of elements, with slopes.
 
-One panel for NORM and one for TANG. Lines are from nothing, from a coarser grid, from strips and
+One panel for NORM and one for TANG. Lines are cold starts, from a coarser grid, from strips and
 from the previous step; iterations are those of all grids, of NORM to 1e-9 (filled dots) and to 1e-4
 of the approach (rings), of TANG (squares) those inside Newton's steps.
 """

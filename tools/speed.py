@@ -46,10 +46,10 @@ COLUMNS = ("group", "what", "cases", *(f"us_{word}" for word in SPREAD), "worst_
 SECONDS = {"normal": ("cpu_norm_s", "cpu_norm_s"), "tangential": ("cpu_tang_s", "cpu_tang_s"),
            "both": ("cpu_total_s", "cpu_s")}
 STEPS = {"load": "load 2.5 %", "shift": "place 0.1 mm", "both": "place 0.1 mm, load 5 %"}
-COLD = "from nothing, contacts and scenes"
+COLD = "cold start, contacts and scenes"
 GROUPS = {"normal": "normal", "tangential": "tangential", "both": "normal and tangential",
           "gap": "gap", "influence": "influence coefficient", "wheelset": "wheelset"}
-FROM_NOTHING, FROM_BEFORE = "from nothing", "from the state before"
+COLD_START, FROM_BEFORE = "cold start", "from the state before"
 GAP_READ, GAP_NEW = "row, gap read before", "row, new gap"
 # Steel of the references: nu 0.28, G 82000 MPa.
 BATCH_HEADER = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
@@ -228,7 +228,7 @@ def method_rows(methods):
             raise InputError(f"no such times of CONTACT: {name}, {stage} ({METHODS})")
         base = ("", {})
         if (stage, what) == ("wheelset", FROM_BEFORE):
-            base = (FROM_NOTHING, times(FROM_NOTHING))
+            base = (COLD_START, times(COLD_START))
         found.append(row(GROUPS[stage], what, times(what), fastsim, base,
                          (name, peers.get((stage, name), {}))))
     return found

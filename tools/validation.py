@@ -44,7 +44,7 @@ SPREAD = ("median", "p95", "worst")
 # What the README tells of it.
 TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
          ("warm step, 15 strips", "load 2.5 %"), ("tangential", "FASTSIM 50x50"),
-         ("tangential", "FASTSTRIP 15x15"), ("wheelset", "from nothing"),
+         ("tangential", "FASTSTRIP 15x15"), ("wheelset", "cold start"),
          ("batch", "row, new gap"))
 ALL = "all"  # kinds together
 PROMISED = ("worst", "times_strips_sure", "times_strips", "times_kalker_sure", "times_kalker",
@@ -59,7 +59,7 @@ LABELS = {
     "fastsim": "FASTSIM", "faststrip-paper": "TFASTSTRIP as printed",
     "faststrip-corrected": "TFASTSTRIP as corrected", "fastsim-elliptic": "FASTSIM, elliptic bound",
     "fastsim-weighted": "FASTSIM, one flexibility", "linear": "linear theory", "polach": "Polach",
-    "she": "Shen, Hedrick and Elkins", "cold": "from nothing", "warm_load": "load changed by 5 %",
+    "she": "Shen, Hedrick and Elkins", "cold": "cold start", "warm_load": "load changed by 5 %",
     "warm_shift": "wheelset moved by 0.05 mm",
 }
 KALKER = {"NORM": "kalker_normal", "TANG": "kalker_tangential"}
@@ -495,7 +495,7 @@ SECTIONS = (
      " nobody knows; and against always NORM and TANG with 36 elements across.", "promises"),
     ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
-     " core, from nothing (`bench trade`).", "trade"),
+     " core, cold (`bench trade`).", "trade"),
     ("Influence integral",
      "Geometric means of times over n = 0, 1, 10 and b = 0.02, 0.3, 5 (`bench integral`).",
      "influence"),

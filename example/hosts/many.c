@@ -43,7 +43,7 @@ static int many(int chain, int threads)
                                 statuses, text, sizeof text);
 }
 
-/* One by one: each from nothing, or in chains from the one before if that has a result. */
+/* One by one: each a cold start, or in chains from the one before if that has a result. */
 static void one_by_one(int chain)
 {
     faststrip_workspace *workspace = NULL;

@@ -1,4 +1,4 @@
-!> Methods of one's own: springs side by side (Winkler), on any gap, under a load; and full sliding.
+!> Methods of one's own: springs side by side (Winkler), on any gap, under a load; and saturation.
 !>
 !> A type that extends `on_gap_t` or `tangential_method_t`, its `solve`, a number that the list does
 !> not have, and a line that enters it: after that `solve_contact` takes it like its own, with any

@@ -95,7 +95,7 @@ static void ask_wheelset(int i, faststrip_wheelset_state *state, faststrip_wheel
     demand->warm_start = i % 2;
 }
 
-/* A hash of the bits of what is asked, from nothing. */
+/* A hash of the bits of what is asked, cold. */
 static uint64_t wheelset_bits(faststrip_wheelset *wheelset, const faststrip_wheelset_state *state,
                               const faststrip_wheelset_demand *demand, int *status)
 {

@@ -336,7 +336,7 @@ def _normal_times(data):
         if math.isfinite(rolling):
             words += f"; TANG {_milliseconds(rolling)}"
     yield judged(
-        "N9", place, claim, "our NORM from nothing over strips", "ratio of times",
+        "N9", place, claim, "our NORM cold, over strips", "ratio of times",
         own["cold"] / cold, "times", many, words, "bench reference, bench normal",
     )
     yield judged(
@@ -346,7 +346,7 @@ def _normal_times(data):
     )
     yield judged(
         "N11", place, "Strips as a start make Kalker's method several times as fast",
-        "our NORM, from nothing over from strips", "ratio of times", own["cold"] / own["strips"],
+        "our NORM, cold over from strips", "ratio of times", own["cold"] / own["strips"],
         "times", Limits(5.0, 1.2, least=True), "", "bench reference",
     )
 

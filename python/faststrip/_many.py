@@ -343,7 +343,7 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     warm_start : bool
         Start each contact from the one before it, along the last axis first, which is faster
         where neighbours are alike; the last digits then depend on it. The first of every `chain`
-        contacts starts from nothing, so that results do not depend on the threads.
+        contacts is a cold start, so that results do not depend on the threads.
     chain : int
         Contacts from one cold start to the next with warm_start.
     threads : int

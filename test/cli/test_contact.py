@@ -609,7 +609,7 @@ class GapFile(ProgramTest):
                 for name in ("Fx_N", "Fy_N", "Mz_Nmm", "friction_power_N"):
                     self.assertEqual(float(row[name]), 0.0, (name, words, case))
 
-    def test_full_sliding(self):
+    def test_saturation(self):
         row = self.contact(motion="cksi = -0.1")
         self.assert_close(float(row["Fx_N"]), 0.3e5, 1e-3)
         self.assert_close(float(row["friction_power_N"]), 0.1 * 0.3e5, 1e-2)

@@ -10,7 +10,7 @@ TOOL = ROOT / "tools" / "speed.py"
 HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fastsim_nx,"
           "fastsim_ny,element_mm\n")
 INFLUENCE = {"centre", "tip", "centre with derivatives", "tip with derivatives"}
-STATES = {"from nothing", "from the state before"}
+STATES = {"cold start", "from the state before"}
 
 
 class Bench(LabTest):

@@ -90,8 +90,8 @@ contains
         call reserve_workspace(here%wanted, contact_methods_t(normal=normal_auto), points, status)
     end subroutine reserve
 
-    !> Solve a gap from nothing, for a penetration, and warm, then as a contact with its estimated
-    !> errors, and as well as is wanted; add up the bits of all figures.
+    !> Solve a gap from a cold start, for a penetration, and warm, then as a contact with its
+    !> estimated errors, and as well as is wanted; add up the bits of all figures.
     subroutine solve(here, gap, n, bits, code)
         type(workspaces_t), intent(inout) :: here
         type(gap_t), intent(in) :: gap

@@ -2,7 +2,7 @@
 !>
 !> Rows are read and written in chunks. The rows of a chunk are solved by all threads, while one of
 !> them writes the chunk before and reads the next one. A chain of rows is solved by one thread, the
-!> first of them from nothing; so no bit depends on threads, chunks or parts.
+!> first of them a cold start; so no bit depends on threads, chunks or parts.
 module faststrip_command_batch
     use, intrinsic :: iso_fortran_env, only: int64
     !$ use omp_lib, only: omp_get_num_procs, omp_get_thread_num
@@ -161,7 +161,7 @@ contains
                 option_t('--single', '', 'numbers of FILE.nc in single precision'), &
                 option_t('--threads', 'N', 'threads that solve rows (default: all cores)'), &
                 option_t('--chain', 'N', 'start rows from the one before, in chains of N' &
-                         // new_line('a') // '(default 1: each from nothing)'), &
+                         // new_line('a') // '(default 1: each a cold start)'), &
                 option_t('--times', '', 'fill the columns of times, never twice the same'), &
                 option_t('--quiet', '', 'do not tell how far the work is'), &
                 part_options, method_options()]

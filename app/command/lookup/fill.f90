@@ -48,7 +48,7 @@ contains
         nodes_in = int(lookup%q%n, int64)*lookup%ratio%n**2*n_faces*lookup%shape%n
     end function nodes_in
 
-    !> Solve all nodes of one a/b. Each is solved from nothing: no bit depends on the threads.
+    !> Solve all nodes of one a/b. Each is a cold start: no bit depends on the threads.
     subroutine fill_shape(workers, i_shape, lookup, status)
         type(direct_t), intent(inout) :: workers(:) !! one for each thread
         integer, intent(in) :: i_shape          !! which a/b

@@ -1,4 +1,4 @@
-!> Extremes of the tangential problem: creepages and spin from nothing to 10, friction from none
+!> Extremes of the tangential problem: creepages and spin from 0 to 10, friction from none
 !> to 2, Poisson's ratio to 0.5, by every method there is.
 !>
 !> What is measured, of mu N: the size of the force, which must not exceed 1; what a millionth

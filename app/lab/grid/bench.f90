@@ -199,7 +199,7 @@ contains
             'one by one (scalar) and for n = 0 to 20 at once (row). CSV:', &
             'method,n,b,loop,ns,ratio,rel_err,flags,compiler,cpu,ns_p95,ns_worst; ns and ratio', &
             'are medians; ratio: to the published polynomial in the same loop.', &
-            'normal: microseconds the strip solver takes with 5 to 400 strips, from nothing', &
+            'normal: microseconds the strip solver takes with 5 to 400 strips, cold', &
             '(cold) and from the previous step (load changed by 5 %, wheelset moved by', &
             '0.05 mm), beside FASTSIM on 50 x 50 elements. Processor time, with the tail;', &
             'OPENBLAS_NUM_THREADS=1 keeps it to one core.', &
@@ -212,7 +212,7 @@ contains
             'the rounds; also influence coefficients of 15 strips, centre and tip, and the', &
             'states of example/wheelset_states.csv.', &
             'reference: microseconds Kalker''s variational method takes with 500 to 200000', &
-            'elements in contact: from nothing with new plans and with old ones (cold), from a', &
+            'elements in contact: cold with new plans and with old ones, from a', &
             'coarser grid, from 15 strips, and from the previous step; to 1e-9 and to 1e-4 of', &
             'the approach. Then its rolling on the same grids, to 1e-7 of the slip.', &
             'tangential: microseconds and nanoseconds per element of all tangential methods on', &
@@ -221,7 +221,7 @@ contains
             'tang: Newton''s steps, iterations and times of kalker_tangential with about 3700,', &
             '15000 and 60000 elements in contact; each contact with its own creepages, without', &
             'spin and with much of it, on pressures of the same grid, which are not counted.', &
-            'Processor time from nothing, a row a contact and its creepages; median, 95th', &
+            'Processor time of cold starts, a row a contact and its creepages; median, 95th', &
             'percentile, worst.', &
             'forces: errors of all tangential methods against CONTACT, on 161 Hertz contacts and', &
             'the paper''s with either sign of the creepages, and against TANG on 240 others.', &

@@ -45,7 +45,7 @@ module faststrip_lab_grid_normal
     integer, parameter :: strip_counts(17) = [5, 7, 9, 11, 15, 21, 27, 31, 41, 61, 81, 101, 141, &
                                               201, 251, 301, bench_normal_most_strips]
 
-    ! How a solution starts: from nothing, or from the step before, which had 5 % more or less
+    ! How a solution starts: cold, or from the step before, which had 5 % more or less
     ! load, or from which the wheelset has moved sideways.
     integer, parameter :: cold = 1, warm_load = 2, warm_shift = 3
     character(len=*), parameter :: starts(3) = [character(len=10) :: &

@@ -2,7 +2,7 @@
 !>
 !> Each contact is solved with its own creepages, without spin and with much of it, all with
 !> adhesion and slip areas. Pressures are NORM's on the same grid, which is not counted. Iterations
-!> are those of GMRES in all Newton's steps together. Times are of the processor, from nothing with
+!> are those of GMRES in all Newton's steps together. Times are of the processor, cold, with
 !> plans and influence coefficients there, the median of all rounds.
 module faststrip_lab_grid_tang
     use faststrip_base_kinds, only: wp, pi

@@ -23,7 +23,7 @@ module faststrip_lab_grid_trade_times
 
 contains
 
-    !> Solve the last contact of a workspace again and again, from nothing, without forces.
+    !> Solve the last contact of a workspace again and again, cold, without forces.
     subroutine time_solution(workspace, solved, times, is_known)
         type(workspace_t), intent(inout) :: workspace !! has solved a contact by a normal method
         type(contact_case_t), intent(in) :: solved    !! that contact

@@ -34,7 +34,7 @@ module faststrip_lab_studies_reference
     integer, parameter :: sizes(10) = [500, 1000, 2000, 3700, 7500, 15000, 30000, 60000, 120000, &
                                        bench_reference_most_elements]
 
-    ! How a solution starts: from nothing with new plans and with those of the time before; from a
+    ! How a solution starts: cold, with new plans and with those of the time before; from a
     ! grid with sides twice as long; from 15 strips; from the solution for 5 % more or less load.
     integer, parameter :: new_plans = 1, cold = 2, coarse = 3, strips = 4, warm_load = 5
     character(len=*), parameter :: starts(5) = [character(len=9) :: &

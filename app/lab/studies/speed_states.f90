@@ -21,7 +21,7 @@ module faststrip_lab_studies_speed_states
 
     !> How a state is solved.
     character(len=*), parameter :: state_methods(2) = [character(len=21) :: &
-        'from nothing', 'from the state before']
+        'cold start', 'from the state before']
 
     !> States of a wheelset, and what they took.
     type :: states_t

@@ -9,7 +9,7 @@
 !>     q = r/(1 + r),  f = q Phi(q, s, t),
 !>
 !> q from 0, nothing slides, to 1, all slides, whatever the creepages. Phi, which is tabled, is the
-!> linear theory's force at q = 0 and that of full sliding at q = 1; where forces are linear in the
+!> linear theory's force at q = 0 and that of saturation at q = 1; where forces are linear in the
 !> creepages it is linear in s and t. f is (Fx, Fy, Mz/c) over mu N, c a length of the patch.
 module faststrip_lookup_faces
     use, intrinsic :: iso_fortran_env, only: real32, int64

@@ -48,7 +48,7 @@
 !>   strip's; with the fourth power of what a strip uses of its bound the traction moves back to the
 !>   middle, which leaves the forces alone. Far beyond saturation m goes to 1/2 and alpha to zero,
 !>   and from 30 to 300 times mu N of linear force the integral of mu p against the rigid slip
-!>   takes over (`full_sliding`), exact in x at any number of points.
+!>   takes over (`saturation`), exact in x at any number of points.
 !> - **S10** **Correction**, unless the march alone is asked for: what the march misses of the
 !>   forces and the stick of a patch or sub-patch is a smooth function of the creepages, of a/b, of
 !>   Poisson's ratio, of the patch's shape and of how finely it is cut. It was fitted to TANG

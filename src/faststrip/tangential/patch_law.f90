@@ -35,7 +35,7 @@ module faststrip_tangential_patch_law
     ! Origin: errors against CONTACT: 6 makes the lateral force of spin worse by 0.2 % of mu N, 30
     ! changes none by 0.03 %.
     real(wp), parameter :: half_sliding = 15.0_wp
-    ! Tuned [1]: From where to where full sliding takes over from the march (S9). Origin: errors
+    ! Tuned [1]: From where to where saturation takes over from the march (S9). Origin: errors
     ! against CONTACT: from 8 the lateral force of spin is worse by 0.3 % of mu N.
     real(wp), parameter :: sliding_from = 30.0_wp, sliding_to = 300.0_wp
 
@@ -68,7 +68,7 @@ module faststrip_tangential_patch_law
         real(wp) :: stretch_y = 0.0_wp !! arms in y, from the centroid
         real(wp) :: exponent = 0.0_wp  !! m of the bound
         real(wp) :: alpha = 0.0_wp     !! of the bound
-        real(wp) :: sliding = 0.0_wp   !! weight of full sliding in the forces, 0 to 1
+        real(wp) :: sliding = 0.0_wp   !! weight of saturation in the forces, 0 to 1
         real(wp) :: weight = 0.0_wp    !! sum of the weights of an average; zero: carries nothing
     end type patch_law_t
 

@@ -7,7 +7,7 @@ module faststrip_tangential_strip_march
     use faststrip_base_friction, only: friction_t, falls, falling_share
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_patch_law, only: patch_law_t, smallest_force
-    use faststrip_tangential_full_sliding, only: slide_fully
+    use faststrip_tangential_saturation, only: saturate
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           put_element, most_points, state_adhesion, state_slip
     implicit none
@@ -274,7 +274,7 @@ contains
                      - used**4*off_centre*block%half_length(k)*block%sum_y(k)) &
                      - (block%y(k) + law%stretch_y*(1.0_wp - used)*(block%y(k) - law%y))*fx
                 if (law%sliding > 0.0_wp) then
-                    call slide_fully(0.25_wp*pi*points*block%cell(k)*block%peak_bound(k), &
+                    call saturate(0.25_wp*pi*points*block%cell(k)*block%peak_bound(k), &
                                      block%half_length(k), block%y(k), creepage, full%fx, &
                                      full%fy, full%mz)
                     fx = fx + law%sliding*(full%fx - fx)

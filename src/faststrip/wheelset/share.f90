@@ -32,7 +32,7 @@ module faststrip_wheelset_share
 contains
 
     !> Loads of both wheels at which they carry the axle load and its moment together, and the roll
-    !> at which they are equally high, from nothing.
+    !> at which they are equally high, cold.
     subroutine solve_for_share(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it

@@ -104,7 +104,7 @@ contains
         end do
     end subroutine release_wheel_solvers
 
-    !> The contacts of a place, from nothing: no bit depends on what was solved before.
+    !> The contacts of a place, by a cold start: no bit depends on what was solved before.
     subroutine solve_place(solver, place, found, status)
         type(wheel_solver_t), intent(inout) :: solver  !! made
         real(wp), intent(in) :: place(n_wheel_place)   !! y, yaw, load

@@ -1,8 +1,8 @@
 !> Many contacts in one call of the C interface: by several threads, each with a workspace of its
 !> own.
 !>
-!> A result does not depend on the threads. A contact is solved from nothing, or, within a chain,
-!> from the contact before it; a chain is one thread's, and its first contact starts from nothing.
+!> A result does not depend on the threads. A contact is solved by a cold start, or, within a chain,
+!> from the contact before it; a chain is one thread's, and its first contact is a cold start.
 !> So it does not matter which contacts a workspace was for before, and not which thread is faster.
 module faststrip_interop_c_many
     use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_intptr_t, c_ptr, c_sizeof, &

@@ -20,7 +20,7 @@ module faststrip_tangential_force_network
             !! of the ellipse's centre: cksi, ceta, and cphi in 1/mm
         real(wp) :: a = 0.0_wp, b = 0.0_wp !! semi-axes of the ellipse, mm
         real(wp) :: poisson = 0.0_wp       !! combined Poisson's ratio
-        real(wp) :: sliding = 0.0_wp       !! weight of full sliding, 0 to 1
+        real(wp) :: sliding = 0.0_wp       !! weight of saturation, 0 to 1
         integer :: points = 1              !! of the march, along a strip
     end type rolling_state_t
 

@@ -7,13 +7,13 @@
 !> direction of the slip is exact, the pole of the spin included: with r1, r2 = |s| at its ends and
 !> v = (s_y2 - s_y1)/(r1 + r2) it is `(s_y1 + s_y2)/(r1 + r2)` across and
 !> `s_x 2/(r1 + r2) atanh(v)/v` along, the potential of a rod.
-module faststrip_tangential_full_sliding
+module faststrip_tangential_saturation
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_creepage, only: creepage_t
     implicit none
     private
 
-    public :: slide_fully
+    public :: saturate
 
     ! Tuned [cells]: Cells along a strip. Origin: chosen: the moment of any strip is within 3e-4 of
     ! its bound times xd.
@@ -45,7 +45,7 @@ module faststrip_tangential_full_sliding
 contains
 
     !> Force and moment of one strip on the rail, all of it sliding.
-    pure subroutine slide_fully(bound, half_length, y, creepage, fx, fy, mz)
+    pure subroutine saturate(bound, half_length, y, creepage, fx, fy, mz)
         real(wp), intent(in) :: bound       !! mu times the strip's load, N
         real(wp), intent(in) :: half_length !! mm
         real(wp), intent(in) :: y           !! of the strip's middle, mm from the reference point
@@ -83,5 +83,5 @@ contains
         arm = dot_product(share, centre*across + spread*half_length*creepage%cphi*2.0_wp/both &
                                  *max(1.0_wp - across**2, 0.0_wp))
         mz = -bound*half_length*arm - y*fx
-    end subroutine slide_fully
-end module faststrip_tangential_full_sliding
+    end subroutine saturate
+end module faststrip_tangential_saturation
