@@ -125,7 +125,7 @@ class Profile(Shown):
     Parameters
     ----------
     y, z : array_like, shape (n,)
-        To the field side, of a wheel from its tape circle, and down, mm.
+        To the field side, of a wheel from its nominal rolling circle, and down, mm.
     kind : str
         ``wheel``, ``rail`` or ``unknown``.
     path, format : str
@@ -189,7 +189,7 @@ class Profile(Shown):
         ignore_smoothing : bool
             Pass over the smoothing that a file asks for?
         tape_circle : float
-            Where the tape circle of a wheel is, in y of the file, mm.
+            Where the nominal rolling circle of a wheel is, in y of the file, mm.
         keep : two floats
             Range of y of the points that are kept, mm.
         drop_double : float
@@ -367,12 +367,12 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
     cant : float, optional
         The same, by its older name.
     radius : float
-        Rolling radius at the tape circle, mm.
+        Rolling radius at the nominal rolling circle, mm.
     back_spacing : float, optional
         Distance of the flange backs, mm; unless said that which belongs to the gauge: 1360 to 1435,
         1440 to 1520.
     tread_line : float
-        From the flange back to the tape circle, mm.
+        From the flange back to the nominal rolling circle, mm.
     gauge, gauge_depth : float
         Gauge, and how far below the crown it is measured, mm.
     step : float

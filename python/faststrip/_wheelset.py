@@ -353,12 +353,12 @@ class Wheelset:
     wheel_left, rail_left : str or Profile, optional
         Of the left side; alike by default.
     radius, radius_left : float
-        Rolling radii at the tape circle, mm; alike by default.
+        Rolling radii at the nominal rolling circle, mm; alike by default.
     back_spacing : float, optional
         Distance of the flange backs, mm; unless said that which belongs to the gauge: 1360 to 1435,
         1440 to 1520.
     tread_line : float
-        From the flange back to the tape circle, mm.
+        From the flange back to the nominal rolling circle, mm.
     gauge, gauge_depth : float
         Gauge, and how far below the crown it is measured, mm.
     rail_distance : float, optional

@@ -77,7 +77,7 @@ class Wear(ProgramTest):
         self.solved("contact", "p.nml", "--wear", "law.csv", "--strips", "s.csv")
         for strip in self.read("s.csv"):
             depth = float(strip["wear_depth_mm_per_pass"])
-            # The rolling radius is a little larger than that of the tape circle.
+            # The rolling radius is a little larger than that of the nominal rolling circle.
             self.assert_close(float(strip["wear_depth_mm_per_km"]), turns * depth, 2e-3)
             self.assertLess(float(strip["wear_depth_mm_per_km"]), turns * depth)
         self.write("rail.csv", law(body="rail"))

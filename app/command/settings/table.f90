@@ -146,7 +146,7 @@ module faststrip_command_settings_table
         setting_t('wheel rail', 'ignore_smoothing', a_flag, &
                   'pass over the smoothing a file asks for', option='--ignore-smoothing'), &
         setting_t('wheel', 'tape_circle_mm', a_number, &
-                  'where the tape circle of a wheel is, in y of the file', &
+                  'where the nominal rolling circle of a wheel is, in y of the file', &
                   option='--tape-circle', value_name='MM')]
 
     type(setting_t), parameter :: of_motion(*) = [ &

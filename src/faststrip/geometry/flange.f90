@@ -1,8 +1,9 @@
 !> Measures of a wheel's flange by EN 15313, from points, with straight lines between them.
 !>
-!> The height of the tread is that at the tape circle. The flange's height Sh goes from there to its
-!> tip; its thickness Sd from the back's reference to the flank, 10 mm below the tread's height in
-!> the frame of the wheel; qR from that point to the one 2 mm short of the tip, along y.
+!> The height of the tread is that at the nominal rolling circle. The flange's height Sh goes from
+!> there to its tip; its thickness Sd from the back's reference to the flank, 10 mm below the
+!> tread's height in the frame of the wheel; qR from that point to the one 2 mm short of the tip,
+!> along y.
 module faststrip_geometry_flange
     use faststrip_base_kinds, only: wp
     implicit none
@@ -25,7 +26,7 @@ contains
 
     !> Measure the flange of a wheel.
     pure subroutine measure_flange(y, z, flange_back, flange)
-        real(wp), intent(in) :: y(:)            !! to the field side, from the tape circle, mm
+        real(wp), intent(in) :: y(:)            !! to the field side, mm; 0: nominal rolling circle
         real(wp), intent(in) :: z(:)            !! down, mm, along the curve
         real(wp), intent(in) :: flange_back     !! y of the reference of the back, mm
         type(flange_t), intent(out) :: flange   !! the measures
@@ -51,7 +52,7 @@ contains
 
     contains
 
-        !> Where the flank, from the tape circle to the tip, first reaches a depth.
+        !> Where the flank, from the nominal rolling circle to the tip, first reaches a depth.
         pure subroutine cross(depth, at, is_found)
             real(wp), intent(in) :: depth
             real(wp), intent(out) :: at

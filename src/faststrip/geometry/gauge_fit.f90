@@ -23,8 +23,9 @@ module faststrip_geometry_gauge_fit
     ! Origin: chosen.
     real(wp), parameter :: least_distance(2) = [1430.0_wp, 1575.0_wp], &
                            most_distance(2) = [1555.0_wp, 1615.0_wp]
-    ! Tuned [mm]: How much farther apart than the gauge faces the tape circles may be: each over a
-    ! rail's head. Origin: 65 mm on standard gauge, 25 mm to the face and 45 mm to the field side.
+    ! Tuned [mm]: How much farther apart than the gauge faces the nominal rolling circles may be:
+    ! each over a rail's head. Origin: 65 mm on standard gauge, 25 mm to the face and 45 mm to the
+    ! field side.
     real(wp), parameter :: most_beyond_gauge = 110.0_wp
     ! Given: EN 15313: where a flange's thickness is measured, mm.
     real(wp), parameter :: flank_depth = 10.0_wp
@@ -63,12 +64,12 @@ contains
         end if
     end subroutine find_back_spacing
 
-    !> A wheelset whose flanges do not go between the rails, or whose tape circles are not over
-    !> them, is refused.
+    !> A wheelset whose flanges do not go between the rails, or whose nominal rolling circles are
+    !> not over them, is refused.
     pure subroutine check_fit(wheel, back_spacing, tread_line, gauge, status)
         type(profile_t), intent(in) :: wheel     !! of both wheels
         real(wp), intent(in) :: back_spacing     !! distance of the flange backs, mm
-        real(wp), intent(in) :: tread_line       !! flange back to tape circle, mm
+        real(wp), intent(in) :: tread_line       !! flange back to nominal rolling circle, mm
         real(wp), intent(in) :: gauge            !! mm
         type(status_t), intent(out) :: status    !! `st_bad_argument`
 
@@ -90,7 +91,7 @@ contains
     !> Tape circles that are not over the heads of the rails are refused.
     pure subroutine check_tape_circles(back_spacing, tread_line, gauge, status)
         real(wp), intent(in) :: back_spacing     !! distance of the flange backs, mm
-        real(wp), intent(in) :: tread_line       !! flange back to tape circle, mm
+        real(wp), intent(in) :: tread_line       !! flange back to nominal rolling circle, mm
         real(wp), intent(in) :: gauge            !! mm
         type(status_t), intent(out) :: status    !! `st_bad_argument`
 
@@ -103,10 +104,11 @@ contains
         call find_back_spacing(gauge, 0.0_wp, belonging, known)
         if (is_error(known)) then
             call set_status(status, st_bad_argument, trim(pair_words(gauge, back_spacing)) // &
-                            ' fit, got tape circles ' // trim(number_text(apart)) // ' mm apart')
+                            ' fit, got nominal rolling circles ' // trim(number_text(apart)) // &
+                            ' mm apart')
         else
             call set_status(status, st_bad_argument, trim(pair_words(gauge, back_spacing)) // &
-                            ' fit, got tape circles ' // trim(number_text(apart)) // &
+                            ' fit, got nominal rolling circles ' // trim(number_text(apart)) // &
                             ' mm apart; ' // trim(number_text(belonging)) // &
                             ' mm belong to this gauge')
         end if
@@ -121,8 +123,8 @@ contains
                 trim(number_text(back_spacing)) // ' mm must'
     end function pair_words
 
-    ! Where the flange is as thick as EN 15313 measures it: from the tape circle inwards the first
-    ! place so far below it.
+    ! Where the flange is as thick as EN 15313 measures it: from the nominal rolling circle inwards
+    ! the first place so far below it.
     pure subroutine find_flank(wheel, y_flank, is_flanged)
         type(profile_t), intent(in) :: wheel
         real(wp), intent(out) :: y_flank

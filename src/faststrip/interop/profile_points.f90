@@ -26,7 +26,7 @@ module faststrip_interop_profile_points
 contains
 
     !> The gap of a wheel on a rail, both given by points along the curve, y to the field side, z
-    !> down, of the wheel from the tape circle.
+    !> down, of the wheel from the nominal rolling circle.
     subroutine gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status)
         real(wp), intent(in), target :: y_wheel(:), z_wheel(:) !! mm
         real(wp), intent(in), target :: y_rail(:), z_rail(:)   !! mm

@@ -33,7 +33,7 @@ module faststrip_interop_wheelset_new
     type, bind(c) :: dimensions_t
         real(c_double) :: radius_right, radius_left !! nominal, mm
         real(c_double) :: back_spacing  !! of the flange backs, mm; 0: as belongs to the gauge
-        real(c_double) :: tread_line    !! flange back to tape circle, mm
+        real(c_double) :: tread_line    !! flange back to nominal rolling circle, mm
         real(c_double) :: gauge         !! mm
         real(c_double) :: gauge_depth   !! below the crown, mm
         real(c_double) :: rail_distance !! of the rails' origins, mm; 0: as the gauge says

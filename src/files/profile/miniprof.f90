@@ -23,7 +23,7 @@ module faststrip_files_profile_miniprof
 
     public :: read_miniprof, is_miniprof_key
 
-    !> Flange back to tape circle, mm.
+    !> Flange back to nominal rolling circle, mm.
     real(wp), parameter :: standard_tape_circle = 70.0_wp
     ! Where a header may say that it is, and what counts as the same, mm.
     real(wp), parameter :: least_taper_line = 40.0_wp, most_taper_line = 120.0_wp, &
@@ -57,7 +57,8 @@ contains
         end select
     end function is_miniprof_key
 
-    !> Read the lines of a file, as they stand; senses and tape circle are those of the format.
+    !> Read the lines of a file, as they stand; senses and nominal rolling circle are those of the
+    !> format.
     subroutine read_miniprof(path, lines, options, profile, status)
         character(len=*), intent(in) :: path              !! name of the file
         type(line_t), intent(in) :: lines(:)              !! its lines
@@ -266,12 +267,13 @@ contains
             valid = valid .and. max(abs(header%offset_x), abs(header%offset_y)) &
                     <= largest_coordinate
         case ('wheeldiametertaperline')
-            ! Where the tape circle is; what cannot be a place on a wheel means something else.
+            ! Where the nominal rolling circle is; what cannot be a place on a wheel means something
+            ! else.
             call parse_real(text, taper_line, valid)
             valid = .not. valid .or. options%has_tape_circle .or. taper_line < least_taper_line &
                 .or. taper_line > most_taper_line &
                 .or. abs(taper_line - standard_tape_circle) < same_taper_line
-            range = '70, or --tape-circle must say where the tape circle is'
+            range = '70, or --tape-circle must say where the nominal rolling circle is'
         case default
             return
         end select

@@ -1,5 +1,5 @@
 !> Reading wheel and rail profiles of every format into one frame: y to the field side, z down, mm,
-!> points along the curve from small y to large y; of a wheel y = 0 at the tape circle.
+!> points along the curve from small y to large y; of a wheel y = 0 at the nominal rolling circle.
 !>
 !> The format is found by what stands in the file, then by the end of its name. Nothing is
 !> repaired: what is no number ends the reading with the file, the line and the token; what lies
@@ -105,8 +105,8 @@ contains
             call set_status(status, st_bad_argument, 'the section must be from 1 on, got ' // &
                             integer_text(options%section))
         else if (.not. abs(options%tape_circle) <= huge(1.0_wp)) then
-            call set_status(status, st_bad_argument, 'the tape circle must be a finite number, ' &
-                            // 'got ' // number_text(options%tape_circle))
+            call set_status(status, st_bad_argument, 'the nominal rolling circle must be a ' &
+                            // 'finite number, got ' // number_text(options%tape_circle))
         end if
     end subroutine check_options
 
@@ -185,8 +185,8 @@ contains
             profile%kind = options%kind
         end if
         if (profile%kind /= body_wheel .and. options%has_tape_circle .and. .not. is_error(status)) &
-            call set_place_status(status, st_file_format, 'a tape circle must be that of a wheel ' &
-                                  // '(--kind wheel)', '', path, 0)
+            call set_place_status(status, st_file_format, 'a nominal rolling circle must be ' &
+                                  // 'that of a wheel (--kind wheel)', '', path, 0)
     end subroutine check_kind
 
     pure function kind_name(kind) result(name)
@@ -196,7 +196,7 @@ contains
         name = merge('wheel', 'rail ', kind == body_wheel)
     end function kind_name
 
-    !> Units, senses, the tape circle as origin, and the order of the points.
+    !> Units, senses, the nominal rolling circle as origin, and the order of the points.
     subroutine take_frame(options, profile)
         type(profile_options_t), intent(in) :: options
         type(profile_file_t), intent(inout) :: profile

@@ -117,8 +117,8 @@ contains
         end if
     end subroutine check_extent
 
-    !> From the tape circle a flange goes down on the side of small y, and on the other side nothing
-    !> does; where a rim has a face it goes up.
+    !> From the nominal rolling circle a flange goes down on the side of small y, and on the other
+    !> side nothing does; where a rim has a face it goes up.
     subroutine check_wheel(path, y, z, status)
         character(len=*), intent(in) :: path
         real(wp), intent(in) :: y(:), z(:)
@@ -130,8 +130,8 @@ contains
 
         at = tape_point(y)
         if (at == 0) then
-            call set_place_status(status, st_file_format, 'the tape circle must be on a wheel: y ' &
-                                  // 'is ' // trim(number_text(minval(y))) // ' to ' // &
+            call set_place_status(status, st_file_format, 'the nominal rolling circle must be ' &
+                                  // 'on a wheel: y is ' // trim(number_text(minval(y))) // ' to ' // &
                                   trim(number_text(maxval(y))) // &
                                   ' mm from it (--tape-circle says where it is)', '', path, 0)
             return

@@ -4,7 +4,7 @@
 !> comments, double quotes are passed over. One line of names may come before the points: with it
 !> the columns of y and z are those whose names begin so, and `y_mm`, `y[m]`, `y_in` tell the unit.
 !> GENSYS (gensys.se, users manual of KPF): y to the middle of the track, z down, the origin of a
-!> wheel at its tape circle.
+!> wheel at its nominal rolling circle.
 module faststrip_files_profile_text
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format

@@ -151,11 +151,11 @@ contains
     !> CALL FSPROF(NW, YW, ZW, NR, YR, ZR, SETUP, LGAP, NGAP, Y, H, AX, TURN, CONT, INFO)
     !>
     !> The gap of a wheel on a rail, both given by points along the curve, y to the field side, z
-    !> down, of the wheel from the tape circle. SETUP: distance of the flange backs (0: as belongs
-    !> to the gauge), flange back to tape circle, rolling radius, gauge, its depth below the crown,
-    !> rail inclination (its tangent; 0: as in the track), shift to the right, spacing and height of
-    !> the gap. CONT: contact angle, rolling radius, y on the wheel and on the rail, points left out
-    !> of the wheel and of the rail. INFO 110: LGAP below NGAP.
+    !> down, of the wheel from the nominal rolling circle. SETUP: distance of the flange backs (0:
+    !> as belongs to the gauge), flange back to nominal rolling circle, rolling radius, gauge, its
+    !> depth below the crown, rail inclination (its tangent; 0: as in the track), shift to the
+    !> right, spacing and height of the gap. CONT: contact angle, rolling radius, y on the wheel and
+    !> on the rail, points left out of the wheel and of the rail. INFO 110: LGAP below NGAP.
     subroutine fsprof(n_wheel, y_wheel, z_wheel, n_rail, y_rail, z_rail, setup, capacity, n, y, h, &
                       inv2r, inclination, contact, info) bind(c, name='fsprof_')
         integer(c_int), intent(in) :: n_wheel                         !! number of points

@@ -5,7 +5,7 @@
 !> ```
 !> SETUP(1), SETUP(2) nominal radius of the right and left wheel, mm
 !> SETUP(3) distance of the flange backs, mm; 0: as belongs to the gauge (1435 or 1520 mm)
-!> SETUP(4) flange back to tape circle, mm
+!> SETUP(4) flange back to nominal rolling circle, mm
 !> SETUP(5) gauge, mm                                  SETUP(6) its depth below the crown, mm
 !> SETUP(7) distance of the origins of the rails' profiles, mm; 0: as the gauge says
 !> SETUP(8) rail inclination, its tangent, .025 for 1:40, 0 for points as they lie in the track;
