@@ -453,7 +453,7 @@ TABLES = {
 
 # The page: headings, words, and the tables that belong to them.
 SECTIONS = (
-    ("What it was made from", "", "stamp"),
+    ("Data and revision", "", "stamp"),
     ("Verification: against exact solutions",
      "Each row is a line of `reference/comparisons.csv`, which says how it is computed.",
      "verification"),
@@ -479,16 +479,16 @@ SECTIONS = (
     ("Kalker's method in rolling",
      "`kalker_tangential` against CONTACT extrapolated, the paper's contacts with the physical"
      " signs, mean / largest.", "rolling"),
-    ("What the error estimates bound",
+    ("Coverage of the error estimates",
      "How many of the true errors the estimates bound, and how many times as large they are in the"
      " median (`bench estimates`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
      " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
      " second of the 20 contacts and on random gaps of other distributions.", "estimates"),
-    ("What the estimates of forces bound",
+    ("Coverage of the force error estimates",
      "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
      " ellipses, each with two creepages (`faststrip-lab promises`; NORM and TANG, extrapolated,"
      " are the truth).", "force estimates"),
-    ("What auto promises",
+    ("Coverage of automatic solutions",
      "On the same contacts, by the program itself: status `ok` promises an error within the"
      " tolerance. Times are summed over the contacts: against always 31 strips with FASTSTRIP"
      " where their own estimates are within the tolerance, and where their errors are, which"
@@ -501,11 +501,11 @@ SECTIONS = (
      "influence"),
     ("Times of the stages", "Processor time on the paper's contacts (`bench normal`,"
      " `bench tangential`, 15 strips by 15 points).", "times"),
-    ("What it costs, in one run",
+    ("Computing times in one run",
      "Processor time of one contact, step, state or row each; ratios of the same contact each, to"
      " FASTSIM in the same run and to the time recorded for CONTACT, on another machine; its KPEC"
      " and ANALYN were given the penetration (`./run speed`, `./run stored speed`).", "speed"),
-    ("A million contacts",
+    ("Large batches",
      "`batch` on the paper's gaps in turn, each row with a load and creepages of its own: rows a"
      " second of processor, elapsed time of one thread over that of n times n (or the cores there"
      " are, two), peak memory, sizes of input and results, and a thousand million contacts by"

@@ -66,7 +66,7 @@ contains
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  netcdf TABLE.csv       a table as NetCDF')
         call say('  settings               what case files can set: names, defaults, options')
-        call say('  explore                a page to play with, of the Python package')
+        call say('  explore                the interactive explorer, of the Python package')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

@@ -1,4 +1,4 @@
-"""Friction that is not one number, T gamma, wear by a law, fatigue."""
+"""Variable friction, T gamma, wear by a law, fatigue."""
 
 from __future__ import annotations
 

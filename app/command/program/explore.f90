@@ -28,7 +28,7 @@ contains
     subroutine print_help()
         call say('usage: faststrip explore [options]')
         call say('')
-        call say('Serve a page to play with, on this machine only: one wheel on one rail, solved')
+        call say('Serve the interactive explorer, on this machine only: one wheel on one rail, solved')
         call say('while its sliders move. Runs ' // page // ' of the Python package, with')
         call say('the same options: ' // page // ' --help')
         call say('')

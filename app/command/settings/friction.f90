@@ -1,4 +1,4 @@
-!> Friction that is not one number, of case files and of rows of a batch.
+!> Variable friction, of case files and of rows of a batch.
 module faststrip_command_settings_friction
     use faststrip_base_friction, only: friction_t, friction_constant, friction_kind
     use faststrip_base_kinds, only: wp

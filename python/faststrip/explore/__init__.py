@@ -1,4 +1,4 @@
-"""A page to play with: one wheel on one rail, solved while its sliders move.
+"""The interactive explorer: one wheel on one rail, solved while its sliders move.
 
 ``faststrip-explore`` or ``python -m faststrip.explore`` serves it on this machine only. It needs
 Bokeh: ``pip install faststrip[explore]``.

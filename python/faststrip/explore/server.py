@@ -23,7 +23,7 @@ def parser() -> argparse.ArgumentParser:
     """What the command takes."""
     made = argparse.ArgumentParser(
         prog="faststrip-explore",
-        description="Serve a page to play with: one wheel on one rail, solved while its sliders "
+        description="Serve the interactive explorer: one wheel on one rail, solved while its sliders "
                     "move. It is served on 127.0.0.1 only and loads nothing from the network. "
                     "Ctrl-C ends it.",
         epilog="Units mm, N, rad. Forces act on the rail. More: docs/usage.md.")

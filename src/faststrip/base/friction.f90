@@ -1,4 +1,4 @@
-!> Friction that is not one number: it falls with slip speed, differs between tread and flange, and
+!> Variable friction: it falls with slip speed, differs between tread and flange, and
 !> contamination makes surfaces more compliant.
 !>
 !> Every method takes the coefficient of static friction in the contact, `mu`; what is here is

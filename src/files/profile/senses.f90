@@ -131,8 +131,8 @@ contains
         at = tape_point(y)
         if (at == 0) then
             call set_place_status(status, st_file_format, 'the nominal rolling circle must be ' &
-                                  // 'on a wheel: y is ' // trim(number_text(minval(y))) // ' to ' // &
-                                  trim(number_text(maxval(y))) // &
+                                  // 'on a wheel: y is ' // trim(number_text(minval(y))) &
+                                  // ' to ' // trim(number_text(maxval(y))) // &
                                   ' mm from it (--tape-circle says where it is)', '', path, 0)
             return
         end if
