@@ -23,9 +23,9 @@ def parser() -> argparse.ArgumentParser:
     """What the command takes."""
     made = argparse.ArgumentParser(
         prog="faststrip-explore",
-        description="Serve the interactive explorer: one wheel on one rail, solved while its sliders "
-                    "move. It is served on 127.0.0.1 only and loads nothing from the network. "
-                    "Ctrl-C ends it.",
+        description="Serve the interactive explorer: one wheel on one rail, solved while its "
+                    "sliders move. It is served on 127.0.0.1 only and loads nothing from the "
+                    "network. Ctrl-C ends it.",
         epilog="Units mm, N, rad. Forces act on the rail. More: docs/usage.md.")
     made.add_argument("--wheel", metavar="PROFILE", help="s1002 (default), cone20, cone40 or a "
                       "file of any format that 'faststrip profile' reads")
