@@ -6,7 +6,7 @@ module faststrip_command_settings_friction
                                      st_bad_argument, st_file_format
     use faststrip_files_csv, only: csv_table_t, column_index, cell_text
     use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
-                                                value_of, number_of, refuse, refuse_each
+                                                given_value, number_of, refuse, refuse_each
     use faststrip_command_settings_table, only: settings, value_t, find_setting, read_value, &
                                                 kind_words, range_words, no_fault, wrong_kind
     implicit none
@@ -39,14 +39,18 @@ contains
 
         call read_group(content, 'friction', .false., group)
         do at = 1, at_slope
-            values(at) = value_of(group, trim(falling_names(at)))
+            values(at) = given_value(group, trim(falling_names(at)))
         end do
         call set_falling(values, mu, [character(len=60) :: &
             'must not be given with kind constant', 'must be given', &
             'must be at most &material mu, the static value', &
             'must be constant without &motion speed_mm_s'], law, at, what)
         if (at == at_speed) at = at_kind
-        if (at > 0) call refuse(group, trim(falling_names(at)), what, got(values(at)))
+        if (at > 0) then
+            if (values(at)%is_given) &
+                call refuse(group, trim(falling_names(at)), what, values(at)%text)
+            call refuse(group, trim(falling_names(at)), what, '')
+        end if
         if (.not. is_set(group, 'mu_flange')) then
             call refuse_each(group, [character(len=20) :: 'tread_angle_rad', 'flange_angle_rad'], &
                              'must not be given without mu_flange')
@@ -111,8 +115,10 @@ contains
             'must be at most mu, the static value', 'must be given with falling friction'], law, &
             at, what)
         if (at == 0) return
+        text = ''
+        if (values(at)%is_given) text = values(at)%text
         call set_status(status, st_bad_argument, trim(friction_columns(at)) // ' ' // what // &
-                        ", got '" // got(values(at)) // "'")
+                        ", got '" // text // "'")
 
     contains
 
@@ -120,8 +126,8 @@ contains
             integer, intent(in) :: code
             character(len=*), intent(in) :: words
 
-            call set_status(status, code, trim(friction_columns(at)) // ' must be ' // words // &
-                            ", got '" // text // "'")
+            call set_status(status, code, trim(friction_columns(at)) // ' must be ' // &
+                            trim(words) // ", got '" // text // "'")
         end subroutine refuse_cell
     end subroutine read_row_friction
 
@@ -163,13 +169,4 @@ contains
             what = trim(word)
         end subroutine blame
     end subroutine set_falling
-
-    !> What was given, for a message.
-    function got(value) result(text)
-        type(value_t), intent(in) :: value
-        character(len=:), allocatable :: text
-
-        text = ''
-        if (allocated(value%text)) text = value%text
-    end function got
 end module faststrip_command_settings_friction

@@ -20,7 +20,7 @@ module faststrip_command_settings_group
     implicit none
     private
 
-    public :: case_text_t, group_t, read_case_text, read_group, is_set, value_of, number_of
+    public :: case_text_t, group_t, read_case_text, read_group, is_set, given_value, number_of
     public :: text_of, list_of, beside, refuse, refuse_each
 
     ! Tuned [characters]: longest line of a case file. Origin: capacity.
@@ -281,7 +281,7 @@ contains
             end if
             call read_value(setting, text, value, fault)
             if (fault == wrong_kind) &
-                call refuse(group, key, 'must be ' // kind_words(setting), text)
+                call refuse(group, key, 'must be ' // trim(kind_words(setting)), text)
             if (setting%kind == a_list) value%number = number_to_name(value%list, fault)
             if (setting%quantity > 0) call hold_value(setting%quantity, '&' // group%name // ' ' &
                                                       // key, value%number, place(group, i))
@@ -293,7 +293,7 @@ contains
                 if (.not. abs(value%number) <= huge(value%number)) &
                     call refuse(group, key, 'must be a finite number', text)
             end if
-            call refuse(group, key, 'must be ' // range_words(setting, value%number), text)
+            call refuse(group, key, 'must be ' // trim(range_words(setting, value%number)), text)
         end associate
     end subroutine take_value
 
@@ -319,13 +319,13 @@ contains
     end function is_set
 
     !> The value of a name.
-    function value_of(group, key) result(value)
+    function given_value(group, key) result(value)
         type(group_t), intent(in) :: group   !! that was read
         character(len=*), intent(in) :: key  !! name in the group
         type(value_t) :: value
 
         value = group%value(at_key(group, key))
-    end function value_of
+    end function given_value
 
     !> The number of a name, or a default if it is not given.
     real(wp) function number_of(group, key, default) result(number)

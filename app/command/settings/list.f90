@@ -37,7 +37,7 @@ contains
             associate (setting => settings(i))
                 call put_cell(writer, trim(setting%group))
                 call put_cell(writer, trim(setting%key))
-                call put_cell(writer, full_words(setting))
+                call put_cell(writer, trim(full_words(setting)))
                 call put_cell(writer, trim(setting%default))
                 call put_cell(writer, trim(setting%option))
                 call put_cell(writer, in_a_line(trim(setting%help)))

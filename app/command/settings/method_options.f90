@@ -53,7 +53,7 @@ contains
             end if
             call read_value(setting, option_text(command, trim(setting%option), ''), value, fault)
             if (fault /= no_fault) &
-                call refuse_value(command, trim(setting%option), full_words(setting))
+                call refuse_value(command, trim(setting%option), trim(full_words(setting)))
         end associate
     end subroutine read_option
 

@@ -41,6 +41,8 @@ module faststrip_command_settings_table
     integer, parameter :: most_shifts = 1000
 
     character, parameter :: newline = new_line('a')
+    ! Tuned [characters]: of what a value must be. Origin: capacity: the longest list fits.
+    integer, parameter :: words_length = 240
 
     !> One setting.
     type :: setting_t
@@ -515,7 +517,7 @@ contains
     !> What kind of value it must be, after `must be`.
     pure function kind_words(setting) result(words)
         type(setting_t), intent(in) :: setting
-        character(len=:), allocatable :: words
+        character(len=words_length) :: words !! of fixed length: threads call it
 
         select case (setting%kind)
         case (a_whole); words = 'a whole number'
@@ -530,7 +532,7 @@ contains
     pure function range_words(setting, number) result(words)
         type(setting_t), intent(in) :: setting
         real(wp), intent(in), optional :: number !! that lies elsewhere, for the end it is beyond
-        character(len=:), allocatable :: words
+        character(len=words_length) :: words     !! of fixed length: threads call it
 
         words = ''
         select case (setting%kind)
@@ -540,10 +542,10 @@ contains
             words = 'a whole number from 1 on'
             if (setting%most < huge(1)) &
                 words = 'a whole number from 1 to ' // integer_text(setting%most)
-            if (setting%nought /= '') words = words // ' or ' // trim(setting%nought)
+            if (setting%nought /= '') words = trim(words) // ' or ' // setting%nought
         case (a_list)
             words = 'at most ' // integer_text(setting%most) // ' finite numbers'
-            if (setting%range == above_0) words = words // ' above 0'
+            if (setting%range == above_0) words = trim(words) // ' above 0'
         case (a_number)
             select case (setting%range)
             case (above_0); words = 'above 0'
@@ -562,7 +564,7 @@ contains
     !> All that it must be, after `must be`, for who sees nothing but the words.
     pure function full_words(setting) result(words)
         type(setting_t), intent(in) :: setting
-        character(len=:), allocatable :: words
+        character(len=words_length) :: words
 
         words = range_words(setting)
         select case (setting%kind)
@@ -579,17 +581,17 @@ contains
     !> What the help of an option says.
     pure function option_help(setting) result(text)
         type(setting_t), intent(in) :: setting
-        character(len=:), allocatable :: text
+        character(len=words_length) :: text
 
-        text = trim(setting%help)
+        text = setting%help
         if (setting%default /= '' .and. index(text, 'default') == 0) &
-            text = text // ' (default ' // trim(setting%default) // ')'
+            text = trim(text) // ' (default ' // trim(setting%default) // ')'
     end function option_help
 
     !> What one of some words must be, in files.
     pure function one_of(words) result(text)
         character(len=*), intent(in) :: words(:)
-        character(len=:), allocatable :: text
+        character(len=words_length) :: text
 
         integer :: i
 
@@ -597,22 +599,22 @@ contains
             text = with_or(words)
             return
         end if
-        text = 'one of ' // trim(words(1))
+        text = 'one of ' // words(1)
         do i = 2, size(words)
-            text = text // ', ' // trim(words(i))
+            text = trim(text) // ', ' // words(i)
         end do
     end function one_of
 
     pure function with_or(words) result(text)
         character(len=*), intent(in) :: words(:)
-        character(len=:), allocatable :: text
+        character(len=words_length) :: text
 
         integer :: i
 
-        text = trim(words(1))
+        text = words(1)
         do i = 2, size(words)
-            if (i < size(words)) text = text // ', ' // trim(words(i))
-            if (i == size(words)) text = text // ' or ' // trim(words(i))
+            if (i < size(words)) text = trim(text) // ', ' // words(i)
+            if (i == size(words)) text = trim(text) // ' or ' // words(i)
         end do
     end function with_or
 end module faststrip_command_settings_table

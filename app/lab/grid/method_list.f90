@@ -44,7 +44,7 @@ contains
             entries(row)%name = text('method')
             entries(row)%when = text('when')
             if (all(stages /= entries(row)%stage)) &
-                call refuse('stage', one_of(stages), entries(row)%stage)
+                call refuse('stage', trim(one_of(stages)), entries(row)%stage)
             call take_settings(entries(row)%settings)
             call take_sides(entries(row)%settings)
             call take_across(entries(row)%across)
@@ -111,7 +111,8 @@ contains
             integer :: fault
 
             call read_value(settings(setting), further(name), value, fault)
-            if (fault /= no_fault) call refuse(name, full_words(settings(setting)), further(name))
+            if (fault /= no_fault) &
+                call refuse(name, trim(full_words(settings(setting))), further(name))
         end subroutine read_cell
 
         !> What belongs to contacts of many sizes.
