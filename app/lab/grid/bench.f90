@@ -180,7 +180,7 @@ contains
                      new_line('a') // 'methods, few contacts'), &
             option_t('--only', 'PART', 'extremes: influence, normal, tangential, noise or' &
                      // ' rounding'), &
-            option_t('--references', 'FOLDER', 'extremes: the influence coefficients' &
+            option_t('--references', 'FOLDER', 'extremes: influence coefficients' &
                      // ' (default reference/influence)', reads=.true.), &
             option_t('--scenes', 'FILE', 'forces, trade, steps: contacts of many kinds' &
                      // new_line('a') // '(default reference/scenes/scenes.csv)', reads=.true.), &
