@@ -60,6 +60,7 @@ What is missing is installed first: Debian packages as root or with sudo, Python
 .venv. FASTSTRIP_FFLAGS adds compiler flags to the release build, for example -march=native.
 """
 
+import concurrent.futures
 import fcntl
 import filecmp
 import os
@@ -70,6 +71,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 
@@ -425,6 +427,10 @@ def build():
 
 # Testing
 
+# How the line begins that counts all tests of a stage.
+TOGETHER = "all modules together:"
+
+
 class Counts:
     """What the stages of a test counted together."""
 
@@ -447,7 +453,7 @@ class Counts:
         LOGS.mkdir(parents=True, exist_ok=True)
         (LOGS / f"{name}.log").write_text(said, encoding="utf-8")
         # The words are: N passed, N failed[, N skipped].
-        lines = re.findall(r"^all modules together: *(.*)$", said, re.MULTILINE)
+        lines = re.findall(rf"^{TOGETHER} *(.*)$", said, re.MULTILINE)
         passed, failed, skipped = ([int(n) for n in re.findall(r"\d+", lines[-1])] + [0, 0, 0]
                                    if lines else [0, 0, 0])[:3]
         if code != 0 and failed == 0 and (not lines or not self.text):
@@ -479,7 +485,42 @@ def fortran_tests(text, flags=TEST_FLAGS, twin="", left_out=()):
     if code != 0:
         return code, said
     fpm_build("build-tests", "test", flags, twin)
-    return told(built("test", flags, "run-tests"), text, ",".join(left_out))
+    return shared(built("test", flags, "run-tests"), text, ",".join(left_out))
+
+
+def shared(runner, *words):
+    """Run the Fortran tests in as many processes as there are cores, which share the modules; their
+    exit code and what they said, with the counts of all in the last line."""
+    counts, others = [], []
+    with tempfile.TemporaryDirectory() as claims, \
+            concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+
+        def run(_):
+            with subprocess.Popen([runner, *words, claims], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, encoding="utf-8",
+                                  errors="replace") as process:
+                for line in process.stdout:
+                    found = re.match(rf"{TOGETHER} *(.*)", line)
+                    if found:
+                        counts.append([int(n) for n in re.findall(r"\d+", found[1])])
+                    else:
+                        others.append(line)
+                        print(line, end="", flush=True)
+            return process.returncode
+
+        codes = list(pool.map(run, os.sched_getaffinity(0)))
+    passed, failed, skipped = (sum((each + [0])[i] for each in counts) for i in range(3))
+    last = f"{TOGETHER:43} {passed} passed, {failed} failed"
+    last += f", {skipped} skipped" if skipped else ""
+    print(last, flush=True)
+    # A process that crashed has no counts, and its exit code tells it.
+    code = next((code for code in codes if code != 0), 0)
+    if passed + failed == 0 and code == 0:
+        print("no test ran")
+        code = 1
+    if len(counts) < len(codes):
+        return code, "".join(others)
+    return code, "".join([*others, last + "\n"])
 
 
 def quick_fortran_tests(text):

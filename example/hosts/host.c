@@ -887,7 +887,9 @@ static void errors(void)
 
 /* Workspaces that were freed, by pointers that were kept: told by every function, always, also
  * when others have been made since, in this thread or another. */
-enum { KEPT = 200 };
+#ifndef KEPT
+#define KEPT 200
+#endif
 static faststrip_workspace *kept[KEPT];
 
 static long refused(faststrip_workspace *workspace)

@@ -110,6 +110,14 @@ class Settings(ProgramTest):
                      "yield_shear_MPa"):
             self.assertIn(name, changed)
 
+    def test_sides_that_are_given_stay_in_a_small_contact(self):
+        """Those of which nothing is said are shorter there, though they are as long by default."""
+        case = profile_case(contact="load_N = 2.0")
+        norm = ("--normal", "norm", "--tangential", "none")
+        shorter = self.solved(case, *norm)
+        for along in ("--element-dx", "--element-dy"):
+            self.assertNotEqual(self.solved(case, *norm, along, "0.2"), shorter, along)
+
     def test_a_wheelset_takes_every_option(self):
         state = "&state\n  y_mm = 1.0, yaw_rad = 0.001, speed_mm_s = 2e4, Fz_N = 1.6e5\n/\n"
         case = profile_case(extra=state)

@@ -7,17 +7,20 @@ module funit_runner
 
     public :: start_run, start_module, is_wanted, end_test, skip_test, end_module, end_run
 
-    character(len=:), allocatable, save :: filter, left_out, module_name
+    character(len=:), allocatable, save :: filter, left_out, claims, module_name
+    logical, save :: is_ours = .true. ! does this process run the module?
     integer, save :: passed = 0, failed = 0, skipped = 0
     integer, save :: module_passed = 0, module_failed = 0, module_skipped = 0
 
 contains
 
-    !> Take from the command line the filter, a part of `room/module::test`, and modules to be left
-    !> out, `room/module,room/module`.
+    !> Take from the command line the filter, a part of `room/module::test`; modules to be left out,
+    !> `room/module,room/module`; and a folder that several processes share the modules by: the one
+    !> that makes a module's file there runs it.
     subroutine start_run()
         filter = argument(1)
         left_out = ',' // argument(2) // ','
+        claims = argument(3)
     end subroutine start_run
 
     function argument(i) result(text)
@@ -35,6 +38,7 @@ contains
         character(len=*), intent(in) :: name !! `room/module`
 
         module_name = name
+        is_ours = is_claimed(name)
         module_passed = 0
         module_failed = 0
         module_skipped = 0
@@ -43,9 +47,27 @@ contains
     logical function is_wanted(name)
         character(len=*), intent(in) :: name !! of the test
 
-        is_wanted = index(module_name // '::' // name, filter) > 0 &
+        is_wanted = is_ours .and. index(module_name // '::' // name, filter) > 0 &
                     .and. index(left_out, ',' // module_name // ',') == 0
     end function is_wanted
+
+    !> Is this process the first that comes to a module?
+    logical function is_claimed(name)
+        character(len=*), intent(in) :: name !! `room/module`
+
+        character(len=len(name)) :: file
+        integer :: unit, code, i
+
+        is_claimed = len(claims) == 0
+        if (is_claimed) return
+        file = name
+        do i = 1, len(file)
+            if (file(i:i) == '/') file(i:i) = '_'
+        end do
+        open (newunit=unit, file=claims // '/' // file, status='new', iostat=code)
+        is_claimed = code == 0
+        if (is_claimed) close (unit)
+    end function is_claimed
 
     !> Count a test that ran; tell its failures and forget them.
     subroutine end_test(name)
@@ -86,7 +108,8 @@ contains
     subroutine end_run()
         call tell('all modules together:', passed, failed, skipped)
         if (failed > 0) error stop 1
-        if (passed == 0) then
+        ! Of several processes one may have come too late for any.
+        if (passed == 0 .and. len(claims) == 0) then
             write (output_unit, '(a)') 'no test ran'
             flush (output_unit)
             error stop 1
