@@ -130,6 +130,14 @@ class Settings(ProgramTest):
             self.assertEqual(by_option, self.solved(case + extra, command="wheelset"))
             self.assertNotEqual(by_option, plain, words)
 
+    def test_a_budget_of_a_wheelset_is_told(self):
+        """As of a contact: another run may end with other bytes."""
+        state = "&state\n  y_mm = 1.0, yaw_rad = 0.001, speed_mm_s = 2e4, Fz_N = 1.6e5\n/\n"
+        self.write("case.nml", profile_case(extra=state))
+        for words, is_told in (((), False), (("--budget-us", "1e6"), True)):
+            done = self.run_program("wheelset", "case.nml", "--normal", "auto", *words)
+            self.assertEqual("# within a budget of time" in done.stdout, is_told, words)
+
     def test_a_state_has_its_numbers_in_their_places(self):
         """The group and a row of a table, each number another one, are the same state."""
         rows = self.group("state")

@@ -16,7 +16,7 @@ module faststrip_command_rows_result_csv
     private
 
     public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear, no_wear
-    public :: wear_columns, put_wear, put_wear_source, strip_columns, put_strip
+    public :: wear_columns, put_wear, put_wear_source, put_budget_note, strip_columns, put_strip
     public :: element_columns, put_element
 
     !> Names of the columns of an element, in the order of `put_element`.
@@ -135,14 +135,22 @@ contains
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fy ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
         call put_wear_source(writer, case)
-        if (case%methods%normal == normal_auto .and. case%wanted%budget_us > 0.0_wp) &
-            call put_comment(writer, 'within a budget of time, which another run may spend ' &
-                             // 'otherwise: its bytes may differ')
+        call put_budget_note(writer, case)
         if (case%smoothing <= 0.0_wp) return
         call put_comment(writer, 'gap smoothed for a noise of ' &
                          // trim(number_text(1.0e3_wp*case%smoothing)) &
                          // ' um, rms; gap_change_um is by how much it changed, rms')
     end subroutine put_notes
+
+    !> A comment line where time decides what is solved.
+    subroutine put_budget_note(writer, case)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, before its header
+        class(settings_t), intent(in) :: case       !! with a budget, or without
+
+        if (case%methods%normal == normal_auto .and. case%wanted%budget_us > 0.0_wp) &
+            call put_comment(writer, 'within a budget of time, which another run may spend ' &
+                             // 'otherwise: its bytes may differ')
+    end subroutine put_budget_note
 
     !> Say on stderr why there is no wear, where a law was given and does not go as far.
     subroutine note_wear(wear_status, place)

@@ -7,8 +7,8 @@ module faststrip_command_wheelset_csv
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
     use faststrip_command_program_console, only: put_origin, tell_held
-    use faststrip_command_rows_result_csv, only: put_wear, put_wear_source, wear_columns, &
-                                                 put_strip, strip_columns, &
+    use faststrip_command_rows_result_csv, only: put_wear, put_wear_source, put_budget_note, &
+                                                 wear_columns, put_strip, strip_columns, &
                                                  put_element, element_columns
     use faststrip_command_settings_methods, only: settings_t
     use faststrip_command_rows_wear_figures, only: strip_wear_t, make_strip_wear
@@ -44,6 +44,7 @@ contains
         call put_comment(writer, 't_gamma_N is |Fx cksi| + |Fs ceta|; t_gamma_spin_N adds ' &
                          // '|Mz cphi|')
         call put_wear_source(writer, case)
+        call put_budget_note(writer, case)
         call tell_held(writer)
         call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
                                  wear_columns, solution_columns])
