@@ -290,9 +290,9 @@ def promises_table(figures):
     given = read_table(str(figures.root / PROMISES),
                        ("target", "tolerance", "promised", "kept", *PROMISED))
     numbers = {name: given.numbers(name, missing=True) for name in ("tolerance", *PROMISED)}
-    return table(["target and tolerance", "promises kept", "largest error over tolerance",
-                  "times faster than 31 strips that promise it", "that are within it",
-                  "than NORM and TANG that promise it", "all", "ms: median / 95 %"],
+    return table(["target and tolerance", "claims held", "largest error over tolerance",
+                  "times faster than 31 strips that claim it", "that are within it",
+                  "than NORM and TANG that claim it", "all", "ms: median / 95 %"],
                  [[f"{target}, {100.0 * numbers['tolerance'][k]:g} %",
                    f"{kept} of {promised}, {100.0 * int(kept) / max(int(promised), 1):.1f} %",
                    *(known(numbers[name][k]) for name in PROMISED[:5]),
@@ -481,15 +481,15 @@ SECTIONS = (
      " signs, mean / largest.", "rolling"),
     ("Coverage of the error estimates",
      "How many of the true errors the estimates bound, and how many times as large they are in the"
-     " median (`bench estimates`, 5 to 41 strips and auto). Where the truth is itself in doubt a"
-     " contact does not count. Most factors of the estimates were chosen on ellipses, on every"
+     " median (`bench estimates`, 5 to 41 strips and auto). Where the reference is itself in doubt"
+     " a contact does not count. Most factors of the estimates were chosen on ellipses, on every"
      " second of the 20 contacts and on random gaps of other distributions.", "estimates"),
     ("Coverage of the force error estimates",
      "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
      " ellipses, each with two creepages (`faststrip-lab promises`; NORM and TANG, extrapolated,"
-     " are the truth).", "force estimates"),
+     " are the reference).", "force estimates"),
     ("Coverage of automatic solutions",
-     "On the same contacts, by the program itself: status `ok` promises an error within the"
+     "On the same contacts, by the program itself: status `ok` claims an error within the"
      " tolerance. Times are summed over the contacts: against always 31 strips with FASTSTRIP"
      " where their own estimates are within the tolerance, and where their errors are, which"
      " nobody knows; and against always NORM and TANG with 36 elements across.", "promises"),

@@ -103,8 +103,8 @@ contains
             if (is_error(status) .or. change <= settled) return
             if (workspace%turns >= most_turns) then
                 call set_status(status, st_no_convergence, 'pressures and tractions of ' // &
-                                'dissimilar materials do not settle: the pressures change by ' // &
-                                number_text(change))
+                                'dissimilar materials do not converge: the pressures change ' &
+                                // 'by ' // number_text(change))
                 return
             end if
             workspace%turns = workspace%turns + 1

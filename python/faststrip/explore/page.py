@@ -352,9 +352,9 @@ class Page:
 
 WORDS = {
     "ok": "ok: the estimated errors are small",
-    "fallback_used": "a fixed lattice gave the answer: the ends of the patch did not settle",
+    "fallback_used": "a fixed lattice gave the answer: the ends of the patch did not converge",
     "edge_of_data": "the contact runs to the end of the profiles",
-    "fewer_strips": "more strips did not settle",
+    "fewer_strips": "more strips did not converge",
     "overlap_left": "valleys overlap beside the patches",
     "flat_along_x": "the gap is nearly flat along x",
     "conformal": "the surfaces turn much within the contact: the half-space is doubtful",

@@ -369,7 +369,7 @@ contains
             does_not_grow = search%before%normal == fall%normal &
                             .and. search%before%across >= fall%across
             search%before = fall
-            ! More were asked for and did not settle.
+            ! More were asked for and did not converge.
             if (does_not_grow) return
             most = most_growth(search, workspace%steps, fall)
             growth = most

@@ -2,9 +2,9 @@
 !>
 !> 7 strips find the patches, 15 and more refine them. The first are solved for together with the
 !> ends. Where that does not succeed a row of cells finds the patches, and passes of 7 strips where
-!> 15 do not settle on these. Where 20 or fewer strips do not settle at all twice as many are tried;
-!> a gap whose ends do not settle with them either, within a bounded work, gets the answer of
-!> `faststrip_normal_cells_lattice`.
+!> 15 do not converge on these. Where 20 or fewer strips do not converge at all twice as many are
+!> tried; a gap whose ends do not converge with them either, within a bounded work, gets the answer
+!> of `faststrip_normal_cells_lattice`.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
@@ -157,11 +157,11 @@ contains
         end if
         workspace%old_load = result%load
         workspace%old_penetration = settling%penetration
-        ! What did not settle is no start for the next solution.
+        ! What did not converge is no start for the next solution.
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
 
-    !> What is tried after a level that did not settle.
+    !> What is tried after a level that did not converge.
     pure subroutine try_else(strips_per_patch, plan, way)
         integer, intent(in) :: strips_per_patch ! asked
         type(plan_t), intent(inout) :: plan
@@ -321,7 +321,7 @@ contains
         end do
     end function level_plan
 
-    !> The answer of a fixed lattice, for a gap whose ends did not settle.
+    !> The answer of a fixed lattice, for a gap whose ends did not converge.
     subroutine fall_back(workspace, compliance, demand, strips_per_patch, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
@@ -344,6 +344,6 @@ contains
         if (is_error(status)) return
         call summarize(strips, penetration, result)
         call set_status(status, st_fallback_used, &
-                        'the ends of the contact patches did not settle: fixed lattice used')
+                        'the ends of the contact patches did not converge: fixed lattice used')
     end subroutine fall_back
 end module faststrip_normal_strip_levels

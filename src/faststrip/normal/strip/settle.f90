@@ -50,7 +50,7 @@ module faststrip_normal_strip_settle
     ! Tuned [passes]: the same from the last solution. Origin: chosen for the time: where it is not
     ! near, starting anew costs less.
     integer, parameter :: max_resumed_passes = 1
-    ! Tuned [tries]. Origin: chosen; what fails four times does not settle.
+    ! Tuned [tries]. Origin: chosen; what fails four times does not converge.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
     ! Tuned [tries]: the same in a level that only finds patches. Origin: chosen for the time.
     integer, parameter :: max_scout_couplings = 2

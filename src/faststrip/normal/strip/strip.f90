@@ -10,7 +10,7 @@
 !> appear, grow or merge (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
 !>
 !> Many strips are reached by levels: 7 find the patches, 15 and more refine them. Where 20 or
-!> fewer strips do not settle twice as many are tried; a gap whose ends do not settle with them
+!> fewer strips do not converge twice as many are tried; a gap whose ends do not converge with them
 !> either, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
 !>
 !> Of a gap and its mirror image one is solved and mirrored (`is_mirror_image`; in a history of warm
@@ -61,13 +61,13 @@ contains
     !> `st_workspace_too_small` (no gap set, capacity for too few strips), `st_out_of_range` and
     !> `st_linear_algebra` (a contact beyond all proportion; fill values below the gap),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
-    !> Named limitations: `st_fallback_used`, the ends did not settle and
+    !> Named limitations: `st_fallback_used`, the ends did not converge and
     !> `faststrip_normal_cells_lattice` gave the answer; `st_more_strips`, more strips than asked
-    !> were used, because those did not settle or are fewer than three;
+    !> were used, because those did not converge or are fewer than three;
     !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
     !> `st_conformal`: see `faststrip_normal_limitations`;
-    !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not settle.
+    !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not converge.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
@@ -203,13 +203,13 @@ contains
         if (options%strips_per_patch /= strips_auto .and. n_settled > options%strips_per_patch) then
             words = count_text(n_settled)
             call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
-            call add_words(words, ' were asked, which did not settle')
+            call add_words(words, ' were asked, which did not converge')
             call add_limitation(status, st_more_strips, words)
         end if
         ! Of itself, auto asks for as many as are resolved.
         if (.not. (all_settled .or. options%strips_per_patch == strips_auto)) &
             call add_limitation(status, st_fewer_strips, &
-                                'fewer strips than asked: more did not settle')
+                                'fewer strips than asked: more did not converge')
     end subroutine solve
 
     !> Put the image of the gap in its place, made once for all solutions of that gap.
