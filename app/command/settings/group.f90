@@ -339,7 +339,7 @@ contains
         end associate
     end function number_of
 
-    !> The text of a name, or a default if it is not given; a path is that beside the case file.
+    !> The text of a name, or a default if it is not given; a path as it stands there.
     function text_of(group, key, default) result(text)
         type(group_t), intent(in) :: group      !! that was read
         character(len=*), intent(in) :: key     !! name in the group

@@ -12,7 +12,7 @@ module faststrip_command_wheelset_case
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
                                                 is_set, text_of, refuse
-    use faststrip_command_settings_methods, only: settings_t, in_core, settle_wanted
+    use faststrip_command_settings_methods, only: settings_t, in_core
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_wheelset_states, only: given_state_t
     implicit none
@@ -31,7 +31,8 @@ module faststrip_command_wheelset_case
 contains
 
     !> Read a case file; ends the program with one line at the first thing that is wrong. Groups
-    !> that are for one contact may stand there, too.
+    !> that are for one contact may stand there, too. What auto is asked for is settled by the
+    !> options, `take_method_options`.
     subroutine read_wheelset_case(path, case, for_table)
         character(len=*), intent(in) :: path            !! name of the `.nml` file
         type(wheelset_case_t), intent(inout) :: case    !! checked
@@ -47,7 +48,6 @@ contains
         call read_friction_group(content, case%mu, .true., case%friction)
         call read_bodies(content, .true., .true., case%bodies)
         call read_settings(content, 'numerics', case, group)
-        call settle_wanted(case)
         if (present(for_table)) call refuse_dear_methods(group, case)
         if (is_set(group, 'gap_step_mm')) &
             call refuse(group, 'gap_step_mm', 'must not be given for a wheelset', '')
