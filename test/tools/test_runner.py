@@ -1,5 +1,7 @@
 """What the generated runner runs, counts and returns."""
 
+import pathlib
+import tempfile
 import unittest
 
 from harness import Sample, module, test
@@ -85,6 +87,20 @@ class Runs(unittest.TestCase):
         result = self.run_sample({})
         self.assertEqual(result.returncode, 1)
         self.assertIn("no test ran", result.stdout)
+
+    def test_processes_share_the_modules(self):
+        """Each module is run by the process that claims it, once; who comes too late is no
+        failure, and a module that is filtered out stays so."""
+        files = {f"room/test_{name}.pf": module(f"test_{name}", PASSING) for name in "abc"}
+        with Sample(files) as sample, tempfile.TemporaryDirectory() as claims:
+            self.assertEqual(sample.build(), "")
+            (pathlib.Path(claims) / "room_test_b").touch()
+            first = sample.run("", "room/test_c", claims)
+            second = sample.run("", "", claims)
+        self.assertEqual((first.returncode, second.returncode), (0, 0))
+        self.assertEqual(self.last_line(first), "1 passed, 0 failed")
+        self.assertIn("room/test_a", first.stdout)
+        self.assertEqual(self.last_line(second), "0 passed, 0 failed")
 
     def test_only_disabled_tests_fail(self):
         text = module("test_x", PASSING.replace("@test\n", "@test\n    @disable\n"))
