@@ -293,6 +293,9 @@ contains
                 if (.not. abs(value%number) <= huge(value%number)) &
                     call refuse(group, key, 'must be a finite number', text)
             end if
+            if (setting%kind == a_list) then
+                if (size(value%list) > setting%most) text = integer_text(size(value%list))
+            end if
             call refuse(group, key, 'must be ' // trim(range_words(setting, value%number)), text)
         end associate
     end subroutine take_value
