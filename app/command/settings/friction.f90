@@ -7,19 +7,18 @@ module faststrip_command_settings_friction
     use faststrip_files_csv, only: csv_table_t, column_index, cell_text
     use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
                                                 given_value, number_of, refuse, refuse_each
-    use faststrip_command_settings_table, only: settings, value_t, find_setting, read_value, &
-                                                kind_words, range_words, no_fault, wrong_kind
+    use faststrip_command_settings_table, only: falling_settings, value_t, read_value, kind_words, &
+                                                range_words, no_fault, wrong_kind
     implicit none
     private
 
     public :: read_friction_group, read_row_friction, friction_columns
 
     ! What falls, as names of a case file: the kind, then what it needs, then what any may have.
-    character(len=*), parameter :: falling_names(4) = [character(len=20) :: &
-        'kind', 'mu_kinetic', 'half_slip_speed_mm_s', 'initial_slope_factor']
+    character(len=*), parameter :: falling_names(4) = falling_settings(:4)%key
     !> The columns that a table may have for it.
     character(len=*), parameter :: friction_columns(5) = [character(len=20) :: &
-        'friction_kind', falling_names(2:), 'speed_mm_s']
+        'friction_kind', falling_settings(2:)%key]
     integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5
 
 contains
@@ -91,21 +90,19 @@ contains
 
         type(value_t) :: values(at_speed)
         character(len=:), allocatable :: text, what
-        integer :: at, fault, setting
+        integer :: at, fault
 
         call clear_status(status)
         do at = 1, at_speed
             text = cell_text(table, row, column_index(table, trim(friction_columns(at))))
             if (len(text) == 0) cycle
-            setting = find_setting('motion', 'speed_mm_s')
-            if (at < at_speed) setting = find_setting('friction', trim(falling_names(at)))
-            call read_value(settings(setting), text, values(at), fault)
+            call read_value(falling_settings(at), text, values(at), fault)
             if (fault == no_fault) cycle
             if (fault == wrong_kind) then
-                call refuse_cell(st_file_format, kind_words(settings(setting)))
+                call refuse_cell(st_file_format, kind_words(falling_settings(at)))
             else
                 call refuse_cell(st_bad_argument, &
-                                 range_words(settings(setting), values(at)%number))
+                                 range_words(falling_settings(at), values(at)%number))
             end if
             return
         end do

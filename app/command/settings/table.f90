@@ -17,8 +17,9 @@ module faststrip_command_settings_table
     implicit none
     private
 
-    public :: setting_t, value_t, settings, n_state, state_names, of_group, find_setting, read_value
-    public :: kind_words, range_words, full_words, option_help, one_of, words_of, norm_starts
+    public :: setting_t, value_t, settings, falling_settings, n_state, state_names, of_group
+    public :: find_setting, read_value, kind_words, range_words, full_words, option_help, one_of
+    public :: words_of, norm_starts
     public :: a_text, a_path, a_word, a_whole, a_number, a_list, a_flag
     public :: no_fault, wrong_kind, out_of_range
 
@@ -179,6 +180,10 @@ module faststrip_command_settings_table
                   quantity=of_contact_angle), &
         setting_t('friction', 'flange_angle_rad', a_number, &
                   'contact angle from which `mu_flange` counts', quantity=of_contact_angle)]
+
+    !> Of friction that falls: kind, coefficient, slip speed, factor of the slope; the speed. With
+    !> it rows of a batch look nothing up.
+    type(setting_t), parameter :: falling_settings(5) = [of_friction_laws(:4), of_motion(6)]
 
     type(setting_t), parameter :: of_numerics(*) = [ &
         setting_t('numerics', 'normal', a_word, 'normal method, one of the above', &
