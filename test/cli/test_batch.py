@@ -362,7 +362,7 @@ class Sweep(ProgramTest):
             ("&sweep shifts_mm = 1, 2,\n  Inf /\n", ["Inf", "s.nml:16"]),
             ("&sweep shifts_mm(2) = 1 /\n", ["shifts_mm", "s.nml:16"]),
             ("&sweep shifts_mm = 1, x /\n", ["s.nml:16"]),
-            ("&sweep shifts_mm = 1001*1.0 /\n", ["at most 1000 finite numbers, got 1001",
+            ("&sweep shifts_mm = 1001*1.0 /\n", ["at most 1000 finite numbers, got more",
                                                   "s.nml:16"]),
             ("&sweep shifts_mm = 1, 2\n load_N = 1 /\n", ["load_N", "s.nml:17"]),
             ("&sweep shifts_mm = 1, 2\n load_N = 1, -1 /\n", ["load_N", "-1.0", "s.nml:17"]),

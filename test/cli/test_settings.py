@@ -209,6 +209,36 @@ class Settings(ProgramTest):
             row = rows_of(self.run_program("contact", "case.nml").stdout)[0]
             self.assertEqual((row["case"], row["status"]), ('a "b"', "ok"))
 
+    def test_a_number_may_be_its_word(self):
+        rows = []
+        for value in ("0", "auto", "'auto'", "AUTO"):
+            extra = f"&numerics\n  points_per_strip = 9, strips_per_patch = {value}\n/\n"
+            rows.append(self.solved(profile_case(extra=extra)))
+        rows.append(self.solved(profile_case(), "--points-per-strip", "9", "--strips-per-patch",
+                                "auto"))
+        self.assertTrue(all(row == rows[0] for row in rows), rows)
+        self.assertNotEqual(rows[0], self.solved(profile_case(), "--points-per-strip", "9"))
+
+    def test_endless_values_end(self):
+        """Ten thousand lines of numbers are refused as fast as a few."""
+        numbers = "  " + 200 * "1.5 " + "\n"
+        for group, name, says in (("sweep", "shifts_mm", "at most 1000 finite numbers"),
+                                  ("numerics", "tolerance", "must be one value")):
+            self.write("case.nml", profile_case(extra=f"&{group}\n  {name} =\n" + 9900 * numbers
+                                                + "/\n"))
+            done = subprocess.run([PROGRAM, "contact", "case.nml"], cwd=self.folder, timeout=600,
+                                  capture_output=True, encoding="utf-8")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(says, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+
+    def test_a_name_that_stands_twice_is_the_last(self):
+        twice = "&sweep\n  shifts_mm = 0.1, 0.2\n  shifts_mm = 0.5\n/\n"
+        self.write("case.nml", profile_case(contact="shift_mm = 1.0, load_N = 9e4, load_N = 1e5",
+                                            extra=twice))
+        rows = rows_of(self.run_program("sweep", "case.nml", "--normal", "hertz").stdout)
+        self.assertEqual({(float(row["yw_mm"]), float(row["N_N"])) for row in rows}, {(0.5, 1e5)})
+
     def test_lists_go_over_lines(self):
         same = []
         for text in ("0.5, 0.5, 0.5 1", "2*0.5,\n  0.5\n  1.0", "3*0.5, 1.0,"):

@@ -209,6 +209,7 @@ contains
                 group%value(at)%is_given = .true.
                 group%value(at)%line = i
                 group%value(at)%text = ''
+                if (allocated(group%value(at)%list)) deallocate (group%value(at)%list)
                 from = equals + 1
             end do
         end do
@@ -225,21 +226,27 @@ contains
             if (len(text) == 0) return
             if (at == 0) call refuse_line(group%file, i, '&' // group%name // &
                                           ' must begin with a name', text)
-            if (settings(group%row(at))%kind == a_list) call check_part(text)
+            if (settings(group%row(at))%kind == a_list) then
+                call take_part(text)
+                return
+            end if
+            if (len(group%value(at)%text) > line_length) &
+                call refuse_line(group%file, i, '&' // group%name // ' ' // &
+                                 trim(settings(group%row(at))%key) // ' must be one value', text)
             group%value(at)%text = trim_blanks(group%value(at)%text // ' ' // text)
         end subroutine add_text
 
-        !> What stands on one line of a list, so that the line is named which is wrong.
-        subroutine check_part(text)
+        !> What stands on one line of a list, so that the line is named which is wrong; whether the
+        !> numbers are in their range is asked of the whole list.
+        subroutine take_part(text)
             character(len=*), intent(in) :: text
 
-            type(value_t) :: part
             integer :: fault
 
-            call read_value(settings(group%row(at)), without_end(text, ','), part, fault)
+            call read_value(settings(group%row(at)), without_end(text, ','), group%value(at), fault)
             if (fault == wrong_kind) call refuse_line(group%file, i, '&' // group%name // ' ' &
                 // trim(settings(group%row(at))%key) // ' must be a list of numbers', text)
-        end subroutine check_part
+        end subroutine take_part
     end subroutine find_values
 
     !> The next `name =` of a line: where the name starts, and where the equals sign is; both
@@ -278,7 +285,11 @@ contains
             if (any(setting%kind == [a_text, a_path, a_word])) then
                 if (.not. is_quoted(text)) call refuse(group, key, 'must be text in quotes', text)
                 text = unquoted(text)
+            else if (setting%nought /= '' .and. is_quoted(text)) then
+                text = unquoted(text)
             end if
+            ! Its numbers are there already.
+            if (setting%kind == a_list) text = ''
             call read_value(setting, text, value, fault)
             if (fault == wrong_kind) &
                 call refuse(group, key, 'must be ' // trim(kind_words(setting)), text)
@@ -294,7 +305,7 @@ contains
                     call refuse(group, key, 'must be a finite number', text)
             end if
             if (setting%kind == a_list) then
-                if (size(value%list) > setting%most) text = integer_text(size(value%list))
+                if (size(value%list) > setting%most) text = 'more'
             end if
             call refuse(group, key, 'must be ' // trim(range_words(setting, value%number)), text)
         end associate

@@ -379,7 +379,8 @@ contains
         end select
     end function words_of
 
-    !> Read a value; the text is what stands there.
+    !> Read a value; the text is what stands there. Numbers of a list are added to those that it
+    !> has: it may go over lines.
     pure subroutine read_value(setting, text, value, fault)
         type(setting_t), intent(in) :: setting !! its row
         character(len=*), intent(in) :: text   !! without quotes; blanks at the ends do not count
@@ -405,6 +406,7 @@ contains
             if (value%whole == 0) fault = out_of_range
             if (value%whole > 0) value%text = trim(words(value%whole))
         case (a_whole)
+            value%whole = 0
             if (setting%nought /= '' .and. lower_case(value%text) == setting%nought) return
             call parse_integer(value%text, value%whole, is_read)
             if (.not. is_read) then
@@ -421,7 +423,7 @@ contains
                 fault = out_of_range
             end if
         case (a_list)
-            call read_list(value%text, value%list, is_read)
+            call add_numbers(value%text, setting%most, value%list, is_read)
             if (.not. is_read) then
                 fault = wrong_kind
             else if (size(value%list) > setting%most .or. &
@@ -466,10 +468,12 @@ contains
         end select
     end subroutine read_number
 
-    !> Numbers parted by commas and blanks; `3*0.1` is a number three times.
-    pure subroutine read_list(text, list, is_read)
+    !> Add numbers parted by commas and blanks to a list; `3*0.1` is a number three times. Behind
+    !> the most that it may have, no more are read.
+    pure subroutine add_numbers(text, most, list, is_read)
         character(len=*), intent(in) :: text
-        real(wp), allocatable, intent(out) :: list(:)
+        integer, intent(in) :: most
+        real(wp), allocatable, intent(inout) :: list(:)
         logical, intent(out) :: is_read
 
         ! Tuned [numbers]: the most of one word. Origin: capacity.
@@ -478,10 +482,10 @@ contains
         integer :: from, to, star, times
         real(wp) :: number
 
-        allocate (list(0))
+        if (.not. allocated(list)) allocate (list(0))
         is_read = .false.
         from = 1
-        do while (from <= len(text))
+        do while (from <= len(text) .and. size(list) <= most)
             to = from + scan(text(from:) // ',', ',' // blanks) - 2
             star = index(text(from:to), '*')
             times = 1
@@ -503,7 +507,7 @@ contains
             from = from + verify(text(from:) // 'x', blanks) - 1
         end do
         is_read = size(list) > 0
-    end subroutine read_list
+    end subroutine add_numbers
 
     !> Yes or no, as Fortran writes them.
     pure subroutine read_flag(text, flag, is_read)

@@ -1,4 +1,4 @@
-!> The study behind the error estimates of strip solutions: how often its estimates bound the true
+!> The study behind the error estimates of strip solutions: how often they bound the true
 !> errors, and by how much they are too large.
 !>
 !> Hertz ellipses are judged by the exact solution; the 20 gaps of the reference and random gaps by

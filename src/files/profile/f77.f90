@@ -5,8 +5,10 @@
 !> KIND     1: of a wheel, 2: of a rail, 0: the file or the end of its name says it
 !> NMAX     length of Y and Z                      N points of the profile, also if there are more
 !> Y, Z     to the field side, of a wheel from the nominal rolling circle, and down, mm, as FSWNEW
-!> takes them TEXT     CHARACTER*(*), what is wrong, with file, line and value, or what was left out
-!> INFO     status: 0; 110, NMAX is too small; 120, no such file; 121 and others, what is in it ```
+!>          takes them
+!> TEXT     CHARACTER*(*), what is wrong, with file, line and value, or what was left out
+!> INFO     status: 0; 110, NMAX is too small; 120, no such file; 121 and others, what is in it
+!> ```
 module faststrip_files_profile_f77
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_size_t
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, &

@@ -329,8 +329,8 @@ contains
             call set_status(status, st_workspace_too_small, &
                             'no workspace was reserved for the strips')
         else if (strips%n < 1) then
-            call set_status(status, st_bad_argument, 'there must be strips to estimate the errors &
-                            &of, got none')
+            call set_status(status, st_bad_argument, 'there must be strips to estimate the ' &
+                            // 'errors of, got none')
         else if (result%penetration <= curve%h_lowest) then
             call set_status(status, st_no_contact, 'the penetration is not above the lowest gap: ' &
                             //trim(number_text(result%penetration))//' mm')
