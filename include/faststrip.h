@@ -152,45 +152,46 @@ typedef struct faststrip_case {
     double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
 } faststrip_case;
 
-/* Figures of one contact. */
+/* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the
+ * lowest height of the gap. */
 typedef struct faststrip_result {
-    size_t size;           /* of this struct; set by faststrip_solve */
-    double load;           /* N */
-    double penetration;    /* mm */
-    double area;           /* mm^2 */
-    double pmax;           /* largest pressure, MPa */
-    double y_min;          /* left end of the contact, mm */
-    double y_max;          /* right end of the contact, mm */
-    double x_max;          /* largest half-length along x, mm */
-    double fx;             /* longitudinal force on the rail, N */
-    double fy;             /* lateral force on the rail, N */
-    double mz;             /* moment on the rail about the reference point, N mm */
-    double friction_power; /* frictional work per distance rolled (T gamma), N */
-    double stick_fraction; /* share of the area in adhesion */
-    int n_patches;
-    int n_strips;
-    int n_elements;
-    int iterations;        /* of the normal solution */
-    int is_estimated;      /* 1: the five below are known; 0: zero, not asked for or of ellipses
-                            * in the strips' place */
-    int strips_across;     /* strips across the patch that has most; 0: no strips */
-    double est_err_penetration; /* estimated error over penetration - h_lowest, not negative */
-    double est_err_pmax;   /* estimated relative error of pmax, not negative */
-    double est_err_area;   /* estimated relative error of the area, not negative */
-    double residual_inside; /* largest gap left in the patches over penetration - h_lowest */
-    double overlap_outside; /* largest overlap beside them over penetration - h_lowest */
-    int forces_are_estimated; /* 1: the three below are known; 0: zero, not asked for, of a method
-                               * without, or because is_estimated is 0 */
-    int limitations;       /* all of them, of which the status is the first: 1 << status of each,
-                            * added up */
-    double est_err_fx;     /* estimated error of fx over mu load, not negative */
-    double est_err_fy;     /* estimated error of fy over mu load, not negative */
-    double est_err_mz;     /* estimated error of mz over mu load sqrt(area/pi), not negative */
-    int n_steps;           /* steps that FASTSTRIP_NORMAL_AUTO took, of other methods 0 */
-    int best_step;         /* the one whose solution this is, from 1 on; 0: none */
-    int target_is_known;   /* 1: est_err_target is known; 0: zero */
-    int target_is_met;     /* 1: est_err_target is within the tolerance */
-    double est_err_target; /* estimated error of the target, not negative */
+    size_t size;            /* of this struct; set by faststrip_solve */
+    double load;            /* normal load, N */
+    double penetration;     /* penetration, mm */
+    double area;            /* contact area, mm^2 */
+    double pmax;            /* maximum pressure, MPa */
+    double y_min;           /* least y of the contact, mm */
+    double y_max;           /* largest y of the contact, mm */
+    double x_max;           /* largest half-length of the contact, mm */
+    double fx;              /* longitudinal force on the rail, N */
+    double fy;              /* lateral force on the rail, in the contact plane, N */
+    double mz;              /* moment on the rail about the reference point, N mm */
+    double friction_power;  /* frictional work per distance rolled, N */
+    double stick_fraction;  /* share of the area in adhesion */
+    int n_patches;          /* number of contact patches */
+    int n_strips;           /* number of strips */
+    int n_elements;         /* number of elements */
+    int iterations;         /* steps of the normal solution */
+    int is_estimated;       /* 1: the five below are known; 0: zero, not asked for or of ellipses
+                             * in the strips' place */
+    int strips_across;      /* strips across the patch that has most */
+    double est_err_penetration; /* estimated error of the penetration over the depth */
+    double est_err_pmax;    /* estimated relative error of pmax */
+    double est_err_area;    /* estimated relative error of the area */
+    double residual_inside; /* largest gap left inside, over the depth */
+    double overlap_outside; /* largest overlap outside, over the depth */
+    int forces_are_estimated; /* 1: the three below are known; 0: zero, not asked for, of a
+                               * method without, or because is_estimated is 0 */
+    int limitations;        /* all of them, of which the status is the first: 1 << status of
+                             * each, added up */
+    double est_err_fx;      /* estimated error of Fx over mu N */
+    double est_err_fy;      /* estimated error of Fy over mu N */
+    double est_err_mz;      /* estimated error of Mz over mu N sqrt(area/pi) */
+    int n_steps;            /* steps that FASTSTRIP_NORMAL_AUTO took, of other methods 0 */
+    int best_step;          /* the one whose solution this is, from 1 on; 0: none */
+    int target_is_known;    /* 1: est_err_target is known; 0: zero */
+    int target_is_met;      /* 1: est_err_target is within the tolerance */
+    double est_err_target;  /* estimated error of the target of auto */
 } faststrip_result;
 
 typedef struct faststrip_workspace faststrip_workspace;

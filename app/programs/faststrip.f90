@@ -18,6 +18,7 @@ program faststrip_main
     use faststrip_command_program_explore, only: run_explore
     use faststrip_command_lookup, only: run_lookup
     use faststrip_command_settings_list, only: run_settings
+    use faststrip_command_rows_columns, only: run_columns
     implicit none
 
     if (command_argument_count() == 0) call usage_error('a subcommand is needed', '')
@@ -36,6 +37,7 @@ program faststrip_main
     case ('explore'); call run_explore()
     case ('lookup'); call run_lookup()
     case ('settings'); call run_settings()
+    case ('columns'); call run_columns()
     case ('--help', '-h', 'help')
         call need_nothing_more()
         call print_help()
@@ -66,6 +68,7 @@ contains
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')
         call say('  netcdf TABLE.csv       a table as NetCDF')
         call say('  settings               what case files can set: names, defaults, options')
+        call say('  columns                what columns of tables hold: units, meanings, names')
         call say('  explore                the interactive explorer, of the Python package')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')

@@ -24,15 +24,14 @@ from ._arguments import (
     several,
     whole,
 )
+from ._catalogue import Case, Figures
 from ._interrupt import interruptible
 from ._library import (
     BAD_ARGUMENT,
     FIRST_ERROR,
     TEXT,
     TOO_SMALL,
-    Case,
     FaststripError,
-    Figures,
     check,
     check_case,
     library,

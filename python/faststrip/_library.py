@@ -13,6 +13,8 @@ import warnings
 from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
 from typing import Any, Iterator, Optional, Tuple
 
+from ._catalogue import Case, Figures
+
 FILE = "libfaststrip.so.0"
 TEXT = 257
 FIRST_ERROR = 100
@@ -45,51 +47,6 @@ class FaststripError(Exception):
     def __reduce__(self) -> Tuple[Any, ...]:
         # An exception is made anew from its arguments, which are not the text alone.
         return type(self), (self.status, self.word, self.message), self.__dict__
-
-
-class Case(ctypes.Structure):
-    """``faststrip_case`` of the header."""
-
-    _fields_ = [
-        ("size", c_size_t),
-        *((name, c_int) for name in (
-            "normal", "tangential", "strips_per_patch", "points_per_strip", "fastsim_nx",
-            "fastsim_ny", "by_load", "warm_start", "with_elements")),
-        *((name, c_double) for name in (
-            "e_wheel", "e_rail", "nu_wheel", "nu_rail", "mu", "load", "penetration", "cksi",
-            "ceta", "cphi")),
-        ("estimate", c_int),
-        ("resolution_limit", c_double),
-        ("force_limit", c_double),
-        ("target", c_int),
-        ("tolerance", c_double),
-        ("budget_us", c_double),
-        ("friction", c_int),
-        *((name, c_double) for name in (
-            "kinetic_share", "half_slip_speed", "speed", "slope_factor", "flange_share",
-            "tread_angle", "flange_angle", "contact_angle")),
-    ]
-
-
-class Figures(ctypes.Structure):
-    """``faststrip_result`` of the header."""
-
-    _fields_ = [
-        ("size", c_size_t),
-        *((name, c_double) for name in (
-            "load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
-            "friction_power", "stick_fraction")),
-        *((name, c_int) for name in ("n_patches", "n_strips", "n_elements", "iterations",
-                                     "is_estimated", "strips_across")),
-        *((name, c_double) for name in (
-            "est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
-            "overlap_outside")),
-        ("forces_are_estimated", c_int),
-        ("limitations", c_int),
-        *((name, c_double) for name in ("est_err_fx", "est_err_fy", "est_err_mz")),
-        *((name, c_int) for name in ("n_steps", "best_step", "target_is_known", "target_is_met")),
-        ("est_err_target", c_double),
-    ]
 
 
 def _pkg_config_folder() -> Optional[str]:

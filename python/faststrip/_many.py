@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import array, flag, refused, whole
+from ._catalogue import NEEDS, Case, Figures
 from ._contact import (
     CREEPAGE_NAMES,
     GAP_POINTS,
@@ -28,14 +29,12 @@ from ._library import (
     BAD_ARGUMENT,
     FIRST_ERROR,
     TEXT,
-    Case,
     FaststripError,
-    Figures,
     library,
     word_of,
 )
 from ._profile import Gap
-from ._record import Shown
+from ._record import Shown, described
 from ._tables import dataset, extra, frame
 from ._wear import CONSTANT, Friction, take_friction
 
@@ -56,40 +55,19 @@ LONGEST_CALL = 65536
 CALL_SECONDS = 0.25
 
 
+@described
 @dataclass(frozen=True)
 class ManyResult(Shown):
     """Figures of many contacts, all arrays of one shape; forces act on the rail.
 
-    Numbers of a contact without a result are nan, or 0 where they count something.
+    Numbers of a contact without a result are nan, or 0 where they count something; estimated errors
+    that are not known are nan.
 
     Attributes
     ----------
     status : ndarray of int32
         0, the number of a named limitation, or from 100 on that of an error; see `word`.
-    load, fx, fy : ndarray of float
-        Normal, longitudinal and lateral force, N.
-    penetration, y_min, y_max, x_max : ndarray of float
-        Penetration, ends of the contact along y, largest half-length along x, mm.
-    area : ndarray of float
-        mm^2.
-    pmax : ndarray of float
-        Maximum pressure, MPa.
-    mz : ndarray of float
-        Moment about the reference point, N mm.
-    friction_power : ndarray of float
-        Frictional work per distance rolled (T gamma), N.
-    stick_fraction : ndarray of float
-        Share of the area in adhesion.
-    n_patches, n_strips, iterations, strips_across : ndarray of int32
-        Numbers of things.
-    est_err_penetration, est_err_pmax, est_err_area : ndarray of float
-        Estimated relative errors; like the five below nan where they are not known.
-    residual_inside, overlap_outside : ndarray of float
-        Largest gap left inside of the patches and largest overlap outside, over the depth.
-    est_err_fx, est_err_fy, est_err_mz : ndarray of float
-        Estimated errors of the forces over mu times the load, of mz also over sqrt(area/pi).
-    est_err_target : ndarray of float
-        Estimated error of what ``normal="auto"`` was to know; nan by other methods.
+    <figures>
     target_is_met : ndarray of bool
         Is it within the tolerance? False by other methods.
     limitations : ndarray of int32
@@ -100,6 +78,7 @@ class ManyResult(Shown):
     """
 
     status: Whole
+    # BEGIN figures, written by tools/columns.py
     load: Array
     penetration: Array
     area: Array
@@ -124,6 +103,7 @@ class ManyResult(Shown):
     est_err_fx: Array
     est_err_fy: Array
     est_err_mz: Array
+    # END figures
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]
     limitations: Whole
@@ -465,8 +445,9 @@ class _Found:
         """The contacts from `start` on."""
         here = slice(start, start + len(statuses))
         failed = statuses >= FIRST_ERROR
-        unknown = {"normal": figures["is_estimated"] == 0,
-                   "forces": figures["forces_are_estimated"] == 0,
+        not_estimated = figures["is_estimated"] == 0
+        unknown = {"errors": not_estimated, "residuals": not_estimated,
+                   "force errors": figures["forces_are_estimated"] == 0,
                    "target": figures["target_is_known"] == 0}
         self.columns["status"][here] = statuses
         for name, column in self.columns.items():
@@ -475,8 +456,7 @@ class _Found:
             column[here] = figures[name]
             if column.dtype != np.float64:
                 continue
-            which = _KNOWN_BY.get(name)
-            nothing = failed if which is None else unknown[which]
+            nothing = unknown.get(NEEDS.get(name, ""), failed)
             if nothing.any():
                 column[here][nothing] = np.nan
         if words and self.first[0] < 0:
@@ -492,11 +472,3 @@ class _Found:
             told = f"contact {list(index) if len(index) != 1 else index[0]}: {why}"
         return ManyResult(**{name: column.reshape(shape)
                              for name, column in self.columns.items()}, first_error=told)
-
-
-_KNOWN_BY = {
-    **dict.fromkeys(("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
-                     "overlap_outside"), "normal"),
-    **dict.fromkeys(("est_err_fx", "est_err_fy", "est_err_mz"), "forces"),
-    "est_err_target": "target",
-}

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Dict, Iterator, Mapping, TypeVar
 
 import numpy as np
 
+from ._catalogue import QUANTITIES
 from ._tables import dataset, frame
 
 Self = TypeVar("Self", bound="Record")
@@ -39,6 +40,33 @@ def _shown(value: Any) -> str:
     numbers = value[np.isfinite(value)]
     return f"<{shape} {value.dtype}" + (
         f" from {numbers.min():.6g} to {numbers.max():.6g}>" if numbers.size else ">")
+
+
+# What a docstring says of the kind of a field, by its annotation.
+KINDS = {"float": "float", "int": "int", "Optional[float]": "float or None",
+         "Array": "ndarray of float", "Whole": "ndarray of int32",
+         "npt.NDArray[np.int32]": "ndarray of int32"}
+# As people write units.
+PLAIN = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
+         "N mm-2": "N/mm^2", "1": "", "": ""}
+
+
+def described(cls: type) -> Any:
+    """Put the figures of a dataclass, with units and meanings, where its docstring has a place."""
+    text = cls.__doc__ or ""
+    place = "    <figures>\n"
+    if place not in text:  # python -OO
+        return cls
+    rows = []
+    for one in dataclasses.fields(cls):
+        if f"    {one.name} : " in text or one.name not in QUANTITIES:
+            continue
+        unit, meaning = QUANTITIES[one.name]
+        unit = PLAIN.get(unit, unit)
+        rows.append(f"    {one.name} : {KINDS[str(one.type)]}\n"
+                    f"        {meaning[0].upper()}{meaning[1:]}{', ' if unit else ''}{unit}.\n")
+    cls.__doc__ = text.replace(place, "".join(rows))
+    return cls
 
 
 class Record(Shown):

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Dict, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._record import Record, Row, Table
+from ._record import Record, Row, Table, described
 
 Array = npt.NDArray[np.float64]
 
@@ -45,9 +45,14 @@ class Step(Record):
     is_best: bool
 
 
+@described
 @dataclass(frozen=True)
 class Result(Row):
     """Figures of one contact; forces act on the rail.
+
+    What is not known is None: estimated errors of ellipses in the strips' place or with
+    ``estimate=False``, those of forces also of some methods, that of the target unless by
+    ``normal="auto"``. The depth is the penetration less the gap's lowest height.
 
     Attributes
     ----------
@@ -57,50 +62,7 @@ class Result(Row):
         ``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``,
         ``fewer_strips``, ``overlap_left``, ``flat_along_x``, ``conformal``, ``target_missed``,
         ``under_resolved``, ``more_strips``.
-    load : float
-        Normal force, N.
-    penetration : float
-        From h = 0, mm.
-    area : float
-        Of all patches, mm^2.
-    pmax : float
-        Maximum pressure, MPa.
-    y_min, y_max : float
-        Ends of the contact along y, mm.
-    x_max : float
-        Largest half-length along x, mm.
-    fx, fy : float
-        Longitudinal and lateral force, N.
-    mz : float
-        Moment about the reference point, N mm.
-    friction_power : float
-        Frictional work per distance rolled (T gamma), N.
-    stick_fraction : float
-        Share of the area in adhesion.
-    n_patches, n_strips, n_elements : int
-        Numbers of patches, strips and elements.
-    iterations : int
-        Steps of the normal solution.
-    strips_across : int
-        Strips across the patch that has most; 0: no strips.
-    est_err_penetration : float or None
-        Estimated error over the depth, which is the penetration less the gap's lowest height;
-        like the four below None where it is not known: of ellipses in the strips' place, or with
-        ``estimate=False``.
-    est_err_pmax, est_err_area : float or None
-        Estimated relative errors of pmax and of the area.
-    residual_inside : float or None
-        Largest gap that is left inside the patches, over the depth.
-    overlap_outside : float or None
-        Largest overlap outside of them, over the depth.
-    est_err_fx, est_err_fy : float or None
-        Estimated errors of the forces over mu times the load; like the one below None where they
-        are not known: of some methods, and where est_err_pmax is None.
-    est_err_mz : float or None
-        Estimated error of mz over mu times the load times sqrt(area/pi).
-    est_err_target : float or None
-        Estimated error of what ``normal="auto"`` was to know; None where it is not known, and by
-        other methods.
+    <figures>
     target_is_met : bool or None
         Is it within the tolerance? None without a tolerance, and by other methods.
     steps : tuple of Step
@@ -111,6 +73,7 @@ class Result(Row):
 
     status: int
     word: str
+    # BEGIN figures, written by tools/columns.py
     load: float
     penetration: float
     area: float
@@ -136,6 +99,7 @@ class Result(Row):
     est_err_fx: Optional[float]
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
+    # END figures
     est_err_target: Optional[float] = None
     target_is_met: Optional[bool] = None
     steps: Tuple[Step, ...] = field(default=(), compare=False)
@@ -149,20 +113,14 @@ class Result(Row):
         return columns
 
 
+@described
 @dataclass(frozen=True)
 class Strips(Table):
     """The strips of a contact, patch by patch.
 
     Attributes
     ----------
-    y_left, y_right : ndarray of float, shape (n,)
-        Edges, mm.
-    half_length : ndarray of float, shape (n,)
-        Half-length along x, mm.
-    p0 : ndarray of float, shape (n,)
-        Pressure at x = 0, MPa.
-    patch : ndarray of int32, shape (n,)
-        Number of the patch, from 1.
+    <figures>
     """
 
     y_left: Array
@@ -189,24 +147,16 @@ class Strips(Table):
         return plot_strips(self, axes)
 
 
+@described
 @dataclass(frozen=True)
 class Elements(Table):
     """The elements of a contact, row by row; tractions are those on the rail.
 
     Attributes
     ----------
-    x, y : ndarray of float, shape (n,)
-        Middle, mm.
-    area : ndarray of float, shape (n,)
-        mm^2.
-    pn : ndarray of float, shape (n,)
-        Pressure, MPa.
-    px, py : ndarray of float, shape (n,)
-        Longitudinal and lateral traction, MPa.
-    sx, sy : ndarray of float, shape (n,)
-        Longitudinal and lateral slip over the rolling speed.
-    state : ndarray of int32, shape (n,)
-        1 adhesion, 2 slip.
+    area : ndarray of float
+        Of the element, mm^2.
+    <figures>
     """
 
     x: Array

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, array, number, numbers, refused
-from ._library import Case
+from ._catalogue import Case
 from ._record import Row, Table
 
 Array = npt.NDArray[np.float64]

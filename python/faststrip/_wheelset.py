@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, flag, number, numbers, several, whole
+from ._catalogue import Row
 from ._contact import (
     MOST_STRIPS,
     Material,
@@ -42,7 +43,7 @@ from ._profile import (
     points_of,
     spacing_of,
 )
-from ._record import Record, Table
+from ._record import Record, Table, described
 from ._results import Elements, Strips
 from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
 
@@ -92,22 +93,6 @@ FIGURES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx
            "friction_power", "stick_fraction")
 
 
-class Row(ctypes.Structure):
-    """``faststrip_wheelset_contact`` of the header."""
-
-    _fields_ = [
-        *((name, c_int) for name in ("side", "status", "n_patches", "strips_across",
-                                     "is_estimated", "forces_are_estimated")),
-        ("place", THREE), ("angle", c_double), ("rail", c_double * 2), ("wheel", THREE),
-        *((name, c_double) for name in ("radius", "speed", "cksi", "ceta", "cphi", *FIGURES)),
-        ("force", THREE), ("force_wheelset", THREE), ("moment", THREE),
-        *((name, c_double) for name in (
-            "est_err_penetration", "est_err_pmax", "est_err_area", "est_err_fx", "est_err_fy",
-            "est_err_mz")),
-        *((name, c_int) for name in ("limitations", "n_strips", "n_elements")),
-    ]
-
-
 class Totals(ctypes.Structure):
     """``faststrip_wheelset_result`` of the header."""
 
@@ -152,9 +137,12 @@ def rail_of(name: str, rail: Any) -> Rail:
                           [getattr(rail, one) for one in names]))
 
 
+@described
 @dataclass(frozen=True)
 class WheelContact(Record):
     """One contact of a wheel; forces and moments act on the rail.
+
+    Estimated errors are None where they are not known, as of a `Result`.
 
     Attributes
     ----------
@@ -162,37 +150,19 @@ class WheelContact(Record):
         ``right`` or ``left``.
     word : str
         ``ok``, or the name of a limitation.
-    n_patches, strips_across : int
-        Number of patches; strips across the one that has most.
     place : three floats
         x, y, z of the reference point in the track, mm.
-    contact_angle : float
-        rad.
     rail : two floats
         y, z of it on the rail's profile, mm.
     wheel : three floats
         x, y, z of it in the frame of the wheel's profile, mm.
-    radius : float
-        Rolling radius, mm.
-    speed : float
-        Rolling speed, mm/s.
-    cksi, ceta : float
-        Longitudinal and lateral creepage.
-    cphi : float
-        Spin creepage, rad/mm.
-    load : float
-        Normal force, N.
-    penetration, y_min, y_max, x_max, area, pmax, fx, fy, mz, friction_power, stick_fraction : float
-        As of a `Result`: mm, mm^2, MPa, N, N mm.
+    <figures>
     force : three floats
         In the track, N.
     force_wheelset : three floats
         The same in the wheelset's frame, N.
     moment : three floats
         About the wheelset's centre, in the track, N mm.
-    est_err_penetration, est_err_pmax, est_err_area, est_err_fx, est_err_fy, est_err_mz : float or \
-None
-        As of a `Result`.
     limitations : tuple of str
         All of them, of which `word` is the first.
     """
@@ -210,6 +180,7 @@ None
     cksi: float
     ceta: float
     cphi: float
+    # BEGIN figures, written by tools/columns.py
     load: float
     penetration: float
     area: float
@@ -222,15 +193,18 @@ None
     mz: float
     friction_power: float
     stick_fraction: float
+    # END figures
     force: Tuple[float, ...]
     force_wheelset: Tuple[float, ...]
     moment: Tuple[float, ...]
+    # BEGIN errors, written by tools/columns.py
     est_err_penetration: Optional[float]
     est_err_pmax: Optional[float]
     est_err_area: Optional[float]
     est_err_fx: Optional[float]
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
+    # END errors
     limitations: Tuple[str, ...]
 
 

@@ -1,10 +1,13 @@
-!> The columns of result tables: what they hold, for files that say so themselves.
+!> The catalogue of columns: what each column of a table holds and means, and what interfaces call
+!> it. Those of the figures of a contact are rows of `faststrip_contact_figures`. NetCDF, the
+!> command `faststrip columns` and, by `tools/columns.py`, documents and Python read it.
 module faststrip_files_columns
     use faststrip_base_text, only: lower_case
+    use faststrip_contact_figures, only: figures, n_figures
     implicit none
     private
 
-    public :: column_t, known_column, is_variable_name
+    public :: column_t, columns, column_group, known_column, is_variable_name
     public :: holds_anything, holds_text, holds_counts, holds_numbers
 
     !> What a column may hold; of one that is not known its cells tell.
@@ -12,9 +15,11 @@ module faststrip_files_columns
 
     !> A column.
     type :: column_t
-        character(len=26) :: name = ''
+        character(len=31) :: name = ''      !! its unit stands at the end
         integer :: holds = holds_anything
         character(len=64) :: long_name = '' !! what it is, in a few words
+        character(len=23) :: member = ''    !! name in interfaces; empty: they have none
+        character(len=14) :: needs = ''     !! what must be there for it to be known; or empty
     end type column_t
 
     ! What is solved.
@@ -31,122 +36,120 @@ module faststrip_files_columns
         column_t('half_slip_speed_mm_s', holds_numbers, 'slip speed of the middle of friction'), &
         column_t('initial_slope_factor', holds_numbers, 'factor of the initial slope'), &
         column_t('speed_mm_s', holds_numbers, 'rolling speed'), &
-        column_t('N_N', holds_numbers, 'normal load'), &
         column_t('given_penetration_mm', holds_numbers, 'penetration that was given'), &
         column_t('yw_mm', holds_numbers, 'lateral shift of the wheel'), &
         column_t('gamma_rad', holds_numbers, 'contact angle'), &
-        column_t('cksi', holds_numbers, 'longitudinal creepage'), &
-        column_t('ceta', holds_numbers, 'lateral creepage'), &
-        column_t('cphi_rad_per_mm', holds_numbers, 'spin creepage')]
+        column_t('cksi', holds_numbers, 'longitudinal creepage', 'cksi'), &
+        column_t('ceta', holds_numbers, 'lateral creepage', 'ceta'), &
+        column_t('cphi_rad_per_mm', holds_numbers, 'spin creepage', 'cphi')]
 
     ! What every contact has.
     type(column_t), parameter :: of_results(*) = [ &
         column_t('status', holds_text, 'ok, a limitation of the result, or an error'), &
-        column_t('limitations', holds_text, 'all limitations of the result'), &
+        column_t('limitations', holds_text, 'all limitations of the result', 'limitations'), &
         column_t('message', holds_text, 'what there is to say about the status'), &
-        column_t('penetration_mm', holds_numbers, 'penetration'), &
-        column_t('area_mm2', holds_numbers, 'contact area'), &
-        column_t('pmax_MPa', holds_numbers, 'maximum pressure'), &
-        column_t('ymin_mm', holds_numbers, 'least y of the contact'), &
-        column_t('ymax_mm', holds_numbers, 'largest y of the contact'), &
-        column_t('xmax_mm', holds_numbers, 'largest half-length of the contact'), &
-        column_t('n_patches', holds_counts, 'number of contact patches'), &
-        column_t('strips_across', holds_counts, 'strips across the patch that has most'), &
-        column_t('Fx_N', holds_numbers, 'longitudinal force on the rail'), &
-        column_t('Fy_N', holds_numbers, 'lateral force on the rail, in the contact plane'), &
-        column_t('Mz_Nmm', holds_numbers, 'moment on the rail about the reference point'), &
-        column_t('friction_power_N', holds_numbers, 'frictional work per distance rolled'), &
-        column_t('stick_fraction', holds_numbers, 'share of the area in adhesion'), &
-        column_t('normal_us', holds_numbers, 'wall time of the normal contact'), &
-        column_t('tangential_us', holds_numbers, 'wall time of the creep forces'), &
-        column_t('residual_inside', holds_numbers, 'largest gap left inside, over the depth'), &
-        column_t('overlap_outside', holds_numbers, 'largest overlap outside, over the depth'), &
-        column_t('est_err_penetration', holds_numbers, &
-                 'estimated relative error of the penetration'), &
-        column_t('est_err_pmax', holds_numbers, 'estimated relative error of pmax'), &
-        column_t('est_err_area', holds_numbers, 'estimated relative error of the area'), &
-        column_t('est_err_Fx', holds_numbers, 'estimated error of Fx over mu N'), &
-        column_t('est_err_Fy', holds_numbers, 'estimated error of Fy over mu N'), &
-        column_t('est_err_Mz', holds_numbers, 'estimated error of Mz over mu N c'), &
-        column_t('gap_change_um', holds_numbers, 'what smoothing changed of the gap, rms'), &
         column_t('choice', holds_text, 'the steps of the automatic solution'), &
-        column_t('t_gamma_N', holds_numbers, 'T gamma without spin'), &
-        column_t('t_gamma_spin_N', holds_numbers, 'T gamma with spin'), &
-        column_t('t_gamma_per_area_N_per_mm2', holds_numbers, 'T gamma without spin per area'), &
-        column_t('fatigue_index', holds_numbers, 'surface-fatigue index'), &
-        column_t('wear_ug_per_m', holds_numbers, 'wear, mass per distance rolled'), &
-        column_t('wear_mm3_per_m', holds_numbers, 'wear, volume per distance rolled')]
+        column_t('n_strips', holds_counts, 'number of strips', 'n_strips'), &
+        column_t('n_elements', holds_counts, 'number of elements', 'n_elements'), &
+        column_t('est_err_target', holds_numbers, &
+                 'estimated error of the target of auto', 'est_err_target', 'target')]
 
     ! Strips, elements, gaps.
     type(column_t), parameter :: of_parts(*) = [ &
-        column_t('patch', holds_counts, 'number of the patch'), &
+        column_t('patch', holds_counts, 'number of the patch', 'patch'), &
         column_t('strip', holds_counts, 'number of the strip'), &
-        column_t('x_mm', holds_numbers, 'x, along the rolling direction'), &
-        column_t('y_mm', holds_numbers, 'y, across the rolling direction'), &
-        column_t('y_left_mm', holds_numbers, 'left edge of the strip'), &
-        column_t('y_right_mm', holds_numbers, 'right edge of the strip'), &
-        column_t('half_length_mm', holds_numbers, 'half-length of the strip'), &
-        column_t('p0_MPa', holds_numbers, 'maximum pressure of the strip'), &
+        column_t('x_mm', holds_numbers, 'x, along the rolling direction', 'x'), &
+        column_t('y_mm', holds_numbers, 'y, across the rolling direction', 'y'), &
+        column_t('y_left_mm', holds_numbers, 'left edge of the strip', 'y_left'), &
+        column_t('y_right_mm', holds_numbers, 'right edge of the strip', 'y_right'), &
+        column_t('half_length_mm', holds_numbers, 'half-length of the strip', 'half_length'), &
+        column_t('p0_MPa', holds_numbers, 'maximum pressure of the strip', 'p0'), &
         column_t('load_N', holds_numbers, 'load of the strip'), &
-        column_t('wear_depth_mm_per_pass', holds_numbers, 'wear depth per pass'), &
+        column_t('wear_depth_mm_per_pass', holds_numbers, 'wear depth per pass', 'pass_depth'), &
         column_t('wear_depth_mm_per_km', holds_numbers, 'wear depth per distance rolled'), &
-        column_t('state', holds_counts, 'state of the element: 1 adhesion, 2 slip'), &
-        column_t('pn_MPa', holds_numbers, 'pressure'), &
-        column_t('px_MPa', holds_numbers, 'longitudinal traction'), &
-        column_t('py_MPa', holds_numbers, 'lateral traction'), &
-        column_t('sx', holds_numbers, 'longitudinal slip over the rolling speed'), &
-        column_t('sy', holds_numbers, 'lateral slip over the rolling speed'), &
+        column_t('state', holds_counts, 'state of the element: 1 adhesion, 2 slip', 'state'), &
+        column_t('pn_MPa', holds_numbers, 'pressure', 'pn'), &
+        column_t('px_MPa', holds_numbers, 'longitudinal traction', 'px'), &
+        column_t('py_MPa', holds_numbers, 'lateral traction', 'py'), &
+        column_t('sx', holds_numbers, 'longitudinal slip over the rolling speed', 'sx'), &
+        column_t('sy', holds_numbers, 'lateral slip over the rolling speed', 'sy'), &
         column_t('power_MPa', holds_numbers, 'frictional work per area and distance rolled'), &
-        column_t('h_mm', holds_numbers, 'undeformed gap'), &
-        column_t('inv2R_per_mm', holds_numbers, '1/(2R) along the rolling direction')]
+        column_t('h_mm', holds_numbers, 'undeformed gap', 'h'), &
+        column_t('inv2R_per_mm', holds_numbers, '1/(2R) along the rolling direction', 'inv2r'), &
+        column_t('inclination_rad', holds_numbers, 'inclination of the surfaces', 'inclination')]
 
     ! Wheelsets.
     type(column_t), parameter :: of_wheelsets(*) = [ &
         column_t('side', holds_text, 'left or right'), &
         column_t('contact', holds_counts, 'number of the contact of the wheel, 0: none'), &
         column_t('solution', holds_counts, 'number of the solution beside a jump'), &
-        column_t('x_track_mm', holds_numbers, 'x of the contact in the track'), &
-        column_t('y_track_mm', holds_numbers, 'y of the contact in the track'), &
-        column_t('z_track_mm', holds_numbers, 'z of the contact in the track, down'), &
-        column_t('contact_angle_rad', holds_numbers, 'contact angle'), &
+        column_t('x_track_mm', holds_numbers, 'x of the contact in the track', 'place_x'), &
+        column_t('y_track_mm', holds_numbers, 'y of the contact in the track', 'place_y'), &
+        column_t('z_track_mm', holds_numbers, 'z of the contact in the track, down', 'place_z'), &
+        column_t('contact_angle_rad', holds_numbers, 'contact angle', 'contact_angle'), &
         column_t('Fs_N', holds_numbers, 'lateral force on the rail, in the contact plane'), &
-        column_t('Fx_track_N', holds_numbers, 'force on the rail along x of the track'), &
-        column_t('Fy_track_N', holds_numbers, 'force on the rail along y of the track'), &
-        column_t('Fz_track_N', holds_numbers, 'force on the rail along z of the track'), &
-        column_t('Fx_wheelset_N', holds_numbers, 'force on the rail along x of the wheelset'), &
-        column_t('Fy_wheelset_N', holds_numbers, 'force on the rail along y of the wheelset'), &
-        column_t('Fz_wheelset_N', holds_numbers, 'force on the rail along z of the wheelset'), &
-        column_t('z_mm', holds_numbers, 'z, down'), &
-        column_t('roll_rad', holds_numbers, 'roll of the wheelset'), &
-        column_t('y_rail_mm', holds_numbers, 'y on the profile of the rail'), &
-        column_t('z_rail_mm', holds_numbers, 'z on the profile of the rail'), &
-        column_t('x_wheel_mm', holds_numbers, 'x on the wheel'), &
-        column_t('y_wheel_mm', holds_numbers, 'y on the profile of the wheel'), &
-        column_t('z_wheel_mm', holds_numbers, 'z on the profile of the wheel'), &
-        column_t('radius_mm', holds_numbers, 'rolling radius'), &
-        column_t('rolling_speed_mm_s', holds_numbers, 'rolling speed'), &
+        column_t('Fx_track_N', holds_numbers, &
+                 'force on the rail along x of the track', 'force_x'), &
+        column_t('Fy_track_N', holds_numbers, &
+                 'force on the rail along y of the track', 'force_y'), &
+        column_t('Fz_track_N', holds_numbers, &
+                 'force on the rail along z of the track', 'force_z'), &
+        column_t('Fx_wheelset_N', holds_numbers, &
+                 'force on the rail along x of the wheelset', 'force_wheelset_x'), &
+        column_t('Fy_wheelset_N', holds_numbers, &
+                 'force on the rail along y of the wheelset', 'force_wheelset_y'), &
+        column_t('Fz_wheelset_N', holds_numbers, &
+                 'force on the rail along z of the wheelset', 'force_wheelset_z'), &
+        column_t('z_mm', holds_numbers, 'z, down', 'z'), &
+        column_t('roll_rad', holds_numbers, 'roll of the wheelset', 'roll'), &
+        column_t('y_rail_mm', holds_numbers, 'y on the profile of the rail', 'rail_y'), &
+        column_t('z_rail_mm', holds_numbers, 'z on the profile of the rail', 'rail_z'), &
+        column_t('x_wheel_mm', holds_numbers, 'x on the wheel', 'wheel_x'), &
+        column_t('y_wheel_mm', holds_numbers, 'y on the profile of the wheel', 'wheel_y'), &
+        column_t('z_wheel_mm', holds_numbers, 'z on the profile of the wheel', 'wheel_z'), &
+        column_t('radius_mm', holds_numbers, 'rolling radius', 'radius'), &
+        column_t('rolling_speed_mm_s', holds_numbers, 'rolling speed', 'speed'), &
         column_t('body', holds_text, 'wheel or rail'), &
         column_t('y_profile_mm', holds_numbers, 'y on the profile'), &
-        column_t('z_profile_mm', holds_numbers, 'z on the profile')]
+        column_t('z_profile_mm', holds_numbers, 'z on the profile'), &
+        column_t('Mx_track_Nmm', holds_numbers, &
+                 'moment about x of the track, about the centre of the wheelset', 'moment_x'), &
+        column_t('My_track_Nmm', holds_numbers, &
+                 'moment about y of the track, about the centre of the wheelset', 'moment_y'), &
+        column_t('Mz_track_Nmm', holds_numbers, &
+                 'moment about z of the track, about the centre of the wheelset', 'moment_z')]
 
     ! Conicity and contact functions.
     type(column_t), parameter :: of_conicity(*) = [ &
-        column_t('amplitude_mm', holds_numbers, 'amplitude of the lateral motion'), &
-        column_t('tan_gamma_e', holds_numbers, 'equivalent conicity'), &
+        column_t('amplitude_mm', holds_numbers, 'amplitude of the lateral motion', 'amplitude'), &
+        column_t('tan_gamma_e', holds_numbers, 'equivalent conicity', 'tan_gamma_e'), &
         column_t('y_min_mm', holds_numbers, 'least y'), &
         column_t('y_max_mm', holds_numbers, 'largest y'), &
-        column_t('regression', holds_numbers, 'equivalent conicity by linear regression'), &
-        column_t('nonlinearity_per_mm', holds_numbers, 'nonlinearity of the conicity'), &
+        column_t('regression', holds_numbers, &
+                 'equivalent conicity by linear regression', 'regression'), &
+        column_t('nonlinearity_per_mm', holds_numbers, &
+                 'nonlinearity of the conicity', 'nonlinearity'), &
         column_t('method', holds_text, 'method of the conicity'), &
-        column_t('delta_r_mm', holds_numbers, 'rolling radius difference, right less left'), &
-        column_t('radius_right_mm', holds_numbers, 'rolling radius of the right wheel'), &
-        column_t('radius_left_mm', holds_numbers, 'rolling radius of the left wheel'), &
-        column_t('gamma_right_rad', holds_numbers, 'contact angle of the right wheel'), &
-        column_t('gamma_left_rad', holds_numbers, 'contact angle of the left wheel'), &
-        column_t('y_wheel_right_mm', holds_numbers, 'y on the profile of the right wheel'), &
-        column_t('y_rail_right_mm', holds_numbers, 'y on the profile of the right rail'), &
-        column_t('y_wheel_left_mm', holds_numbers, 'y on the profile of the left wheel'), &
-        column_t('y_rail_left_mm', holds_numbers, 'y on the profile of the left rail')]
+        column_t('delta_r_mm', holds_numbers, &
+                 'rolling radius difference, right less left', 'delta_r'), &
+        column_t('radius_right_mm', holds_numbers, &
+                 'rolling radius of the right wheel', 'radius_right'), &
+        column_t('radius_left_mm', holds_numbers, &
+                 'rolling radius of the left wheel', 'radius_left'), &
+        column_t('gamma_right_rad', holds_numbers, &
+                 'contact angle of the right wheel', 'angle_right'), &
+        column_t('gamma_left_rad', holds_numbers, &
+                 'contact angle of the left wheel', 'angle_left'), &
+        column_t('y_wheel_right_mm', holds_numbers, &
+                 'y on the profile of the right wheel', 'y_wheel_right'), &
+        column_t('y_rail_right_mm', holds_numbers, &
+                 'y on the profile of the right rail', 'y_rail_right'), &
+        column_t('y_wheel_left_mm', holds_numbers, &
+                 'y on the profile of the left wheel', 'y_wheel_left'), &
+        column_t('y_rail_left_mm', holds_numbers, &
+                 'y on the profile of the left rail', 'y_rail_left'), &
+        column_t('nonlinearity_regression_per_mm', holds_numbers, &
+                 'nonlinearity of the conicity by linear regression', 'nonlinearity_regression')]
 
     ! Descriptions of profiles.
     type(column_t), parameter :: of_profiles(*) = [ &
@@ -183,10 +186,35 @@ module faststrip_files_columns
     ! Given: NC_MAX_NAME of NetCDF.
     integer, parameter :: longest_name = 256
 
-    type(column_t), parameter :: columns(*) = [of_cases, of_results, of_parts, of_wheelsets, &
-                                               of_conicity, of_profiles]
+    integer :: k
+    type(column_t), parameter :: of_contacts(*) = &
+        [(column_t(figures(k)%column, merge(holds_counts, holds_numbers, figures(k)%counts), &
+                   figures(k)%meaning, figures(k)%name, figures(k)%needs), k=1, n_figures)]
+
+    !> All of them, group by group.
+    type(column_t), parameter :: columns(*) = [of_cases, of_results, of_contacts, of_parts, &
+                                               of_wheelsets, of_conicity, of_profiles]
+
+    ! What the groups are of, and how many columns they have.
+    character(len=*), parameter :: groups(7) = [character(len=9) :: &
+        'case', 'result', 'contact', 'part', 'wheelset', 'conicity', 'profile']
+    integer, parameter :: sizes(7) = [size(of_cases), size(of_results), size(of_contacts), &
+                                      size(of_parts), size(of_wheelsets), size(of_conicity), &
+                                      size(of_profiles)]
 
 contains
+
+    !> What the group of a column is of.
+    pure function column_group(i) result(group)
+        integer, intent(in) :: i !! row of `columns`
+        character(len=len(groups)) :: group
+        integer :: j
+
+        do j = 1, size(groups)
+            group = groups(j)
+            if (i <= sum(sizes(:j))) return
+        end do
+    end function column_group
 
     !> What is known of the column of that name. Of one that is not known only the words of which
     !> the name is made, for the long name.

@@ -2,7 +2,21 @@
 module faststrip_command_rows_result_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, limitation_words, number_text
-    use faststrip_contact_method, only: contact_result_t, wear_figures_t
+    use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_fx, &
+                                         figure_est_err_fy, figure_est_err_mz, &
+                                         figure_est_err_penetration, figure_est_err_pmax, &
+                                         figure_fatigue_index, figure_friction_power, figure_fx, &
+                                         figure_fy, figure_gap_change, figure_mz, &
+                                         figure_n_patches, figure_normal_us, &
+                                         figure_overlap_outside, figure_penetration, figure_pmax, &
+                                         figure_residual_inside, figure_stick_fraction, &
+                                         figure_strips_across, figure_t_gamma, &
+                                         figure_t_gamma_per_area, figure_t_gamma_spin, &
+                                         figure_tangential_us, figure_wear_mass, &
+                                         figure_wear_volume, figure_x_max, figure_y_max, &
+                                         figure_y_min, figures, n_figures
+    use faststrip_contact_figure_values, only: find_figures
+    use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_methods, only: normal_auto
     use faststrip_contact_wanted, only: auto_steps_t
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
@@ -16,7 +30,7 @@ module faststrip_command_rows_result_csv
     private
 
     public :: result_columns, put_result, put_strips, put_field, put_notes, note_wear, no_wear
-    public :: wear_columns, put_wear, put_wear_source, put_budget_note, strip_columns, put_strip
+    public :: wear_figures, put_figures, put_wear_source, put_budget_note, strip_columns, put_strip
     public :: element_columns, put_element
 
     !> Names of the columns of an element, in the order of `put_element`.
@@ -26,10 +40,17 @@ module faststrip_command_rows_result_csv
     !> Begins what is said where there is no wear in spite of a law.
     character(len=*), parameter :: no_wear = 'no wear: '
 
-    !> Names of the columns of wear, in the order of `put_wear`.
-    character(len=*), parameter :: wear_columns(6) = [character(len=26) :: &
-        't_gamma_N', 't_gamma_spin_N', 't_gamma_per_area_N_per_mm2', 'fatigue_index', &
-        'wear_ug_per_m', 'wear_mm3_per_m']
+    !> Figures in the order of their columns: of the pressures and forces, times, errors; of wear.
+    integer, parameter :: main_figures(23) = [ &
+        figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, figure_x_max, &
+        figure_n_patches, figure_fx, figure_fy, figure_mz, figure_friction_power, &
+        figure_stick_fraction, figure_normal_us, figure_tangential_us, figure_residual_inside, &
+        figure_overlap_outside, figure_est_err_penetration, figure_est_err_pmax, &
+        figure_est_err_area, figure_est_err_fx, figure_est_err_fy, figure_est_err_mz, &
+        figure_gap_change]
+    integer, parameter :: wear_figures(6) = [ &
+        figure_t_gamma, figure_t_gamma_spin, figure_t_gamma_per_area, figure_fatigue_index, &
+        figure_wear_mass, figure_wear_volume]
 
     !> Names of a strip's columns, in the order of `put_strip`.
     character(len=*), parameter :: strip_columns(15) = [character(len=26) :: &
@@ -39,12 +60,8 @@ module faststrip_command_rows_result_csv
 
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(33) = [character(len=26) :: &
-        'status', 'penetration_mm', 'area_mm2', 'pmax_MPa', 'ymin_mm', 'ymax_mm', 'xmax_mm', &
-        'n_patches', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', 'stick_fraction', &
-        'normal_us', 'tangential_us', 'residual_inside', 'overlap_outside', &
-        'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', 'est_err_Fy', &
-        'est_err_Mz', 'gap_change_um', &
-        'choice', 'strips_across', 'limitations', wear_columns]
+        'status', figures(main_figures)%column, 'choice', figures(figure_strips_across)%column, &
+        'limitations', figures(wear_figures)%column]
 
 contains
 
@@ -58,7 +75,8 @@ contains
                                                     !! true
 
         character(len=:), allocatable :: choice
-        logical :: with_times
+        real(wp) :: values(n_figures)
+        logical :: known(n_figures), with_times
         integer :: i
 
         with_times = .true.
@@ -70,59 +88,35 @@ contains
             end do
             return
         end if
-        call put_cell(writer, result%normal%penetration)
-        call put_cell(writer, result%normal%area)
-        call put_cell(writer, result%normal%pmax)
-        call put_cell(writer, result%normal%y_min)
-        call put_cell(writer, result%normal%y_max)
-        call put_cell(writer, result%normal%x_max)
-        call put_cell(writer, result%normal%n_patches)
-        associate (tangential => result%tangential)
-            call put_cell(writer, tangential%fx, is_known=result%has_forces)
-            call put_cell(writer, tangential%fy, is_known=result%has_forces)
-            call put_cell(writer, tangential%mz, is_known=result%has_forces)
-            call put_cell(writer, tangential%friction_power, is_known=result%has_forces)
-            call put_cell(writer, tangential%stick_fraction, is_known=result%knows_stick)
-        end associate
-        call put_cell(writer, result%times%normal_us, is_known=with_times)
-        call put_cell(writer, result%times%tangential_us, is_known=with_times)
-        associate (normal_errors => result%normal_errors)
-            call put_cell(writer, normal_errors%residual_inside, is_known=result%has_residuals)
-            call put_cell(writer, normal_errors%overlap_outside, is_known=result%has_residuals)
-            call put_cell(writer, normal_errors%est_err_penetration, is_known=result%is_estimated)
-            call put_cell(writer, normal_errors%est_err_pmax, is_known=result%is_estimated)
-            call put_cell(writer, normal_errors%est_err_area, is_known=result%is_estimated)
-        end associate
-        associate (errors => result%force_errors)
-            call put_cell(writer, errors%fx, is_known=result%forces_are_estimated)
-            call put_cell(writer, errors%fy, is_known=result%forces_are_estimated)
-            call put_cell(writer, errors%mz, is_known=result%forces_are_estimated)
-        end associate
-        call put_cell(writer, 1.0e3_wp*result%gap_change, is_known=result%gap_change > 0.0_wp)
+        call find_figures(result, values, known)
+        known([figure_normal_us, figure_tangential_us]) = with_times
+        call put_figures(writer, main_figures, values, known)
         call words_of_steps(steps, with_times, choice)
         call put_cell(writer, choice)
-        if (result%normal%strips_across > 0) then
-            call put_cell(writer, result%normal%strips_across)
-        else
-            call put_cell(writer, '')
-        end if
+        call put_figures(writer, [figure_strips_across], values, known)
         call put_cell(writer, trim(limitation_words(status%limitations)))
-        call put_wear(writer, result%wear, result%has_forces)
+        call put_figures(writer, wear_figures, values, known)
     end subroutine put_result
 
-    !> The cells of T gamma, fatigue and wear.
-    subroutine put_wear(writer, figures, has_forces)
-        type(csv_writer_t), intent(inout) :: writer  !! an open file, in the middle of a row
-        type(wear_figures_t), intent(in) :: figures  !! of a contact
-        logical, intent(in) :: has_forces            !! are there creep forces?
+    !> The cells of some figures; of what is not known they are empty.
+    subroutine put_figures(writer, which, values, known)
+        type(csv_writer_t), intent(inout) :: writer !! an open file, in the middle of a row
+        integer, intent(in) :: which(:)             !! figures, in the order of the columns
+        real(wp), intent(in) :: values(n_figures)   !! of `find_figures`
+        logical, intent(in) :: known(n_figures)     !! the same
 
-        call put_cell(writer, figures%t_gamma, is_known=has_forces)
-        call put_cell(writer, figures%t_gamma_spin, is_known=has_forces)
-        call put_cell(writer, figures%t_gamma_per_area, is_known=has_forces)
-        call put_cell(writer, figures%fatigue_index, is_known=figures%knows_fatigue)
-        call put_cell(writer, figures%wear%mass, is_known=figures%knows_wear)
-        call put_cell(writer, figures%wear%volume, is_known=figures%knows_wear)
-    end subroutine put_wear
+        integer :: i
+
+        do i = 1, size(which)
+            associate (value => values(which(i)), is_known => known(which(i)))
+                if (figures(which(i))%counts .and. is_known) then
+                    call put_cell(writer, nint(value))
+                else
+                    call put_cell(writer, value, is_known=is_known)
+                end if
+            end associate
+        end do
+    end subroutine put_figures
 
     !> The comment lines on columns: what the friction power and T gamma are, where a wear law is
     !> from, and that gaps are smoothed, if they are.

@@ -2,13 +2,22 @@
 module faststrip_command_wheelset_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, limitation_words
+    use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_fx, &
+                                         figure_est_err_fy, figure_est_err_mz, &
+                                         figure_est_err_penetration, figure_est_err_pmax, &
+                                         figure_friction_power, figure_fx, figure_fy, figure_load, &
+                                         figure_mz, figure_n_patches, figure_penetration, &
+                                         figure_pmax, figure_stick_fraction, figure_strips_across, &
+                                         figure_t_gamma, figure_t_gamma_per_area, figure_x_max, &
+                                         figure_y_max, figure_y_min, figures, n_figures
+    use faststrip_contact_figure_values, only: find_figures
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
     use faststrip_command_program_console, only: put_origin, tell_held
-    use faststrip_command_rows_result_csv, only: put_wear, put_wear_source, put_budget_note, &
-                                                 wear_columns, put_strip, strip_columns, &
+    use faststrip_command_rows_result_csv, only: put_figures, wear_figures, put_wear_source, &
+                                                 put_budget_note, put_strip, strip_columns, &
                                                  put_element, element_columns
     use faststrip_command_settings_methods, only: settings_t
     use faststrip_command_rows_wear_figures, only: strip_wear_t, make_strip_wear
@@ -19,16 +28,22 @@ module faststrip_command_wheelset_csv
     public :: put_wheelset_header, put_wheel, put_failed_state
     public :: put_strips_header, put_wheel_strips, put_fields_header, put_wheel_field
 
-    ! In the order of `put_contact`.
-    character(len=*), parameter :: names(48) = [character(len=19) :: &
+    ! Figures in the order of their columns: behind the creepages, and at the end.
+    integer, parameter :: first_figures(7) = [ &
+        figure_load, figure_fx, figure_fy, figure_mz, figure_penetration, figure_pmax, figure_area]
+    integer, parameter :: last_figures(13) = [ &
+        figure_friction_power, figure_stick_fraction, figure_y_min, figure_y_max, figure_x_max, &
+        figure_n_patches, figure_strips_across, figure_est_err_penetration, figure_est_err_pmax, &
+        figure_est_err_area, figure_est_err_fx, figure_est_err_fy, figure_est_err_mz]
+
+    ! In the order of `put_contact`. A wheel's lateral force bears a name of its own.
+    character(len=*), parameter :: names(48) = [character(len=26) :: &
         'case', 'side', 'contact', 'status', 'x_track_mm', 'y_track_mm', 'z_track_mm', &
-        'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', 'N_N', 'Fx_N', 'Fs_N', 'Mz_Nmm', &
-        'penetration_mm', 'pmax_MPa', 'area_mm2', 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
+        'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', figures(first_figures(:2))%column, &
+        'Fs_N', figures(first_figures(4:))%column, 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
         'z_mm', 'roll_rad', 'y_rail_mm', 'z_rail_mm', 'x_wheel_mm', 'y_wheel_mm', 'z_wheel_mm', &
         'radius_mm', 'rolling_speed_mm_s', 'Fx_wheelset_N', 'Fy_wheelset_N', 'Fz_wheelset_N', &
-        'friction_power_N', 'stick_fraction', 'ymin_mm', 'ymax_mm', 'xmax_mm', 'n_patches', &
-        'strips_across', 'est_err_penetration', 'est_err_pmax', 'est_err_area', 'est_err_Fx', &
-        'est_err_Fy', 'est_err_Mz', 'message', 'limitations']
+        figures(last_figures)%column, 'message', 'limitations']
 
     ! Which solution it is, and where.
     character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
@@ -46,8 +61,8 @@ contains
         call put_wear_source(writer, case)
         call put_budget_note(writer, case)
         call tell_held(writer)
-        call put_header(writer, [character(len=max(len(names), len(wear_columns))) :: names, &
-                                 wear_columns, solution_columns])
+        call put_header(writer, [character(len=len(names)) :: names, &
+                                 figures(wear_figures)%column, solution_columns])
     end subroutine put_wheelset_header
 
     !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
@@ -66,8 +81,7 @@ contains
             call put_cell(writer, case)
             call put_cell(writer, side)
             call put_cell(writer, i)
-            call put_contact(writer, wheel, wheel%contact(i))
-            call put_wear(writer, wheel%contact(i)%figures%wear, has_forces)
+            call put_contact(writer, wheel, wheel%contact(i), has_forces)
             call put_cell(writer, solution)
             call put_cell(writer, y)
             call end_row(writer)
@@ -107,50 +121,44 @@ contains
         end do
         call put_cell(writer, message)
         call put_cell(writer, '')
-        do i = 1, size(wear_columns)
+        do i = 1, size(wear_figures)
             call put_cell(writer, '')
         end do
     end subroutine put_empty
 
-    subroutine put_contact(writer, wheel, contact)
+    subroutine put_contact(writer, wheel, contact, has_forces)
         type(csv_writer_t), intent(inout) :: writer
         type(wheel_result_t), intent(in) :: wheel
         type(wheel_contact_t), intent(in) :: contact
+        logical, intent(in) :: has_forces
 
+        real(wp) :: values(n_figures)
+        logical :: known(n_figures)
+
+        call find_figures(contact%figures, values, known)
+        ! Forces that were not asked for are zeros here, as those of the wheel.
+        known(:figure_strips_across) = .true.
+        known(figure_t_gamma:figure_t_gamma_per_area) = has_forces
         call put_cell(writer, trim(status_word(contact%status%code)))
         call put_numbers(writer, contact%place)
         call put_cell(writer, contact%angle)
         call put_numbers(writer, [contact%creepage%cksi, contact%creepage%ceta, &
                                   contact%creepage%cphi])
-        associate (normal => contact%figures%normal, forces => contact%figures%tangential)
-            call put_numbers(writer, [normal%load, forces%fx, forces%fy, forces%mz, &
-                                      normal%penetration, normal%pmax, normal%area])
-            call put_numbers(writer, contact%force)
-            call put_numbers(writer, [wheel%z, wheel%roll])
-            call put_numbers(writer, contact%rail)
-            call put_numbers(writer, contact%wheel)
-            call put_numbers(writer, [contact%radius, contact%speed])
-            call put_numbers(writer, contact%force_wheelset)
-            call put_numbers(writer, [forces%friction_power, forces%stick_fraction, &
-                                      normal%y_min, normal%y_max, normal%x_max])
-            call put_cell(writer, normal%n_patches)
-            call put_cell(writer, normal%strips_across)
-        end associate
-        associate (figures => contact%figures)
-            call put_cell(writer, figures%normal_errors%est_err_penetration, &
-                          is_known=figures%is_estimated)
-            call put_cell(writer, figures%normal_errors%est_err_pmax, is_known=figures%is_estimated)
-            call put_cell(writer, figures%normal_errors%est_err_area, is_known=figures%is_estimated)
-            call put_cell(writer, figures%force_errors%fx, is_known=figures%forces_are_estimated)
-            call put_cell(writer, figures%force_errors%fy, is_known=figures%forces_are_estimated)
-            call put_cell(writer, figures%force_errors%mz, is_known=figures%forces_are_estimated)
-        end associate
+        call put_figures(writer, first_figures, values, known)
+        call put_numbers(writer, contact%force)
+        call put_numbers(writer, [wheel%z, wheel%roll])
+        call put_numbers(writer, contact%rail)
+        call put_numbers(writer, contact%wheel)
+        call put_numbers(writer, [contact%radius, contact%speed])
+        call put_numbers(writer, contact%force_wheelset)
+        call put_figures(writer, last_figures, values, known)
         if (contact%status%code == 0 .or. is_error(contact%status)) then
             call put_cell(writer, '')
         else
             call put_cell(writer, trim(contact%status%message))
         end if
         call put_cell(writer, trim(limitation_words(contact%status%limitations)))
+        call put_figures(writer, wear_figures, values, known)
     end subroutine put_contact
 
     !> Names of the columns of strips: those of `contact`, and the places.

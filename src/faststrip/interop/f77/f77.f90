@@ -24,19 +24,31 @@
 !> PAR(3), PAR(4) Poisson's ratio of wheel and rail    PAR(5) coefficient of friction
 !> PAR(6) load, N, or penetration, mm                  PAR(7) longitudinal creepage
 !> PAR(8) lateral creepage                             PAR(9) spin, rad/mm
-!> RES(1) load, N           RES(2) penetration, mm     RES(3) area, mm^2
-!> RES(4) maximum pressure  RES(5), RES(6) ends, mm    RES(7) largest half-length, mm
-!> RES(8) Fx, N             RES(9) Fy, N               RES(10) Mz, N mm, all on the rail
-!> RES(11) friction power over rolling speed, N        RES(12) share in adhesion
-!> RES(13) number of patches                           RES(14) number of strips
-!> ERR(1) estimated error of the penetration, ERR(2) of the maximum pressure, ERR(3) of the area,
-!>        all relative; that of the penetration to D - h_lowest, the depth below the lowest point
-!> ERR(4) largest gap that is left inside the patches, over that depth
-!> ERR(5) largest overlap outside of them, over that depth
+!> RES(1) normal load, N
+!> RES(2) penetration, mm
+!> RES(3) contact area, mm^2
+!> RES(4) maximum pressure, MPa
+!> RES(5) least y of the contact, mm
+!> RES(6) largest y of the contact, mm
+!> RES(7) largest half-length of the contact, mm
+!> RES(8) longitudinal force on the rail, N
+!> RES(9) lateral force on the rail, in the contact plane, N
+!> RES(10) moment on the rail about the reference point, N mm
+!> RES(11) frictional work per distance rolled, N
+!> RES(12) share of the area in adhesion
+!> RES(13) number of contact patches
+!> RES(14) number of strips
+!> ERR(1) estimated error of the penetration over the depth
+!> ERR(2) estimated relative error of pmax
+!> ERR(3) estimated relative error of the area
+!> ERR(4) largest gap left inside, over the depth
+!> ERR(5) largest overlap outside, over the depth
 !> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of equal ellipses or by FSLIMT
+!>        The depth is D - h_lowest, below the lowest point of the gap.
 !> ERR(7) strips across the patch that has most, 0: no strips
-!> FERR(1), FERR(2) estimated error of Fx and of Fy over mu N, FERR(3) of Mz over mu N c, where c is
-!>        the radius of a circle of the contact's area
+!> FERR(1) estimated error of Fx over mu N
+!> FERR(2) estimated error of Fy over mu N
+!> FERR(3) estimated error of Mz over mu N sqrt(area/pi)
 !> FERR(4) 1: FERR(1) to FERR(3) are known; 0: they are zero, of a method without, or by FSLIMT
 !> ITARG  what auto is to know: 1 forces, 2 maximum pressure, 3 penetration, 4 area, 5 power
 !> TAKN(1) steps that auto took     TAKN(2) the best of them, whose solution is the result

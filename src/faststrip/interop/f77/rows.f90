@@ -5,7 +5,17 @@ module faststrip_interop_f77_rows
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
     use faststrip_base_material, only: material_t
+    use faststrip_base_kinds, only: wp
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_fx, &
+                                         figure_est_err_fy, figure_est_err_mz, &
+                                         figure_est_err_penetration, figure_est_err_pmax, &
+                                         figure_friction_power, figure_fx, figure_fy, figure_load, &
+                                         figure_mz, figure_n_patches, figure_overlap_outside, &
+                                         figure_penetration, figure_pmax, figure_residual_inside, &
+                                         figure_stick_fraction, figure_strips_across, &
+                                         figure_x_max, figure_y_max, figure_y_min, n_figures
+    use faststrip_contact_figure_values, only: find_figures
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_wanted, only: unknown_error
     use faststrip_interop_handle, only: handle_t
@@ -20,6 +30,17 @@ module faststrip_interop_f77_rows
     !> Given: by the interface.
     integer, parameter :: n_iopt = 9, n_par = 9, n_res = 14, n_err = 7, n_ferr = 4, n_takn = 5, &
                           n_fric = 8
+
+    !> Figures of the rows, place by place: the first of RES, ERR and FERR.
+    integer, parameter :: res_figures(13) = [ &
+        figure_load, figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, &
+        figure_x_max, figure_fx, figure_fy, figure_mz, figure_friction_power, &
+        figure_stick_fraction, figure_n_patches]
+    integer, parameter :: err_figures(5) = [ &
+        figure_est_err_penetration, figure_est_err_pmax, figure_est_err_area, &
+        figure_residual_inside, figure_overlap_outside]
+    integer, parameter :: ferr_figures(3) = [ &
+        figure_est_err_fx, figure_est_err_fy, figure_est_err_mz]
 
 contains
 
@@ -80,14 +101,12 @@ contains
         type(handle_t), intent(in) :: handle !! after a solution
         real(c_double) :: res(n_res)
 
-        associate (normal => handle%result%normal, tangential => handle%result%tangential, &
-                   strips => handle%workspace%strips)
-            res = [normal%load, normal%penetration, normal%area, normal%pmax, normal%y_min, &
-                   normal%y_max, normal%x_max, tangential%fx, tangential%fy, tangential%mz, &
-                   tangential%friction_power, tangential%stick_fraction, &
-                   real(normal%n_patches, c_double), &
-                   real(merge(strips%n, 0, normal%n_patches > 0), c_double)]
-        end associate
+        real(wp) :: values(n_figures)
+        logical :: known(n_figures)
+
+        call find_figures(handle%result, values, known)
+        res = [values(res_figures), real(merge(handle%workspace%strips%n, 0, &
+                                               handle%result%normal%n_patches > 0), c_double)]
     end function res_of
 
     !> The estimated errors of the last contact; zeros if there was none.
@@ -95,13 +114,13 @@ contains
         type(handle_t), intent(in) :: handle !! after a solution
         real(c_double) :: err(n_err)
 
-        associate (normal_errors => handle%result%normal_errors)
-            err = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
-                   normal_errors%est_err_area, normal_errors%residual_inside, &
-                   normal_errors%overlap_outside, merge(1.0_c_double, 0.0_c_double, &
-                                                      handle%result%is_estimated), &
-                   real(handle%result%normal%strips_across, c_double)]
-        end associate
+        real(wp) :: values(n_figures)
+        logical :: known(n_figures)
+
+        call find_figures(handle%result, values, known)
+        err = [values(err_figures), merge(1.0_c_double, 0.0_c_double, &
+                                          handle%result%is_estimated), &
+               values(figure_strips_across)]
     end function err_of
 
     !> The estimated errors of the last contact's forces; zeros if they are not known.
@@ -109,10 +128,12 @@ contains
         type(handle_t), intent(in) :: handle !! after a solution
         real(c_double) :: ferr(n_ferr)
 
-        associate (forces => handle%result%force_errors)
-            ferr = [forces%fx, forces%fy, forces%mz, &
-                    merge(1.0_c_double, 0.0_c_double, handle%result%forces_are_estimated)]
-        end associate
+        real(wp) :: values(n_figures)
+        logical :: known(n_figures)
+
+        call find_figures(handle%result, values, known)
+        ferr = [values(ferr_figures), merge(1.0_c_double, 0.0_c_double, &
+                                            handle%result%forces_are_estimated)]
     end function ferr_of
 
     !> What came of the last contact by auto; zeros if there was none.
