@@ -155,16 +155,6 @@ class OfTheProject(unittest.TestCase):
                 if codes[word] < 100:
                     self.assertRegex(printed, rf"(?m)^status +{word}$")
 
-    def test_every_result_column_is_explained(self):
-        (source,) = (ROOT / "app").rglob("result_csv.f90")
-        block = re.search(r"result_columns\(\d+\) = \[(.*?)\]", source.read_text(encoding="utf-8"),
-                          re.DOTALL)[1]
-        columns = re.findall(r"'(\w+)'", block)
-        self.assertGreater(len(columns), 20)
-        text = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
-        section = text.split("## Result CSV")[1]
-        self.assertEqual([name for name in columns if f"`{name}`" not in section], [])
-
     def test_the_readme_is_one_to_read(self):
         text = (ROOT / "README.md").read_text(encoding="utf-8")
         # Comments are not to be read.

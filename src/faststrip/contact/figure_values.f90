@@ -23,6 +23,7 @@ contains
         real(wp), intent(out) :: values(n_figures)   !! by row
         logical, intent(out) :: known(n_figures)     !! by row; of what is not known nothing counts
 
+        ! Given: the units.
         real(wp), parameter :: um_per_mm = 1.0e3_wp
 
         associate (normal => result%normal, forces => result%tangential, &
