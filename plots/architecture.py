@@ -17,10 +17,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "architecture.md"
 CORE = ROOT / "src" / "faststrip"
 # From the top down, as the rooms import each other.
-ROOMS = ("command", "kalker", "files", "interop", "wheelset", "contact", "tangential", "normal",
-         "geometry", "influence", "lookup", "numerics", "base")
+ROOMS = ("command", "tabulate", "kalker", "files", "interop", "wheelset", "contact", "tangential",
+         "normal", "geometry", "influence", "lookup", "numerics", "base")
 FOLDERS = {"command": ROOT / "app" / "command", "kalker": ROOT / "src" / "kalker",
-           "files": ROOT / "src" / "files"}
+           "files": ROOT / "src" / "files", "tabulate": ROOT / "src" / "tabulate"}
 STEP = re.compile(r"(?m)^\| (\d+) \| (.+?) \| (.+?) \|$")
 TONES = {"core": "#dfe8f1", "other": "#efe6d5", "step": "#0b5c8e"}
 

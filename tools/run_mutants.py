@@ -86,6 +86,7 @@ OWN_STAGES = {
     "interop": [("installed", FACES)],
     "command": [("python", ["test/cli"])],
     "netcdf": [("python", ["test/cli/test_netcdf.py"])],
+    "tabulate": [("python", ["test/cli/test_lookup.py", "test/cli/test_lookup_wheel.py"])],
     "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
     "python": [("installed", [*FACES[:3], FACES[-1]])],
     "plots": [("python", ["test/plots"])],
@@ -98,8 +99,9 @@ ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("i
 PACKAGES = ("src/faststrip/", "src/files/", "src/kalker/", "src/tables/")
 TESTS = (*PACKAGES, "test/", "build/tests/")
 PROGRAMS = {
-    "faststrip": (*PACKAGES, "app/command/", "app/programs/faststrip.f90"),
-    "faststrip-lab": (*PACKAGES, "app/command/", "app/lab/", "app/programs/faststrip_lab.f90"),
+    "faststrip": (*PACKAGES, "src/tabulate/", "app/command/", "app/programs/faststrip.f90"),
+    "faststrip-lab": (*PACKAGES, "src/tabulate/", "app/command/", "app/lab/",
+                      "app/programs/faststrip_lab.f90"),
 }
 # Of the archives that are installed: the core, and what the readers of profiles are taken from.
 LIBRARY = ("src/faststrip/", "src/files/")

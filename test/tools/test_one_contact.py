@@ -16,8 +16,8 @@ SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"her
            "law_solve", "law_strips_solve", r"norm_solve\w*", "tang_solve", "solve_dissimilar")
 # Who calls one of them besides solve_contact.
 STUDIES = {
-    # procedures without a workspace, a table of creep forces on ellipses
-    "src/faststrip/interop/classic.f90", "app/command/lookup/direct.f90",
+    # procedures without a workspace
+    "src/faststrip/interop/classic.f90",
     *(f"app/lab/{path}.f90" for path in (
         # a solver alone: its times from the last solution on, its floating-point flags, rounding
         "grid/normal", "grid/steps", "fuzz/run", "extremes/noise",

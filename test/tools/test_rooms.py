@@ -17,7 +17,8 @@ PACKAGES = {
     "src/kalker": [CORE],
     "src/tables": [CORE],
     "src/netcdf": [CORE, "src/files"],
-    "app/command": [CORE, "src/files", "src/kalker", "src/tables"],
+    "src/tabulate": [CORE, "src/files", "src/kalker"],
+    "app/command": [CORE, "src/files", "src/kalker", "src/tables", "src/tabulate"],
     "app/lab": [CORE, "src/files", "src/kalker", "src/tables", "app/command"],
 }
 # The programs in app/programs: which packages each is made of.

@@ -1,12 +1,14 @@
 !> `faststrip lookup eval`: forces of a table at the states of a CSV file.
 module faststrip_command_lookup_eval
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_status, only: status_t, is_error, set_status, status_word, number_text, &
+                                     st_bad_argument
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: fail, fail_on_error, note, put_origin, &
                                                  exit_bad_input, progress
     use faststrip_command_lookup_file, only: read_table
-    use faststrip_command_lookup_wheel_eval, only: wheel_names, put_wheel, name_length
+    use faststrip_command_lookup_columns, only: hertz_columns, wheel_columns, contact_columns, &
+                                                force_columns, hertz_names, wheel_names
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_word
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
@@ -14,19 +16,16 @@ module faststrip_command_lookup_eval
                                    end_row, close_csv
     use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, most_slots
+    use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, n_wheel_place, n_wheel_state
     implicit none
     private
 
-    public :: run_lookup_eval, state_columns
+    public :: run_lookup_eval
 
-    !> What a table of states must have.
-    character(len=15), parameter :: state_columns(n_lookup_state) = [character(len=15) :: &
-        'a_mm', 'b_mm', 'N_N', 'mu', 'G_MPa', 'cksi', 'ceta', 'cphi_rad_per_mm']
-    character(len=6), parameter :: force_columns(n_forces) = [character(len=6) :: &
-        'Fx_N', 'Fy_N', 'Mz_Nmm']
-    character(len=4), parameter :: by(n_lookup_state) = [character(len=4) :: &
-        'a', 'b', 'N', 'mu', 'G', 'cksi', 'ceta', 'cphi']
+    ! Characters of the name of a column, at most.
+    ! Given: the longest.
+    integer, parameter :: name_length = 17
 
 contains
 
@@ -69,9 +68,13 @@ contains
         call fail_on_error(status)
         is_wheel = lookup%kind == lookup_kind_wheel
         if (is_wheel) then
-            call wheel_names(with_jacobian, needed, new)
+            needed = [character(len=name_length) :: wheel_columns, 'slot']
+            new = [character(len=name_length) :: contact_columns, force_columns, 'status']
+            if (with_jacobian) new = [new, derivatives(wheel_names)]
         else
-            call hertz_names(with_jacobian, needed, new)
+            needed = [character(len=name_length) :: hertz_columns]
+            new = [character(len=name_length) :: force_columns, 'status']
+            if (with_jacobian) new = [new, derivatives(hertz_names)]
         end if
         call find_columns(states, needed, new, column)
         call open_csv(writer, option_text(command, '-o', '-'), status)
@@ -134,20 +137,16 @@ contains
         end do
     end subroutine find_columns
 
-    ! Columns of a state of an ellipse, and of what is found for it.
-    subroutine hertz_names(with_jacobian, needed, new)
-        logical, intent(in) :: with_jacobian
-        character(len=name_length), allocatable, intent(out) :: needed(:), new(:)
+    ! Names of the derivatives of forces.
+    pure function derivatives(by) result(names)
+        character(len=*), intent(in) :: by(:)
+        character(len=name_length) :: names(n_forces*size(by))
 
         integer :: i, k
 
-        needed = [character(len=name_length) :: state_columns]
-        new = [character(len=name_length) :: force_columns, 'status']
-        if (with_jacobian) &
-            new = [character(len=name_length) :: new, &
-                   (('d' // force_columns(k)(:2) // '_d' // by(i), k=1, n_forces), &
-                    i=1, n_lookup_state)]
-    end subroutine hertz_names
+        names = [character(len=name_length) :: &
+                 (('d' // force_columns(k)(:2) // '_d' // by(i), k=1, n_forces), i=1, size(by))]
+    end function derivatives
 
     ! Forces of a state of an ellipse; empty cells if there is an error, or was one before.
     subroutine put_hertz(lookup, order, state, with_jacobian, writer, status)
@@ -174,4 +173,57 @@ contains
             end do
         end do
     end subroutine put_hertz
+
+    ! The contact and the creep forces of a state of a wheel; empty cells if there is an error, or
+    ! was one before.
+    subroutine put_wheel(lookup, order, numbers, with_jacobian, writer, status)
+        type(lookup_t), intent(in) :: lookup             ! of a wheel
+        integer, intent(in) :: order                     ! of interpolation
+        real(wp), intent(in) :: numbers(n_wheel_state + 1) ! as `wheel_columns`, slot
+        logical, intent(in) :: with_jacobian             ! are derivatives wanted?
+        type(csv_writer_t), intent(inout) :: writer      ! gets cells
+        type(status_t), intent(inout) :: status
+            ! of reading the numbers; `st_bad_argument`: a slot that is not whole; those of
+            ! `look_up_wheel`
+
+        real(wp) :: contacts(n_contact_numbers, most_slots)
+        real(wp) :: forces(n_forces), jacobian(n_forces, n_wheel_state)
+        integer :: i, k, slot
+        logical :: is_good
+
+        slot = 1
+        if (.not. is_error(status)) call take_slot(numbers(n_wheel_state + 1), slot, status)
+        if (.not. is_error(status)) &
+            call look_up_wheel(lookup, order, slot, numbers(:n_wheel_state), forces, status, &
+                               jacobian)
+        if (.not. is_error(status)) &
+            call look_up_contacts(lookup, order, numbers(:n_wheel_place), contacts, status)
+        is_good = .not. is_error(status)
+        if (.not. is_good) slot = 1
+        do i = 1, n_contact_numbers
+            call put_cell(writer, contacts(i, slot), is_good)
+        end do
+        do k = 1, n_forces
+            call put_cell(writer, forces(k), is_good)
+        end do
+        call put_cell(writer, trim(status_word(status%code)))
+        if (.not. with_jacobian) return
+        do i = 1, n_wheel_state
+            do k = 1, n_forces
+                call put_cell(writer, jacobian(k, i), is_good)
+            end do
+        end do
+    end subroutine put_wheel
+
+    ! A number as a slot.
+    subroutine take_slot(number, slot, status)
+        real(wp), intent(in) :: number
+        integer, intent(inout) :: slot
+        type(status_t), intent(inout) :: status
+
+        if (number >= 1.0_wp .and. number <= most_slots) slot = nint(number)
+        if (abs(number - slot) <= 0.0_wp) return
+        call set_status(status, st_bad_argument, 'slot must be a whole number from 1 to ' &
+                        // trim(integer_text(most_slots)) // ', got ' // number_text(number))
+    end subroutine take_slot
 end module faststrip_command_lookup_eval

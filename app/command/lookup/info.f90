@@ -3,21 +3,17 @@ module faststrip_command_lookup_info
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: integer_text
+    use faststrip_command_lookup_columns, only: error_names, state_kinds, orders
     use faststrip_command_program_console, only: say
     use faststrip_command_lookup_file, only: read_table
-    use faststrip_command_lookup_fill, only: nodes_in
     use faststrip_command_program_options, only: command_t, parse_command
-    use faststrip_command_lookup_wheel_test, only: wheel_error_names, state_kinds
     use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_faces, only: n_forces
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_wheel_errors, at_load
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, at_load
     implicit none
     private
 
     public :: run_lookup_info
-
-    character(len=2), parameter :: forces(3) = ['Fx', 'Fy', 'Mz']
-    character(len=6), parameter :: orders(2) = [character(len=6) :: 'linear', 'cubic']
 
 contains
 
@@ -25,7 +21,7 @@ contains
     subroutine run_lookup_info()
         type(command_t) :: command
         type(lookup_t) :: lookup
-        integer :: at, cut, order, k
+        integer :: at, cut
 
         command%name = 'lookup info'
         command%n_words = 2
@@ -46,7 +42,7 @@ contains
             return
         end if
         call say('Hertz ellipses, nu ' // trim(number_text(lookup%nu)) // ', ' &
-                 // trim(number_text(real(nodes_in(lookup), wp))) // ' nodes')
+                 // trim(number_text(real(size(lookup%values)/n_forces, wp))) // ' nodes')
         call say_axis('q, creepage r/(1 + r)', lookup%q%x)
         call say_axis('ratios of creepages', lookup%ratio%x)
         call say_axis('a/b', exp(lookup%shape%x))
@@ -55,21 +51,14 @@ contains
         if (lookup%tested == 0) return
         call say('errors on ' // integer_text(lookup%tested) // ' fresh contacts, over mu N and ' &
                  // 'mu N c: mean, 99th percentile, worst')
-        do order = 1, 2
-            do k = 1, 3
-                call say('  ' // orders(order) // ' ' // forces(k) // '  ' &
-                         // number_text(lookup%errors(k, 1, order)) &
-                         // number_text(lookup%errors(k, 2, order)) &
-                         // trim(number_text(lookup%errors(k, 3, order))))
-            end do
-        end do
+        call say_errors(lookup%errors)
     end subroutine run_lookup_info
 
     ! The table of a wheel.
     subroutine say_wheel(lookup)
         type(lookup_t), intent(in) :: lookup
 
-        integer :: order, k, kind
+        integer :: k, kind
 
         associate (wheel => lookup%wheel)
             call say('a wheel on a rail, nu ' // trim(number_text(lookup%nu)) // ', G ' &
@@ -96,17 +85,24 @@ contains
                          // trim(merge(' where contacts come or go', '                          ', &
                                        state_kinds(kind) == 'change')) &
                          // ', over mu N, mu N c, N: mean, 99th percentile, worst')
-                do order = 1, 2
-                    do k = 1, n_wheel_errors
-                        call say('  ' // orders(order) // ' ' // wheel_error_names(k) // '  ' &
-                                 // number_text(wheel%errors(k, 1, order, kind)) &
-                                 // number_text(wheel%errors(k, 2, order, kind)) &
-                                 // trim(number_text(wheel%errors(k, 3, order, kind))))
-                    end do
-                end do
+                call say_errors(wheel%errors(:, :, :, kind))
             end do
         end associate
     end subroutine say_wheel
+
+    subroutine say_errors(errors)
+        real(wp), intent(in) :: errors(:, :, :) ! of each; mean, percentile, worst; orders
+
+        integer :: order, k
+
+        do order = 1, size(orders)
+            do k = 1, size(errors, 1)
+                call say('  ' // orders(order) // ' ' // error_names(k) // ' ' &
+                         // number_text(errors(k, 1, order)) // number_text(errors(k, 2, order)) &
+                         // trim(number_text(errors(k, 3, order))))
+            end do
+        end do
+    end subroutine say_errors
 
     subroutine say_axis(name, nodes)
         character(len=*), intent(in) :: name

@@ -4,24 +4,20 @@ module faststrip_command_lookup_join
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input
-    use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
-                                               release_workers
     use faststrip_command_lookup_file, only: write_table
-    use faststrip_command_lookup_fill, only: judge_table
-    use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
-                                                take_threads, choice_text
-    use faststrip_command_lookup_parts, only: take_values, is_solved, units_of
-    use faststrip_command_lookup_wheel_case, only: read_wheel_case
-    use faststrip_command_lookup_wheel_judge, only: judge_wheel_table => judge_table
-    use faststrip_command_lookup_wheel_solver, only: wheel_solver_t, make_wheel_solvers, &
-                                                     release_wheel_solvers
+    use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
+                                                choice_text
+    use faststrip_command_lookup_family, only: families_t, make_family, release_family
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer
-    use faststrip_command_program_system, only: set_progress
     use faststrip_files_bytes, only: read_bytes
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
-    use faststrip_wheelset_types, only: wheelset_model_t
+    use faststrip_tabulate_family, only: family_t
+    use faststrip_tabulate_forces, only: choice_t
+    use faststrip_tabulate_judge, only: judge_table
+    use faststrip_tabulate_make, only: first_seed
+    use faststrip_tabulate_parts, only: take_values, is_solved, units_of
     implicit none
     private
 
@@ -29,17 +25,15 @@ module faststrip_command_lookup_join
 
     ! Tuned [files]: the most. Origin: capacity.
     integer, parameter :: most_files = 10000
-    ! Contacts that a table is judged by, as those of make.
-    ! Given: a number.
-    integer, parameter :: first_seed = 100
 
 contains
 
     !> Run the action from the command line.
     subroutine run_lookup_join()
         type(command_t) :: command
-        type(direct_choice_t) :: choice
-        type(direct_t), allocatable :: workers(:)
+        type(choice_t) :: choice
+        type(families_t), target :: families
+        class(family_t), pointer :: family
         type(lookup_t) :: lookup
         type(status_t) :: status
         integer(int8), allocatable :: bytes(:)
@@ -58,11 +52,11 @@ contains
                      reads=.true.), &
             option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000; of a wheel' &
                      // new_line('a') // '2000 states)'), &
-            direct_options]
+            method_options]
         call parse_command(command, 1, most_files)
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
-        call take_direct_options(command, choice)
+        call take_choice(command, choice)
         tests = option_integer(command, '--tests', 10000, least=100, most=10000000)
         associate (first => command%arguments(1)%text)
             call read_bytes(first, bytes, status)
@@ -87,37 +81,15 @@ contains
                                    // trim(merge('contacts', 'a/b     ', &
                                                  lookup%kind == lookup_kind_wheel)))
         if (lookup%kind == lookup_kind_wheel) then
-            call judge_joined_wheel(command, choice, lookup)
-        else
-            call make_workers(choice, take_threads(command), workers, status)
-            call fail_on_error(status)
-            call set_progress('fresh contacts')
-            call judge_table(workers, lookup, tests, first_seed, lookup%errors, status)
-            call fail_on_error(status)
-            lookup%tested = tests
-            call release_workers(workers)
+            if (.not. given(command, '--case')) &
+                call usage_error('parts of the table of a wheel need --case CASE.nml', command%name)
+            tests = option_integer(command, '--tests', 2000, least=100, most=10000000)
         end if
+        call make_family(command, choice, take_threads(command), lookup, families, family)
+        call judge_table(family, tests, first_seed, lookup, status)
+        call fail_on_error(status)
+        call release_family(families)
         lookup%promised = 0.0
         call write_table(option_text(command, '-o', ''), lookup)
     end subroutine run_lookup_join
-
-    ! The errors of the table of a wheel.
-    subroutine judge_joined_wheel(command, choice, lookup)
-        type(command_t), intent(in) :: command
-        type(direct_choice_t), intent(in) :: choice
-        type(lookup_t), intent(inout) :: lookup
-
-        type(wheelset_model_t) :: model
-        type(wheel_solver_t), allocatable :: solvers(:)
-        type(status_t) :: status
-
-        if (.not. given(command, '--case')) &
-            call usage_error('parts of the table of a wheel need --case CASE.nml', command%name)
-        call read_wheel_case(option_text(command, '--case', ''), model)
-        call make_wheel_solvers(model, choice, take_threads(command), solvers, status)
-        call fail_on_error(status)
-        call judge_wheel_table(solvers, option_integer(command, '--tests', 2000, least=100, &
-                                                       most=10000000), first_seed, lookup)
-        call release_wheel_solvers(solvers)
-    end subroutine judge_joined_wheel
 end module faststrip_command_lookup_join

@@ -5,9 +5,8 @@ module faststrip_command_lookup
     use faststrip_command_lookup_export, only: run_lookup_export
     use faststrip_command_lookup_info, only: run_lookup_info
     use faststrip_command_lookup_join, only: run_lookup_join
-    use faststrip_command_lookup_make, only: run_lookup_make
+    use faststrip_command_lookup_make, only: run_lookup_make, run_lookup_wheel
     use faststrip_command_lookup_test, only: run_lookup_test
-    use faststrip_command_lookup_wheel_make, only: run_lookup_wheel
     use faststrip_command_program_options, only: command_argument
     implicit none
     private

@@ -1,62 +1,61 @@
-!> `faststrip lookup make`: a table of creep forces, refined until it is as good as asked for.
+!> `faststrip lookup make` and `faststrip lookup wheel`: a table of creep forces on ellipses, or of
+!> a wheel on a rail, refined until it is as good as asked for, or on the nodes of another table.
 module faststrip_command_lookup_make
-    use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, number_text
-    use faststrip_base_text, only: integer_text
+    use faststrip_base_status, only: status_t
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, version_text, &
-                                                 exit_bad_input, exit_no_convergence
+                                                 note, progress, exit_bad_input
     use faststrip_command_program_files, only: take_beside
-    use faststrip_command_lookup_direct, only: direct_choice_t, direct_t, make_workers, &
-                                               release_workers
-    use faststrip_command_lookup_file, only: read_table, write_table
-    use faststrip_command_lookup_fill, only: begin_table, judge_table
-    use faststrip_command_lookup_grid, only: sampled_axis_t, start_axis, refine_axis, nodes_of
-    use faststrip_command_lookup_options, only: direct_options, take_direct_options, &
-                                                take_threads, choice_text
-    use faststrip_command_lookup_parts, only: forget_values, solve_part, take_work, work_name
-    use faststrip_command_lookup_scatter, only: least_drawn
+    use faststrip_command_lookup_case, only: read_wheel_case, wheel_text
+    use faststrip_command_lookup_file, only: read_table, write_table, take_work
+    use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
+                                                take_ends, choice_text
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_number, option_integer, &
                                                  option_word, option_pair, option_part, &
                                                  refuse_value
-    use faststrip_command_program_system, only: set_progress
     use faststrip_files_bytes, only: remove_file
-    use faststrip_lookup_faces, only: n_faces
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
+    use faststrip_lookup_axis, only: lookup_axis_t
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel
+    use faststrip_tabulate_family, only: family_t
+    use faststrip_tabulate_forces, only: choice_t, by_fastsim
+    use faststrip_tabulate_hertz, only: hertz_family_t, make_hertz_family, release_hertz_family
+    use faststrip_tabulate_judge, only: judge_table
+    use faststrip_tabulate_make, only: begin_table, solve_units, make_refined, first_seed
+    use faststrip_tabulate_parts, only: work_name
+    use faststrip_tabulate_scatter, only: least_drawn
+    use faststrip_tabulate_wheel, only: wheel_family_t, wheel_limits_t, make_wheel_family, &
+                                        release_wheel_family
+    use faststrip_wheelset_types, only: wheelset_model_t
     implicit none
     private
 
-    public :: run_lookup_make
+    public :: run_lookup_make, run_lookup_wheel
 
-    ! Tuned [1]: Part of the error asked for that each axis may make to begin with. Origin: measured
-    ! on FASTSTRIP's tables.
-    real(wp), parameter :: first_share = 0.6_wp
-    ! Tuned [1]: The same axis is refined further by at least this. Origin: chosen.
-    real(wp), parameter :: least_step = 0.85_wp, most_step = 0.5_wp
-    ! Tuned [rounds]: tables made. Origin: safeguard.
-    integer, parameter :: most_rounds = 8
-    ! Tuned [nodes]: the most of one axis, and of a table. Origin: capacity.
-    integer, parameter :: most_axis = 250
-    integer(int64), parameter :: most_nodes = 60000000
-    ! Tuned [contacts]: fresh ones that a table is judged by. Origin: the 99th percentile of as many
-    ! moves by less than a tenth of itself with the seed.
-    integer, parameter :: usual_tests = 10000
-    ! The promise is judged by these, the next round's by others.
-    ! Given: a number.
-    integer, parameter :: first_seed = 100
+    ! Tuned [states]: fresh ones that a table is judged by, of ellipses and of wheels. Origin: the
+    ! 99th percentile of as many moves by less than a tenth of itself with the seed; cost.
+    integer, parameter :: usual_tests = 10000, usual_wheel_tests = 2000
+    ! Tuned [rad, 1]: least cell of yaw, and of the load over its end. Origin: chosen.
+    real(wp), parameter :: least_yaw = 1.0e-4_wp, least_load = 0.02_wp
+
+    !> Options of both actions.
+    type(option_t), parameter :: part_options(3) = [ &
+        option_t('--order', 'NAME', 'of which interpolation: linear (default) or cubic'), &
+        option_t('--part', 'k/K', 'on given nodes: only every Kth a/b, or contact, from the kth' &
+                 // ' on'), &
+        option_t('--resume', '', 'on given nodes: go on with what an ended run has left in' &
+                 // new_line('a') // 'FILE.unfinished')]
 
 contains
 
-    !> Run the action from the command line.
+    !> Run `lookup make` from the command line.
     subroutine run_lookup_make()
         type(command_t) :: command
-        type(direct_choice_t) :: choice
-        type(direct_t), allocatable :: workers(:)
-        type(lookup_t) :: lookup
+        type(choice_t) :: choice
+        type(hertz_family_t), target :: family
+        type(lookup_t) :: other
         type(status_t) :: status
-        real(wp) :: ends(2), error
-        integer :: order, tests, part, parts
+        real(wp) :: ends(2)
 
         command%name = 'lookup make'
         command%n_words = 2
@@ -73,153 +72,176 @@ contains
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
             option_t('--error', 'E', '99th percentile, over mu N and mu N c (default 0.01)'), &
-            option_t('--order', 'NAME', 'of which interpolation: linear (default) or cubic'), &
             option_t('--ab', 'LEAST:MOST', 'a/b, a along the rolling direction (default' &
                      // ' 0.1:10)'), &
             option_t('--nu', 'NUMBER', 'Poisson''s ratio of both bodies (default 0.28)'), &
             option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000)'), &
             option_t('--axes-of', 'TABLE', 'its nodes and nu, instead of refining: by a costly' &
                      // new_line('a') // 'method on the nodes of a cheap one', reads=.true.), &
-            option_t('--part', 'k/K', 'on given nodes: only every Kth a/b, from the kth on'), &
-            option_t('--resume', '', 'on given nodes: go on with what an ended run has left in' &
-                     // new_line('a') // 'FILE.unfinished'), &
-            direct_options]
+            part_options, method_options]
         call parse_command(command, 0)
+        call check_output(command)
+        call take_choice(command, choice)
+        choice%nu = option_number(command, '--nu', choice%nu, least=0)
+        if (choice%nu >= 0.5_wp) &
+            call refuse_value(command, '--nu', 'a number of at least 0 and below 0.5')
+        call take_range(command, ends)
+        call read_nodes(command, [character(len=7) :: '--ab', '--error', '--nu'], &
+                        lookup_kind_hertz, 'a table of ellipses', other)
+        if (given(command, '--axes-of')) choice%nu = other%nu
+        call make_hertz_family(choice, take_threads(command), ends, family, status)
+        call fail_on_error(status)
+        call make_table(command, family, choice_text(choice), 0.01_wp, usual_tests, other)
+        call release_hertz_family(family)
+    end subroutine run_lookup_make
+
+    !> Run `lookup wheel` from the command line.
+    subroutine run_lookup_wheel()
+        type(command_t) :: command
+        type(choice_t) :: choice
+        type(wheel_family_t), target :: family
+        type(wheelset_model_t) :: model
+        type(wheel_limits_t) :: limits
+        type(lookup_t) :: other
+        type(status_t) :: status
+
+        command%name = 'lookup wheel'
+        command%n_words = 2
+        command%usage = 'CASE.nml -o TABLE.fslt'
+        command%about = &
+            'Make a table of the contacts of a wheel on a rail and of their creep forces: over y' &
+            // ' of' // new_line('a') // 'the wheelset, yaw, and the vertical part of the normal' &
+            // ' forces; three creepages of' // new_line('a') // 'each contact. Of the case the' &
+            // ' groups &wheel, &rail, &material, &numerics; its right' // new_line('a') &
+            // 'wheel; roll 0. Nodes are put where contacts and forces bend, until the 99th' &
+            // new_line('a') // 'percentile of the errors on fresh states is at most --error (at' &
+            // ' 95 %), and that on' // new_line('a') // 'states where a contact comes or goes,' &
+            // ' too: or cells there are no longer than' // new_line('a') // '--least-step.' &
+            // new_line('a')
+        command%options = [ &
+            option_t('-o', 'FILE', 'write the table there', writes=.true.), &
+            option_t('--y', 'FIRST:LAST', 'lateral displacements of the wheelset, mm (default' &
+                     // ' -6:6)'), &
+            option_t('--load', 'FIRST:LAST', 'vertical part of the normal forces, N (default' &
+                     // new_line('a') // '40000:120000)'), &
+            option_t('--yaw', 'FIRST:LAST', 'rad (default 0:0, no axis)'), &
+            option_t('--error', 'E', '99th percentile, over mu N, mu N c and N (default 0.03)'), &
+            option_t('--least-step', 'MM', 'the shortest cell along y (default 0.02)'), &
+            option_t('--tests', 'N', 'fresh states to judge it by (default 2000)'), &
+            option_t('--axes-of', 'TABLE', 'its nodes, instead of refining', reads=.true.), &
+            part_options, method_options]
+        call parse_command(command, 1)
+        call check_output(command)
+        call take_choice(command, choice)
+        if (choice%method == by_fastsim) &
+            call refuse_value(command, '--method', 'faststrip, tang or auto for a wheel')
+        call take_ends(command, '--y', '-6:6', limits%ends(:, 1))
+        call take_ends(command, '--yaw', '0:0', limits%ends(:, 2), may_be_one=.true.)
+        call take_ends(command, '--load', '40000:120000', limits%ends(:, 3), above=0)
+        limits%least = [option_number(command, '--least-step', 0.02_wp, above=0), &
+                        least_yaw, least_load*limits%ends(2, 3)]
+        call read_nodes(command, [character(len=7) :: '--y', '--load', '--yaw', '--error'], &
+                        lookup_kind_wheel, 'a table of a wheel', other)
+        call read_wheel_case(command%arguments(1)%text, model)
+        call make_wheel_family(model, choice, take_threads(command), limits, family, status)
+        call fail_on_error(status)
+        call make_table(command, family, wheel_text(command%arguments(1)%text) &
+                        // choice_text(choice), 0.03_wp, usual_wheel_tests, other)
+        call release_wheel_family(family)
+    end subroutine run_lookup_wheel
+
+    ! A table is no text, and work on it is kept beside it.
+    subroutine check_output(command)
+        type(command_t), intent(in) :: command
+
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
         if (given(command, '--axes-of') .and. len(work_name(option_text(command, '-o', ''))) > 0) &
             call take_beside(work_name(option_text(command, '-o', '')), '-o')
-        call take_direct_options(command, choice)
-        choice%nu = option_number(command, '--nu', choice%nu, least=0)
-        if (choice%nu >= 0.5_wp) &
-            call refuse_value(command, '--nu', 'a number of at least 0 and below 0.5')
-        error = option_number(command, '--error', 0.01_wp, above=0)
-        tests = option_integer(command, '--tests', usual_tests, most=10000000, &
+    end subroutine check_output
+
+    ! The table whose nodes are taken, if there is one, with options that do not go with it.
+    subroutine read_nodes(command, others, kind, what, other)
+        type(command_t), intent(in) :: command
+        character(len=*), intent(in) :: others(:)
+        integer, intent(in) :: kind
+        character(len=*), intent(in) :: what
+        type(lookup_t), intent(out) :: other
+
+        character(len=:), allocatable :: list
+        integer :: i
+
+        if (.not. given(command, '--axes-of')) then
+            if (given(command, '--part') .or. given(command, '--resume')) &
+                call usage_error('--part and --resume go with --axes-of', command%name)
+            return
+        end if
+        list = trim(others(1))
+        do i = 2, size(others)
+            if (i < size(others)) list = list // ', ' // trim(others(i))
+            if (i == size(others)) list = list // ' and ' // trim(others(i))
+        end do
+        do i = 1, size(others)
+            if (given(command, trim(others(i)))) &
+                call usage_error('--axes-of must not be given with ' // list, command%name)
+        end do
+        call read_table(option_text(command, '--axes-of', ''), other)
+        if (other%kind /= kind) &
+            call fail(exit_bad_input, 'must be ' // what // ' (' &
+                      // option_text(command, '--axes-of', '') // ')')
+    end subroutine read_nodes
+
+    ! Make the table and write it.
+    subroutine make_table(command, family, words, usual_error, usual, other)
+        type(command_t), intent(in) :: command
+        class(family_t), intent(inout) :: family
+        character(len=*), intent(in) :: words     ! how it is made
+        real(wp), intent(in) :: usual_error
+        integer, intent(in) :: usual              ! fresh states
+        type(lookup_t), intent(in) :: other       ! whose nodes are taken; or none
+
+        type(lookup_t) :: lookup
+        type(lookup_axis_t) :: axes(5)
+        type(status_t) :: status
+        character(len=:), allocatable :: work
+        real(wp) :: error
+        integer :: order, tests, part, parts
+
+        family%words = version_text() // new_line('a') // words // new_line('a')
+        family%progress => progress
+        family%note => note
+        error = option_number(command, '--error', usual_error, above=0)
+        tests = option_integer(command, '--tests', usual, most=10000000, &
                                least=merge(100, least_drawn, given(command, '--axes-of')))
         order = 1
         if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
             == 'cubic') order = 2
-        call take_range(command, ends)
         call option_part(command, part, parts)
-        if (given(command, '--axes-of')) then
-            if (given(command, '--ab') .or. given(command, '--error') .or. given(command, '--nu')) &
-                call usage_error('--axes-of must not be given with --ab, --error and --nu', &
-                                 command%name)
-            call read_table(option_text(command, '--axes-of', ''), lookup)
-            if (lookup%kind /= lookup_kind_hertz) &
-                call fail(exit_bad_input, 'must be a table of ellipses (' &
-                          // option_text(command, '--axes-of', '') // ')')
-            choice%nu = lookup%nu
-        else if (given(command, '--part') .or. given(command, '--resume')) then
-            call usage_error('--part and --resume go with --axes-of', command%name)
-        end if
-        call make_workers(choice, take_threads(command), workers, status)
-        call fail_on_error(status)
-        if (given(command, '--axes-of')) then
-            call make_on_axes(workers, command, part, parts, lookup)
-            if (parts == 1) call judge(workers, tests, first_seed, lookup)
-        else
-            call make_refined(workers, ends, error, order, tests, lookup)
-        end if
-        call release_workers(workers)
-        call write_table(option_text(command, '-o', ''), lookup)
-        if (given(command, '--axes-of')) call remove_file(work_name(option_text(command, '-o', '')))
-    end subroutine run_lookup_make
-
-    !> A table, or a part of it, on the nodes of another one.
-    subroutine make_on_axes(workers, command, part, parts, lookup)
-        type(direct_t), intent(inout) :: workers(:)
-        type(command_t), intent(in) :: command
-        integer, intent(in) :: part, parts
-        type(lookup_t), intent(inout) :: lookup ! its axes count
-
-        type(lookup_t) :: begun
-        type(status_t) :: status
-        character(len=:), allocatable :: work
-
         work = work_name(option_text(command, '-o', ''))
-        call begin(workers(1), lookup%q%x, lookup%ratio%x, lookup%shape%x, begun)
-        call take_work(work, begun, given(command, '--resume'), status)
-        call fail_on_error(status)
-        call solve_part(workers, part, parts, work, begun, status)
-        call fail_on_error(status)
-        lookup = begun
-    end subroutine make_on_axes
-
-    !> Refine the axes and make tables until one is good enough.
-    subroutine make_refined(workers, ends, error, order, tests, lookup)
-        type(direct_t), intent(inout) :: workers(:)
-        real(wp), intent(in) :: ends(2), error
-        integer, intent(in) :: order, tests
-        type(lookup_t), intent(inout) :: lookup
-
-        type(lookup_t) :: begun
-        type(sampled_axis_t) :: axes(3)
-        type(status_t) :: status
-        real(wp) :: limit, found, bounds(3, 2)
-        integer :: round, k
-
-        limit = first_share*error
-        do k = 1, size(axes)
-            call set_progress('nodes of axis ' // integer_text(k))
-            call start_axis(workers, k, ends, axes(k), status)
+        if (given(command, '--axes-of')) then
+            axes(1) = other%q
+            axes(2) = other%ratio
+            if (other%kind == lookup_kind_hertz) then
+                axes(3) = other%shape
+            else
+                axes(3) = other%wheel%y
+                axes(4) = other%wheel%yaw
+                axes(5) = other%wheel%load
+            end if
+            call begin_table(family, axes(:family%n_axes), lookup, status)
             call fail_on_error(status)
-        end do
-        do round = 1, most_rounds
-            do k = 1, size(axes)
-                call set_progress('nodes of axis ' // integer_text(k) // ', round ' &
-                                  // integer_text(round))
-                call refine_axis(workers, limit, most_axis, axes(k), status)
-                call fail_on_error(status)
-            end do
-            call begin(workers(1), nodes_of(axes(1)), nodes_of(axes(2)), nodes_of(axes(3)), begun)
-            call solve_part(workers, 1, 1, '', begun, status)
+            call take_work(work, lookup, given(command, '--resume'), status)
             call fail_on_error(status)
-            lookup = begun
-            call judge(workers, tests, first_seed + round, lookup, bounds)
-            found = maxval(bounds(:, order))
-            if (found <= error) exit
-            limit = limit*min(max(error/found, most_step), least_step)
-        end do
-        if (found > error) &
-            call fail(exit_no_convergence, 'the error asked for was not met: ' &
-                      // trim(number_text(error)) // ', got ' // trim(number_text(found)) &
-                      // '; the method''s own kinks may leave more')
-        lookup%promised = error
-    end subroutine make_refined
-
-    !> A table of which no node is solved.
-    subroutine begin(worker, q, ratio, shapes, lookup)
-        type(direct_t), intent(in) :: worker
-        real(wp), intent(in) :: q(:), ratio(:), shapes(:)
-        type(lookup_t), intent(out) :: lookup
-
-        type(status_t) :: status
-
-        if (n_faces*size(q)*int(size(ratio), int64)**2*size(shapes) > most_nodes) &
-            call fail(exit_no_convergence, 'a table as good as asked for has more than ' // &
-                      trim(number_text(real(most_nodes, wp))) // ' nodes')
-        call begin_table(q, ratio, shapes, worker%choice%nu, lookup, status)
+            call solve_units(family, part, parts, work, lookup, status)
+            call fail_on_error(status)
+            if (parts == 1) call judge_table(family, tests, first_seed, lookup, status)
+        else
+            call make_refined(family, error, order, tests, lookup, status)
+        end if
         call fail_on_error(status)
-        call forget_values(lookup)
-        lookup%text = version_text() // new_line('a') // choice_text(worker%choice) &
-                      // new_line('a')
-    end subroutine begin
-
-    !> Find the errors of a table.
-    subroutine judge(workers, tests, seed, lookup, bounds)
-        type(direct_t), intent(inout) :: workers(:)
-        integer, intent(in) :: tests, seed
-        type(lookup_t), intent(inout) :: lookup
-        real(wp), intent(out), optional :: bounds(3, 2)
-
-        type(status_t) :: status
-
-        call set_progress('fresh contacts')
-        call judge_table(workers, lookup, tests, seed, lookup%errors, status, bounds)
-        call fail_on_error(status)
-        lookup%tested = tests
-    end subroutine judge
+        call write_table(option_text(command, '-o', ''), lookup)
+        if (given(command, '--axes-of')) call remove_file(work)
+    end subroutine make_table
 
     !> The range of a/b, as logarithms.
     subroutine take_range(command, ends)

@@ -4,18 +4,18 @@ module faststrip_command_lookup_options
     use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: usage_error
-    use faststrip_command_lookup_direct, only: direct_choice_t, direct_methods
     use faststrip_command_program_options, only: command_t, option_t, option_word, option_integer, &
                                                  option_number, option_pair, refuse_value, given
     use faststrip_command_program_system, only: use_one_thread_each
     use faststrip_files_csv, only: real_text
+    use faststrip_tabulate_forces, only: choice_t, force_methods
     implicit none
     private
 
-    public :: direct_options, take_direct_options, take_threads, take_ends, choice_text
+    public :: method_options, take_choice, take_threads, take_ends, choice_text
 
     !> For the tables of options.
-    type(option_t), parameter :: direct_options(6) = [ &
+    type(option_t), parameter :: method_options(6) = [ &
         option_t('--method', 'NAME', 'faststrip (default), fastsim, tang or auto'), &
         option_t('--strips', 'N', 'strips, or rows of fastsim (default 15; fastsim 50)'), &
         option_t('--points', 'N', 'points along each (default 15; fastsim 50)'), &
@@ -45,16 +45,16 @@ module faststrip_command_lookup_options
 contains
 
     !> The method that the command line names.
-    subroutine take_direct_options(command, choice)
-        type(command_t), intent(in) :: command       !! parsed, with `direct_options`
-        type(direct_choice_t), intent(inout) :: choice !! what is not named stays, but for sizes
+    subroutine take_choice(command, choice)
+        type(command_t), intent(in) :: command       !! parsed, with `method_options`
+        type(choice_t), intent(inout) :: choice !! what is not named stays, but for sizes
 
         character(len=:), allocatable :: name
         integer :: i
 
-        name = option_word(command, '--method', 'faststrip', direct_methods)
-        do i = 1, size(direct_methods)
-            if (direct_methods(i) == name) choice%method = i
+        name = option_word(command, '--method', 'faststrip', force_methods)
+        do i = 1, size(force_methods)
+            if (force_methods(i) == name) choice%method = i
         end do
         choice%strips = option_integer(command, '--strips', strips_of(choice%method), least=3, &
                                        most=most_strips)
@@ -65,11 +65,11 @@ contains
         choice%tolerance = option_number(command, '--tolerance', usual_tolerance, above=0)
         if (given(command, '--tolerance') .and. name /= 'auto') &
             call usage_error('--tolerance goes with --method auto', command%name)
-    end subroutine take_direct_options
+    end subroutine take_choice
 
     !> How many threads solve contacts. Libraries get one each: more of them wait for each other.
     integer function take_threads(command) result(threads)
-        type(command_t), intent(in) :: command !! parsed, with `direct_options`
+        type(command_t), intent(in) :: command !! parsed, with `method_options`
 
         threads = min(int(c_get_nprocs()), most_threads)
         threads = option_integer(command, '--threads', threads, least=1, most=most_threads)
@@ -96,11 +96,11 @@ contains
 
     !> The method in a line of words.
     function choice_text(choice) result(text)
-        type(direct_choice_t), intent(in) :: choice
+        type(choice_t), intent(in) :: choice
         character(len=:), allocatable :: text
 
-        text = 'method ' // trim(direct_methods(choice%method))
-        select case (direct_methods(choice%method))
+        text = 'method ' // trim(force_methods(choice%method))
+        select case (force_methods(choice%method))
         case ('tang')
             text = text // ', ' // integer_text(choice%across) // ' elements along each axis'
         case ('auto')

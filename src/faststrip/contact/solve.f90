@@ -16,16 +16,18 @@ module faststrip_contact_solve
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
     use faststrip_contact_method, only: contact_result_t, workspace_t, normal_method_t, &
                                         tangential_method_t
-    use faststrip_contact_methods, only: tangential_none
+    use faststrip_contact_method_capacity, only: ellipse_strips
+    use faststrip_contact_methods, only: contact_methods_t, normal_hertz, tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
                                        find_pressures, add_forces
     use faststrip_contact_wanted, only: clear_steps
     use faststrip_contact_wear, only: find_wear
+    use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
     implicit none
     private
 
-    public :: set_contact_gap, set_contact_curve
+    public :: set_contact_gap, set_contact_curve, set_contact_ellipse
     public :: solve_contact, solve_contact_forces, estimate_contact, name_yield
 
 contains
@@ -58,6 +60,40 @@ contains
         workspace%solved_by = 0
         call copy_gap_curve(curve, workspace%solver%curve, status)
     end subroutine set_contact_curve
+
+    !> Hand over a Hertz ellipse and its load in place of a gap: `solve_contact_forces` finds the
+    !> forces on it, of which nothing but their method is wrong.
+    subroutine set_contact_ellipse(workspace, methods, hertz, result, status)
+        type(workspace_t), intent(inout) :: workspace   !! with capacity for the methods
+        type(contact_methods_t), intent(in) :: methods  !! strips of the ellipse
+        type(hertz_t), intent(in) :: hertz              !! semi-axes, mm, and load, N
+        type(contact_result_t), intent(out) :: result   !! figures of its pressures
+        type(status_t), intent(out) :: status           !! those of `hertz_strips`
+
+        workspace%solved_by = 0
+        workspace%field%n = 0
+        workspace%strip_forces%n = 0
+        workspace%solver%curve%n = 0
+        call clear_steps(workspace%steps)
+        call hertz_strips(hertz, ellipse_strips(methods), workspace%strips, status)
+        if (is_error(status)) return
+        workspace%hertz = hertz
+        workspace%is_ellipse = .true.
+        workspace%solved_by = normal_hertz
+        workspace%methods = methods
+        workspace%methods%normal = normal_hertz
+        result%is_estimated = .true.
+        associate (normal => result%normal)
+            normal%load = hertz%load
+            normal%penetration = hertz%penetration
+            normal%area = hertz%area
+            normal%pmax = hertz%pmax
+            normal%y_min = hertz%y - hertz%b
+            normal%y_max = hertz%y + hertz%b
+            normal%x_max = hertz%a
+            normal%n_patches = 1
+        end associate
+    end subroutine set_contact_ellipse
 
     !> Solve a contact: the normal problem and, unless the method is `tangential_none`, the
     !> tangential one; by `normal_auto` as well as is wanted.

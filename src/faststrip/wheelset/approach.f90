@@ -47,6 +47,8 @@ module faststrip_wheelset_approach
         real(wp) :: before = 0.0_wp        !! the last approach, mm
         real(wp) :: root_before = 0.0_wp   !! its force to 2/3
         real(wp) :: slope = 0.0_wp         !! last one that was told, of the force to 2/3
+        real(wp) :: tolerance = 0.0_wp     !! misfit at which it ends, 0: as near as it comes
+        real(wp) :: bracket = 0.0_wp       !! the same of the bracket, of its upper end
         integer :: steps = 0               !! so far
     end type approach_search_t
 
@@ -60,13 +62,17 @@ contains
     end function usual_approach
 
     !> Start a search.
-    pure subroutine start_search(search, load, approach)
+    pure subroutine start_search(search, load, approach, tolerance, bracket)
         type(approach_search_t), intent(out) :: search !! to be continued by `take_force`
         real(wp), intent(in) :: load                   !! > 0, N
         real(wp), intent(in) :: approach               !! a first guess, > 0, mm
+        real(wp), intent(in), optional :: tolerance    !! misfit of the load that is near enough
+        real(wp), intent(in), optional :: bracket      !! the same of the bracket, of its upper end
 
         search%load = load
         search%approach = approach
+        if (present(tolerance)) search%tolerance = tolerance
+        if (present(bracket)) search%bracket = bracket
     end subroutine start_search
 
     !> Tell the force at `search%approach`: the next approach is there, or the search has ended.
@@ -93,6 +99,11 @@ contains
         else
             search%high = min(search%high, search%approach)
         end if
+        if (search%misfit <= search%tolerance .or. &
+            search%high - search%low <= search%bracket*search%high) then
+            search%goes_on = .false.
+            return
+        end if
         root = sign((abs(force)/search%load)**(1.0_wp/hertz_power), force)
         change = root - search%root_before
         if (abs(change) > telling) search%slope = change/(search%approach - search%before)
@@ -116,7 +127,7 @@ contains
     pure logical function is_found(search)
         type(approach_search_t), intent(in) :: search !! that has ended
 
-        is_found = search%misfit <= near_enough
+        is_found = search%misfit <= max(near_enough, search%tolerance)
     end function is_found
 
     !> Did the force jump over the load, by so little that the height nearest to it is an answer?

@@ -53,27 +53,27 @@ contains
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
             call clear_status(jumped)
-            call solve_load(model, workspace, state, side, demand%load(side), &
-                            result%wheel(side), jumped)
+            call solve_load(model, workspace, state, side, demand, result%wheel(side), jumped)
             if (jumped%code /= 0) status = jumped
             if (is_error(status)) return
         end do
     end subroutine solve_loads
 
     ! The height at which one wheel carries its load.
-    subroutine solve_load(model, workspace, state, side, load, wheel, status)
+    subroutine solve_load(model, workspace, state, side, demand, wheel, status)
         type(wheelset_model_t), intent(in) :: model
         type(wheelset_workspace_t), intent(inout) :: workspace
         type(wheelset_state_t), intent(in) :: state
         integer, intent(in) :: side
-        real(wp), intent(in) :: load
+        type(wheelset_demand_t), intent(in) :: demand
         type(wheel_result_t), intent(inout) :: wheel
         type(status_t), intent(inout) :: status
 
         type(approach_search_t) :: search
-        real(wp) :: touch
+        real(wp) :: touch, load
         logical :: is_warm
 
+        load = demand%load(side)
         call set_outline(model, workspace, state, side, touch, status)
         if (is_error(status)) return
         if (.not. load > 0.0_wp) then
@@ -83,10 +83,12 @@ contains
         is_warm = workspace%has_last .and. workspace%wheel(side)%approach > 0.0_wp
         do
             if (is_warm) then
-                call start_search(search, load, workspace%wheel(side)%approach)
+                call start_search(search, load, workspace%wheel(side)%approach, demand%tolerance, &
+                                  demand%bracket)
             else
                 workspace%wheel(side)%n = 0
-                call start_search(search, load, usual_approach(load))
+                call start_search(search, load, usual_approach(load), demand%tolerance, &
+                                  demand%bracket)
             end if
             do while (search%goes_on)
                 call try_height(model, workspace, state, side, touch + search%approach, wheel)

@@ -55,6 +55,12 @@ module faststrip_wheelset_types
         logical :: roll_is_free = .false.                  !! is the roll found?
         real(wp) :: roll_moment = 0.0_wp
             !! moment about the wheelset's centre along the track that the frame exerts on it, N mm
+        real(wp) :: tolerance = 0.0_wp
+            !! of `demand_loads`: misfit of the load at which its height is found; 0: as near as it
+            !! comes
+        real(wp) :: bracket = 0.0_wp
+            !! the same of the heights between which the force jumps over the load, over the larger
+            !! approach
     end type wheelset_demand_t
 
     !> One contact of a wheel. Left and right have the same frame: x ahead, y to the right, turned

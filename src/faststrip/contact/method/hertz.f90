@@ -83,7 +83,8 @@ contains
                              result%normal_errors%est_err_area, case%resolution_limit, status)
     end subroutine estimate_by_hertz
 
-    !> Add to the errors of forces on the workspace's Hertz ellipse what its shape is wrong by.
+    !> Add to the errors of forces on the workspace's Hertz ellipse what its shape is wrong by: an
+    !> ellipse that was handed over has no gap that it could differ from.
     pure subroutine add_shape_errors(workspace, case, errors, status)
         type(workspace_t), intent(in) :: workspace    !! with a solution by Hertz
         type(contact_case_t), intent(in) :: case      !! what was solved
@@ -93,6 +94,7 @@ contains
         type(creepage_t) :: creepage
         real(wp) :: share
 
+        if (workspace%solver%curve%n == 0) return
         call cut_creepage(case%creepage, creepage, share)
         call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), &
                               softened(case%material, case%friction), case%mu, creepage, &

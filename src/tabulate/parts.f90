@@ -3,16 +3,11 @@
 !> processes are joined.
 !>
 !> Such a file is a table whose other values are NaN: no host takes it for one.
-module faststrip_command_lookup_parts
+module faststrip_tabulate_parts
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
     use, intrinsic :: iso_fortran_env, only: int8, int64, real32
-    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, &
-                                     st_bad_argument, st_file_write
+    use faststrip_base_status, only: status_t, is_error, set_status, st_bad_argument
     use faststrip_base_text, only: integer_text
-    use faststrip_command_program_console, only: progress
-    use faststrip_command_lookup_direct, only: direct_t
-    use faststrip_command_lookup_fill, only: fill_shape
-    use faststrip_command_program_system, only: name_kind, kind_none, kind_file
     use faststrip_files_bytes, only: read_bytes, write_bytes
     use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_bytes, only: open_lookup, pack_lookup
@@ -20,8 +15,7 @@ module faststrip_command_lookup_parts
     implicit none
     private
 
-    public :: forget_values, solve_part, take_values, is_solved, units_of, write_work, work_name
-    public :: take_work
+    public :: forget_values, take_values, is_solved, units_of, write_work, work_name
 
 contains
 
@@ -33,38 +27,6 @@ contains
         name = ''
         if (index(path, '/dev/') /= 1) name = path // '.unfinished'
     end function work_name
-
-    !> Look at the file of work that goes on. What is there must be unfinished work, which is taken
-    !> if it is wanted.
-    subroutine take_work(path, lookup, is_wanted, status)
-        character(len=*), intent(in) :: path    !! file of the work; empty: none is kept
-        type(lookup_t), intent(inout) :: lookup !! begun
-        logical, intent(in) :: is_wanted        !! is it gone on with?
-        type(status_t), intent(out) :: status
-            !! of the file; `st_file_write`: something else; `st_bad_argument`: of other work
-
-        type(lookup_t) :: other
-        integer(int8), allocatable :: bytes(:)
-        logical :: is_work
-
-        call clear_status(status)
-        if (len(path) == 0) return
-        if (name_kind(path) == kind_none) return
-        is_work = name_kind(path) == kind_file
-        if (is_work) then
-            call read_bytes(path, bytes, status)
-            if (.not. is_error(status)) call open_lookup(bytes, other, status, may_lack=.true.)
-            is_work = .not. is_error(status)
-            ! Work that is done is judged, and is no work any more.
-            if (is_work) is_work = other%tested == 0 .and. all(other%wheel%tested == 0)
-        end if
-        if (.not. is_work) then
-            call set_status(status, st_file_write, 'what is unfinished must not be kept in the ' &
-                            // 'place of another file, got ' // path)
-        else if (is_wanted) then
-            call take_values(path, lookup, status)
-        end if
-    end subroutine take_work
 
     !> A table of which nothing is solved.
     subroutine forget_values(lookup)
@@ -91,26 +53,6 @@ contains
         n = size(lookup%values, kind=int64)/units_of(lookup)
         is_solved = .not. any(ieee_is_nan(lookup%values((unit - 1)*n + 1:unit*n)))
     end function is_solved
-
-    !> Solve what is missing of a part: every so manyth a/b.
-    subroutine solve_part(workers, part, parts, path, lookup, status)
-        type(direct_t), intent(inout) :: workers(:) !! one for each thread
-        integer, intent(in) :: part, parts          !! which one of how many
-        character(len=*), intent(in) :: path        !! file of the work; empty: none is kept
-        type(lookup_t), intent(inout) :: lookup     !! begun
-        type(status_t), intent(out) :: status       !! of the method; of the file
-
-        integer :: i
-
-        call clear_status(status)
-        do i = part, lookup%shape%n, parts
-            call progress('a/b', i - 1, lookup%shape%n)
-            if (is_solved(lookup, i)) cycle
-            call fill_shape(workers, i, lookup, status)
-            if (.not. is_error(status)) call write_work(path, lookup, status)
-            if (is_error(status)) return
-        end do
-    end subroutine solve_part
 
     !> Keep what was solved so far.
     subroutine write_work(path, lookup, status)
@@ -192,4 +134,4 @@ contains
         are_same = one%n == other%n
         if (are_same) are_same = all(one%x == other%x)
     end function are_same
-end module faststrip_command_lookup_parts
+end module faststrip_tabulate_parts

@@ -1,5 +1,5 @@
 !> Errors of many contacts in a few numbers.
-module faststrip_command_lookup_scatter
+module faststrip_tabulate_scatter
     use faststrip_base_kinds, only: wp
     implicit none
     private
@@ -92,4 +92,4 @@ contains
         end do
         ranked = sorted(rank)
     end function ranked
-end module faststrip_command_lookup_scatter
+end module faststrip_tabulate_scatter

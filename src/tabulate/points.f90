@@ -1,6 +1,6 @@
 !> Points that fill a box evenly without a pattern: Halton's, shifted by a seed. Each is found from
 !> its number alone, so that what is done at them may be shared out in any way.
-module faststrip_command_lookup_points
+module faststrip_tabulate_points
     use faststrip_base_kinds, only: wp
     implicit none
     private
@@ -50,4 +50,4 @@ contains
             rest = rest/base
         end do
     end function mirrored
-end module faststrip_command_lookup_points
+end module faststrip_tabulate_points

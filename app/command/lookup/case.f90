@@ -1,5 +1,5 @@
 !> The wheel and the rail of a lookup table, as a case file tells them.
-module faststrip_command_lookup_wheel_case
+module faststrip_command_lookup_case
     use faststrip_base_friction, only: falls
     use faststrip_base_kinds, only: wp
     use faststrip_command_settings_case_file, only: read_bodies_of
@@ -43,4 +43,4 @@ contains
         text = 'right wheel ' // bodies%wheel%name // ' on rail ' // bodies%rail%name &
                // new_line('a')
     end function wheel_text
-end module faststrip_command_lookup_wheel_case
+end module faststrip_command_lookup_case

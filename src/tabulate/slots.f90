@@ -4,11 +4,11 @@
 !> nearest to the other and not far from it; the nearest are joined first, and never two of one
 !> node. Where two contacts become one, one of both goes on. What is joined gets the first slot in
 !> which it meets no other contact, at its nodes or next to them.
-module faststrip_command_lookup_wheel_slots
+module faststrip_tabulate_slots
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, st_out_of_range
     use faststrip_base_text, only: integer_text
-    use faststrip_command_lookup_wheel_solver, only: found_contacts_t
+    use faststrip_tabulate_contacts, only: found_contacts_t
     use faststrip_lookup_table, only: at_load, at_rail_y, at_rail_z, most_slots
     use faststrip_wheelset_types, only: most_contacts
     implicit none
@@ -221,4 +221,4 @@ contains
         next = 0
         if (place + step >= 0 .and. place + step < sizes(axis)) next = node + step*stride
     end function neighbour_of
-end module faststrip_command_lookup_wheel_slots
+end module faststrip_tabulate_slots

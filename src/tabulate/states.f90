@@ -1,29 +1,18 @@
 !> States of Hertz contacts for lookup tables: those of nodes, and fresh ones that tables are judged
 !> by.
-module faststrip_command_lookup_states
+module faststrip_tabulate_states
     use faststrip_base_kinds, only: wp, pi, log_10
-    use faststrip_base_status, only: status_t, is_error
-    use faststrip_command_lookup_direct, only: direct_t, solve_direct
-    use faststrip_lookup_faces, only: creepages_at, n_forces
+    use faststrip_base_status, only: status_t
     use faststrip_lookup_hertz, only: n_lookup_state
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     implicit none
     private
 
-    public :: shape_scale, phi_at, fresh_state, fresh_coordinates, drawn_creepages
+    public :: shape_scale, fresh_state, fresh_coordinates, drawn_creepages
 
     !> Coordinates of a point that make a fresh state.
     !> Given: what it draws.
     integer, parameter :: fresh_coordinates = 8
-
-    ! Creepage of a node at which nothing slides, and all does: forces there are the limits to less
-    ! than the numbers of a table tell.
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: least_creepage = 1.0e-5_wp, most_creepage = 1.0e4_wp
-    ! A contact to solve for a node. None of it matters.
-    ! Given: units of a table.
-    real(wp), parameter :: node_size = 6.0_wp, node_load = 1.0e5_wp, node_mu = 0.3_wp, &
-                           node_shear = 82000.0_wp
 
 contains
 
@@ -42,31 +31,6 @@ contains
         call kalker_coefficients(exp(log_ratio), nu, c, status)
         scale = [c%c11, c%c22, c%c22*cosh(0.5_wp*log_ratio)]
     end function shape_scale
-
-    !> Phi of a place, solved directly.
-    subroutine phi_at(direct, log_ratio, scale, face, q, s, t, phi, status)
-        type(direct_t), intent(inout) :: direct
-        real(wp), intent(in) :: log_ratio   !! ln(a/b)
-        real(wp), intent(in) :: scale(3)    !! of the creepages there
-        integer, intent(in) :: face         !! see `faststrip_lookup_faces`
-        real(wp), intent(in) :: q, s, t     !! the same
-        real(wp), intent(out) :: phi(n_forces)
-        type(status_t), intent(out) :: status !! of the method
-
-        real(wp) :: x(3), part, forces(n_forces), linear
-        real(wp) :: state(n_lookup_state)
-
-        part = max(q, least_creepage)
-        x = creepages_at(face, part, s, t, most_creepage)
-        state(1) = node_size*exp(0.5_wp*log_ratio)
-        state(2) = node_size*exp(-0.5_wp*log_ratio)
-        state(3:5) = [node_load, node_mu, node_shear]
-        linear = node_shear*node_size**2/(node_mu*node_load)
-        state(6:8) = x/(scale*linear*[1.0_wp, 1.0_wp, node_size])
-        call solve_direct(direct, state, forces, status)
-        if (is_error(status)) return
-        phi = forces/(node_mu*node_load*[1.0_wp, 1.0_wp, node_size])/part
-    end subroutine phi_at
 
     !> Normalised creepages of any direction, a hundredth to a hundred times what makes mu N by the
     !> linear theory; two of five lack one of them, one of five two.
@@ -111,4 +75,4 @@ contains
         state(6:8) = x*state(4)*state(3) &
                      /(state(5)*c**2*shape_scale(log_ratio, nu, status)*[1.0_wp, 1.0_wp, c])
     end function fresh_state
-end module faststrip_command_lookup_states
+end module faststrip_tabulate_states
