@@ -78,6 +78,19 @@ class LookupWheel(ProgramTest):
             self.assertIn(words, text)
         self.assertNotIn("slot 3", text)
 
+    def test_no_cell_is_halved_below_the_least(self):
+        # Thirteen nodes to begin with: cells of 0.29 mm, which would have to be halved.
+        done = self.run_program("lookup", "wheel", "cone.nml", "-o", "few.fslt", "--error", "0.4",
+                                "--y", "6:9.5", "--tests", "299", "--least-step", "0.2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("where contacts come or go the error asked for was not met", done.stderr)
+        text = self.good("lookup", "info", "few.fslt")
+        self.assertRegex(text, r"y, mm: 13 nodes, 6\.0\d* to 9\.5")
+        shortest = float(re.search(r"shortest cell of y: (\S+) mm", text)[1])
+        self.assertAlmostEqual(shortest, 3.5 / 12, places=4)
+        fine = self.good("lookup", "info", self.table())
+        self.assertGreaterEqual(float(re.search(r"shortest cell of y: (\S+) mm", fine)[1]), 0.01999)
+
     def test_limitations_of_the_contacts_are_told(self):
         self.assertNotIn("limitations", self.good("lookup", "info", self.table()))
         self.write("steep.nml", CASE.replace("cone.csv", "s1002"))
