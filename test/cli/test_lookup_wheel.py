@@ -81,7 +81,8 @@ class LookupWheel(ProgramTest):
     def test_no_cell_is_halved_below_the_least(self):
         # Thirteen nodes to begin with: cells of 0.29 mm, which would have to be halved.
         done = self.run_program("lookup", "wheel", "cone.nml", "-o", "few.fslt", "--error", "0.4",
-                                "--y", "6:9.5", "--tests", "299", "--least-step", "0.2")
+                                "--y", "6:9.5", "--tests", "299", "--least-step", "0.2",
+                                "--strips", "5", "--points", "5")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("where contacts come or go the error asked for was not met", done.stderr)
         text = self.good("lookup", "info", "few.fslt")
