@@ -67,6 +67,19 @@ class Lookup(ProgramTest):
                                     "--tolerance", "0.05", "--tests", "20"))
         self.assertLess(max(numbers(by_auto, "mean")), 0.02)
 
+
+    def test_auto_takes_tang_where_the_worst_error_asks_for_it(self):
+        # Longitudinal creepage alone: the errors of Fy and Mz are next to nothing.
+        self.write("states.csv", "a_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,cphi_rad_per_mm\n" + "".join(
+            f"6,4,80000,0.3,82000,{cksi},0,0\n" for cksi in (0.0005, 0.001, 0.002)))
+        found = {}
+        for method, *words in (("faststrip",), ("tang",), ("auto", "--tolerance", "0.0025")):
+            self.good("lookup", "test", self.table(), "--states", "states.csv", "--contacts",
+                      "c.csv", "--method", method, *words)
+            found[method] = numbers(self.read("c.csv"), "Fx_N")
+        self.assertNotIn(found["tang"][0], found["faststrip"])
+        self.assertEqual(found["auto"], [found["faststrip"][0], *found["tang"][1:]])
+
     def test_parts_are_joined_and_ended_runs_gone_on_with(self):
         table = self.table()
         on_axes = ("lookup", "make", "--axes-of", table, "--tests", "500")
