@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""List the tuned numbers of the solver in docs/constants.md, or check that the list is up to date.
+"""List the tuned numbers in docs/constants.md, or check that the list is up to date.
 
     constants.py [--check] [--bare] [--root FOLDER]
 
-Every number of the solver's rooms that somebody has chosen is a named constant, a parameter or the
+Every number of the rooms that somebody has chosen is a named constant, a parameter or the
 default of a component, and carries a tag in the comment above it or beside it:
 
     ! Strips that find the patches. Tuned [strips]. Origin: chosen for the time of a cold start.
@@ -33,7 +33,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 ROOMS = ("src/faststrip/numerics", "src/faststrip/influence", "src/faststrip/geometry",
-         "src/faststrip/normal", "src/faststrip/tangential", "src/faststrip/contact", "src/kalker")
+         "src/faststrip/normal", "src/faststrip/tangential", "src/faststrip/contact",
+         "src/faststrip/wheelset", "src/kalker", "src/tabulate", "app/command")
 # Tables and nothing else, and why none of their numbers is tuned.
 GIVEN_FILES = {
     "influence/angle_rules.f90": "quadrature rules by their errors",
@@ -93,7 +94,7 @@ class Statement:
 
 
 def short_name(file):
-    return file.removeprefix("src/").removeprefix("faststrip/")
+    return file.removeprefix("src/").removeprefix("faststrip/").removeprefix("app/")
 
 
 def without_strings(line):
@@ -316,8 +317,8 @@ def page(constants, measured):
         f" not this."
         " -->", "",
         "# Constants", "",
-        f"The {len(constants)} tuned numbers of the solver, by room: those that somebody has"
-        f" chosen."
+        f"The {len(constants)} tuned numbers of the solver and the program, by room: those that"
+        " somebody has chosen."
         " Unit and origin stand beside each in the source, where `Tuned [unit]` marks it. Origins:"
         " *chosen* is by judgement, no measurement was kept; *safeguard* bounds what no sensible"
         " contact reaches; *capacity* bounds memory or work; *calibrated* was fitted to"

@@ -14,6 +14,7 @@ module faststrip_kalker_methods
     use faststrip_geometry_gap_curve, only: reserve_gap_curve
     use faststrip_normal_limitations, only: name_resolution, name_force_resolution
     use faststrip_normal_strip, only: strips_auto
+    use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
     use faststrip_contact_case, only: contact_case_t, asked_t
@@ -47,10 +48,6 @@ module faststrip_kalker_methods
 
     public :: kalker_methods_t, add_kalker, release_kalker
     public :: tang_watch
-
-    ! Tuned [strips]: to start from where their number is left to the solver. Origin: as
-    ! strips_per_patch.
-    integer, parameter :: auto_start_strips = 15
 
     ! Tuned [us, 1]: What both cost and how wrong they say they are, by target: forces, pmax,
     ! penetration, area, power. Origin: medians of 134 contacts of the families of `force-data`.
@@ -238,7 +235,7 @@ contains
         strips%methods%normal = normal_strip
         strips%methods%tangential = tangential_none
         if (strips%methods%strips_per_patch == strips_auto) &
-            strips%methods%strips_per_patch = auto_start_strips
+            strips%methods%strips_per_patch = usual_strips
         associate (curve => workspace%solver%curve)
             call reserve_workspace(start, strips%methods, curve%n, status)
             if (.not. is_error(status)) call set_contact_curve(start, curve, status)

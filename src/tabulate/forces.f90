@@ -9,6 +9,7 @@ module faststrip_tabulate_forces
                                          tangential_fastsim, tangential_tang
     use faststrip_contact_solve, only: solve_contact_forces
     use faststrip_lookup_faces, only: n_forces
+    use faststrip_normal_strips, only: usual_strips
     implicit none
     private
 
@@ -27,10 +28,13 @@ module faststrip_tabulate_forces
     !> What a table's forces are solved by.
     type :: choice_t
         integer :: method = by_faststrip
-        integer :: strips = 15   !! of FASTSTRIP, and points along each; elements of FASTSIM's side
-        integer :: points = 15   !! along a strip, or elements along x
+        integer :: strips = usual_strips !! of FASTSTRIP; elements of FASTSIM's side
+        integer :: points = usual_strips !! along a strip, or elements along x
+        ! Tuned [elements]. Origin: chosen: errors of some tenths of a percent.
         integer :: across = 36   !! elements of TANG along each axis, the least of auto
+        ! Tuned [1]. Origin: chosen; the command line has its own.
         real(wp) :: tolerance = 0.005_wp !! of auto, over mu N and mu N c
+        ! Given: steel.
         real(wp) :: nu = 0.28_wp !! Poisson's ratio of both bodies
     end type choice_t
 

@@ -44,8 +44,9 @@ module faststrip_tabulate_hertz
     real(wp), parameter :: first_share = 0.6_wp
     ! Tuned [rounds]: tables made. Origin: safeguard.
     integer, parameter :: most_rounds = 8
-    ! Tuned [nodes]: the most of one axis, and of a table. Origin: capacity.
+    ! Tuned [nodes]: the most of one axis. Origin: capacity.
     integer, parameter :: most_of_axis = 250
+    ! Tuned [nodes]: the most of a table. Origin: capacity.
     real(wp), parameter :: most_nodes = 6.0e7_wp
     ! Creepage of a node at which nothing slides, and all does: forces there are the limits to less
     ! than the numbers of a table tell.

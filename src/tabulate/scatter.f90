@@ -18,6 +18,7 @@ contains
         real(wp), intent(in) :: errors(:) !! at least one
         real(wp) :: scatter(3)
 
+        ! Given: the 99th percentile.
         scatter = [sum(errors)/size(errors), percentile(errors, 99.0_wp), maxval(errors)]
     end function scatter_of
 
@@ -27,6 +28,7 @@ contains
     pure real(wp) function percentile_bound(errors) result(bound)
         real(wp), intent(in) :: errors(:) !! of contacts drawn at random, at least one
 
+        ! Given: the 99th percentile, and 95 of 100 draws.
         real(wp), parameter :: above = 0.01_wp, doubt = 0.05_wp
         real(wp) :: log_chance, chances
         integer :: n, k
@@ -48,6 +50,7 @@ contains
         real(wp), intent(in) :: values(:) !! at least one
         real(wp), intent(in) :: percent   !! above 0 to 100
 
+        ! Given: percent.
         percentile = ranked(values, min(max(ceiling(percent/100.0_wp*size(values)), 1), &
                                         size(values)))
     end function percentile

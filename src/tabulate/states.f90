@@ -14,6 +14,10 @@ module faststrip_tabulate_states
     !> Given: what it draws.
     integer, parameter :: fresh_coordinates = 8
 
+    ! Tuned [1]: decimal logarithm of the largest size c of fresh ellipses, mm; their friction,
+    ! least and range. Origin: chosen.
+    real(wp), parameter :: most_size = 1.5_wp, least_mu = 0.05_wp, range_mu = 0.65_wp
+
 contains
 
     !> What creepages of a table are scaled by: Kalker's C11 and C22, and for spin C22 times the
@@ -43,12 +47,12 @@ contains
         height = 2.0_wp*point(2) - 1.0_wp
         angle = 2.0_wp*pi*point(3)
         x = [height, sqrt(1.0_wp - height**2)*cos(angle), sqrt(1.0_wp - height**2)*sin(angle)]
-        select case (int(15.0_wp*point(4)))
+        select case (int(15.0_wp*point(4))) ! Given: of fifteen
         case (0, 1, 2); x(3) = 0.0_wp
-        case (3, 4, 5); x(1) = 0.0_wp
-        case (6); x(2:3) = 0.0_wp
-        case (7); x([1, 3]) = 0.0_wp
-        case (8); x(1:2) = 0.0_wp
+        case (3, 4, 5); x(1) = 0.0_wp ! Given: three more
+        case (6); x(2:3) = 0.0_wp ! Given: one each
+        case (7); x([1, 3]) = 0.0_wp ! Given: the same
+        case (8); x(1:2) = 0.0_wp ! Given: the same
         end select
         x = x*exp(log_10*(4.0_wp*point(1) - 2.0_wp))
     end function drawn_creepages
@@ -66,11 +70,11 @@ contains
 
         log_ratio = first + point(1)*(last - first)
         x = drawn_creepages(point(2:5))
-        c = exp(log_10*1.5_wp*point(6))
+        c = exp(log_10*most_size*point(6))
         state(1) = c*exp(0.5_wp*log_ratio)
         state(2) = c*exp(-0.5_wp*log_ratio)
         state(3) = exp(log_10*(3.0_wp + 3.0_wp*point(7)))
-        state(4) = 0.05_wp + 0.65_wp*point(8)
+        state(4) = least_mu + range_mu*point(8)
         state(5) = 82000.0_wp ! Given: steel, MPa
         state(6:8) = x*state(4)*state(3) &
                      /(state(5)*c**2*shape_scale(log_ratio, nu, status)*[1.0_wp, 1.0_wp, c])

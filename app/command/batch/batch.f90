@@ -53,6 +53,7 @@ module faststrip_command_batch
     public :: run_batch, case_columns
 
     !> Most threads.
+    !> Tuned [threads]. Origin: capacity.
     integer, parameter :: most_threads = 1024
     !> Rows and characters of a chunk at most.
     !> Tuned [rows, characters]. Origin: chosen: 10 MB in memory with their results.
@@ -60,6 +61,7 @@ module faststrip_command_batch
     !> How long a chunk shall take, s, and how many chains each thread has of it at least.
     !> Tuned [s, chains]. Origin: chosen: what a killed run loses, what waits for the last chain.
     real(wp), parameter :: least_time = 0.25_wp, most_time = 1.0_wp
+    !> Tuned [chains]: of a thread in a chunk at least. Origin: chosen: what waits for the last one.
     integer, parameter :: least_chains = 4
 
     !> Rows that are read, or solved, together.
@@ -506,11 +508,11 @@ contains
             call put_counts(work, counts)
             call put_digests(job%cache%digests, work)
             call tidy_cache(job%cache)
-            call choose_size(job, chunks(now)%n, 1.0e-6_wp*microseconds(from, to))
+            call choose_size(job, chunks(now)%n, 1.0e-6_wp*microseconds(from, to)) ! Given: us
             call tell(job, work, first, chunks(now)%first + chunks(now)%n - 1, begun)
             before = now
             now = next
-            next = 6 - before - now ! the third of 1, 2, 3
+            next = 6 - before - now ! Given: the third of 1, 2, 3
         end do
         call write_chunk(chunks(before), first, store, work, written)
         call fail_on_error(written)
@@ -687,6 +689,7 @@ contains
         call system_clock(now)
         done = row - first + 1
         total = number_of(work, 'to_do')
+        ! Given: us, and a ms at least.
         rate = real(done - job%resumed, wp)/max(1.0e-6_wp*microseconds(begun, now), 1.0e-3_wp)
         text = 'contacts ' // number_text_of(done)
         if (job%is_file) text = text // ' of ' // number_text_of(total)
@@ -702,6 +705,7 @@ contains
         real(wp), intent(in) :: seconds
         character(len=:), allocatable :: text
 
+        ! Given: seconds.
         real(wp), parameter :: minute = 60.0_wp, hour = 3600.0_wp
 
         if (seconds < 2.0_wp*minute) then
@@ -709,6 +713,7 @@ contains
         else if (seconds < 2.0_wp*hour) then
             text = integer_text(nint(seconds/minute)) // ' min'
         else
+            ! Given: an integer has no more.
             text = integer_text(nint(min(seconds/hour, 1.0e9_wp))) // ' h'
         end if
     end function time_text

@@ -24,7 +24,7 @@ module faststrip_command_batch_gap_cache
     !> Most gaps that are kept, and most points of them all, 150 bytes each: 30 MB.
     !> Tuned [gaps, points]. Origin: chosen: a table of some profiles and shifts.
     integer, parameter :: most_gaps = 1024, most_points = 200000
-    ! Lists of names, by a number made from the name.
+    ! Tuned [lists]: of names, by a number made from the name. Origin: twice the gaps that are kept.
     integer, parameter :: n_lists = 2048
 
     !> A file and its gap.
@@ -194,6 +194,7 @@ contains
 
         sum = 0
         do i = 1, len(path)
+            ! Given: a usual hash of a text, below a prime.
             sum = modulo(31*sum + ichar(path(i:i)), 2147483647_int64)
         end do
         number = int(modulo(sum, int(n_lists, int64)))

@@ -26,6 +26,7 @@ module faststrip_command_batch_joined
     end type joined_t
 
     !> Bytes that are copied at once.
+    !> Tuned [bytes]. Origin: capacity.
     integer, parameter :: most_bytes = 1048576
 
 contains

@@ -16,6 +16,7 @@ module faststrip_command_batch_merge
     public :: run_merge
 
     !> Most parts on one command line.
+    !> Tuned [files]. Origin: capacity.
     integer, parameter :: most_files = 100000
 
 contains

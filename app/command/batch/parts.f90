@@ -14,7 +14,7 @@ module faststrip_command_batch_parts
     public :: part_beginning, part_name
     public :: parts_t, start_parts, next_part, mark_part, wait_for_others
 
-    ! How long to wait for parts that other processes have, ms.
+    ! Tuned [ms]: how long to wait for parts that other processes have. Origin: chosen.
     integer(c_int), parameter :: nap_ms = 200
 
     !> For the table of a subcommand.

@@ -28,7 +28,7 @@ module faststrip_command_batch_rows
     !> What a table of contacts must have.
     character(len=*), parameter :: case_columns(9) = [character(len=15) :: &
         'case', 'gap_file', 'E_MPa', 'nu', 'mu', 'N_N', 'cksi', 'ceta', 'cphi_rad_per_mm']
-    integer, parameter :: gap_column = 2, load_column = 6 ! of `case_columns`
+    integer, parameter :: gap_column = 2, load_column = 6 ! Given: of `case_columns`
     !> A column that it may have: penetrations instead of loads.
     character(len=*), parameter :: penetration_column = 'given_penetration_mm'
 

@@ -36,9 +36,10 @@ module faststrip_command_batch_store
     !> Words of the names beside an output.
     character(len=*), parameter :: lock_word = '.lock', partial_word = '.partial', &
                                    journal_word = '.journal', manifest_word = '.manifest'
-    !> Seconds between two times when what was written is brought to the disk.
+    !> Tuned [s]: between two times when what was written is brought to the disk. Origin: chosen.
     integer, parameter :: synchronised_every = 2
     ! What `faststrip_lock` gives where something lies that is no lock.
+    ! Given: a number in C.
     integer(c_int), parameter :: lock_of_others = -3
 
     !> An output being made.
@@ -282,6 +283,7 @@ contains
         character(len=:), allocatable, intent(out) :: holder !! which one; empty if not known
         type(status_t), intent(out) :: status  !! `st_file_write`: the words of the system
 
+        ! Tuned [characters]: of the system's words. Origin: capacity.
         integer(c_int), parameter :: longest = 200
         character(kind=c_char) :: words(longest)
         character(len=:), allocatable :: temporary

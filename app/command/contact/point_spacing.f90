@@ -19,9 +19,11 @@ module faststrip_command_contact_point_spacing
 
     public :: point_spacing_t, judge_spacing, name_spacing
 
-    ! Changes that are named: of pmax, and of forces over mu N.
+    ! Tuned [1]: changes that are named: of pmax, and of forces over mu N. Origin: chosen: what
+    ! strips are wrong by.
     real(wp), parameter :: pmax_limit = 0.05_wp, force_limit = 0.01_wp
 
+    ! Given: the unit.
     real(wp), parameter :: percent = 100.0_wp
 
     !> What every second point changes.

@@ -20,7 +20,8 @@ module faststrip_command_contact_prepared_case
 
     public :: prepared_case_t, prepare_case, take_lists, put_gap, put_profiles
 
-    !> Shifts nearer to each other than this are the same, mm.
+    !> Tuned [mm]: shifts nearer to each other than this are the same. Origin: safeguard: above
+    !> rounding.
     real(wp), parameter :: same_shift = 1.0e-9_wp
 
     !> One contact, ready to be solved: gap, normal force, creepages about the rigid contact point.
@@ -102,6 +103,7 @@ contains
         integer :: i
 
         call put_origin(writer)
+        ! Given: um.
         if (smoothing > 0.0_wp) &
             call put_comment(writer, 'smoothed for a noise of ' // &
                              trim(number_text(1.0e3_wp*smoothing)) // ' um, rms')
@@ -134,6 +136,7 @@ contains
         type(profile_t), intent(in) :: profile
         real(wp), intent(in) :: y_offset, z_offset
 
+        ! Tuned [points]: of a profile that is drawn. Origin: chosen.
         integer, parameter :: n_points = 801
         type(status_t) :: status
         real(wp) :: y, z, dz, d2z

@@ -35,6 +35,11 @@ module faststrip_command_lookup_make
     ! Tuned [states]: fresh ones that a table is judged by, of ellipses and of wheels. Origin: the
     ! 99th percentile of as many moves by less than a tenth of itself with the seed; cost.
     integer, parameter :: usual_tests = 10000, usual_wheel_tests = 2000
+    ! Tuned [1]: 99th percentile of the errors where none is asked for, of ellipses and of wheels.
+    ! Origin: chosen.
+    real(wp), parameter :: usual_error = 0.01_wp, usual_wheel_error = 0.03_wp
+    ! Tuned [mm]: the shortest cell along y where none is asked for. Origin: chosen.
+    real(wp), parameter :: usual_step = 0.02_wp
     ! Tuned [rad, 1]: least cell of yaw, and of the load over its end. Origin: chosen.
     real(wp), parameter :: least_yaw = 1.0e-4_wp, least_load = 0.02_wp
 
@@ -91,7 +96,7 @@ contains
         if (given(command, '--axes-of')) choice%nu = other%nu
         call make_hertz_family(choice, take_threads(command), ends, family, status)
         call fail_on_error(status)
-        call make_table(command, family, choice_text(choice), 0.01_wp, usual_tests, other)
+        call make_table(command, family, choice_text(choice), usual_error, usual_tests, other)
         call release_hertz_family(family)
     end subroutine run_lookup_make
 
@@ -138,7 +143,7 @@ contains
         call take_ends(command, '--y', '-6:6', limits%ends(:, 1))
         call take_ends(command, '--yaw', '0:0', limits%ends(:, 2), may_be_one=.true.)
         call take_ends(command, '--load', '40000:120000', limits%ends(:, 3), above=0)
-        limits%least = [option_number(command, '--least-step', 0.02_wp, above=0), &
+        limits%least = [option_number(command, '--least-step', usual_step, above=0), &
                         least_yaw, least_load*limits%ends(2, 3)]
         call read_nodes(command, [character(len=7) :: '--y', '--load', '--yaw', '--error'], &
                         lookup_kind_wheel, 'a table of a wheel', other)
@@ -146,7 +151,8 @@ contains
         call make_wheel_family(model, choice, take_threads(command), limits, family, status)
         call fail_on_error(status)
         call make_table(command, family, wheel_text(command%arguments(1)%text) &
-                        // choice_text(choice), 0.03_wp, usual_wheel_tests, other)
+                        // choice_text(choice), usual_wheel_error, usual_wheel_tests, &
+                        other)
         call release_wheel_family(family)
     end subroutine run_lookup_wheel
 
@@ -192,11 +198,11 @@ contains
     end subroutine read_nodes
 
     ! Make the table and write it.
-    subroutine make_table(command, family, words, usual_error, usual, other)
+    subroutine make_table(command, family, words, default_error, usual, other)
         type(command_t), intent(in) :: command
         class(family_t), intent(inout) :: family
         character(len=*), intent(in) :: words     ! how it is made
-        real(wp), intent(in) :: usual_error
+        real(wp), intent(in) :: default_error
         integer, intent(in) :: usual              ! fresh states
         type(lookup_t), intent(in) :: other       ! whose nodes are taken; or none
 
@@ -210,7 +216,7 @@ contains
         family%words = version_text() // new_line('a') // words // new_line('a')
         family%progress => progress
         family%note => note
-        error = option_number(command, '--error', usual_error, above=0)
+        error = option_number(command, '--error', default_error, above=0)
         tests = option_integer(command, '--tests', usual, most=10000000, &
                                least=merge(100, least_drawn, given(command, '--axes-of')))
         order = 1
@@ -250,10 +256,12 @@ contains
 
         ! Tuned [1]: the most slender ellipses. Origin: capacity.
         real(wp), parameter :: most_slender = 1.0e3_wp
+        ! Tuned [1]: least range of a/b. Origin: safeguard: above rounding.
+        real(wp), parameter :: least_range = 1.01_wp
 
         call option_pair(command, '--ab', '0.1:10', 'LEAST:MOST', ends)
         if (ends(1) < 1.0_wp/most_slender .or. ends(2) > most_slender .or. &
-            ends(2) < 1.01_wp*ends(1)) &
+            ends(2) < least_range*ends(1)) &
             call refuse_value(command, '--ab', 'two rising numbers from 0.001 to 1000')
         ends = log(ends)
     end subroutine take_range

@@ -10,8 +10,8 @@ module faststrip_command_profile_curation
 
     public :: curation_options, take_curation
 
-    real(wp), parameter :: degree = pi/180.0_wp
-    real(wp), parameter :: mm_per_um = 1.0e-3_wp
+    ! Given: units.
+    real(wp), parameter :: degree = pi/180.0_wp, mm_per_um = 1.0e-3_wp
 
     !> The options of the command line.
     type(option_t), parameter :: curation_options(14) = [ &

@@ -22,7 +22,7 @@ module faststrip_command_profile_measures
         'curvature_min_per_mm', 'curvature_max_per_mm', 'wear_top_mm', 'wear_side_mm', &
         'wear_corner_mm', 'wear_max_mm', 'curation', 'status', 'message']
 
-    !> Half the length over which a curvature is taken, mm.
+    !> Tuned [mm]: half the length over which a curvature is taken. Origin: chosen.
     real(wp), parameter :: reach = 1.0_wp
 
     !> One profile, and how it ended.

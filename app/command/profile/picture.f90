@@ -22,10 +22,17 @@ module faststrip_command_profile_picture
         logical, allocatable :: is_known(:)       !! is it?
     end type nominal_t
 
-    ! Pixels between panels, height of a panel.
-    real(wp), parameter :: between = 60.0_wp, first_top = 30.0_wp, low = 160.0_wp
-    ! What a curvature of this is drawn at the edge of the panel, 1/mm.
+    ! Tuned [pixels]: between panels, above the first, height of a panel; of the highest. Origin:
+    ! chosen: a picture.
+    real(wp), parameter :: between = 60.0_wp, first_top = 30.0_wp, low = 160.0_wp, &
+                           high = 800.0_wp
+    ! Tuned [1/mm]: a curvature of this is drawn at the edge of the panel. Origin: chosen: a
+    ! picture.
     real(wp), parameter :: largest_curvature = 0.12_wp
+    ! Tuned [mm]: range of wear that is shown at least. Origin: chosen: a picture.
+    real(wp), parameter :: least_wear = 0.1_wp
+    ! Tuned [1, mm]: margin beside a range, of it and at least. Origin: chosen: a picture.
+    real(wp), parameter :: share_of_margin = 0.04_wp, least_margin = 0.01_wp
 
 contains
 
@@ -46,7 +53,7 @@ contains
             panel%x = padded([minval(y), maxval(y)])
             ! Down is down.
             panel%y = padded([maxval(z), minval(z)])
-            panel%height = min(max(panel_height(panel), low), 5.0_wp*low)
+            panel%height = min(max(panel_height(panel), low), high)
             if (panel_height(panel) < low) panel%y = 0.5_wp*sum(panel%y) &
                 + (panel%y - 0.5_wp*sum(panel%y))*(low/panel_height(panel))
             panel%x_name = 'y to the field side, mm'
@@ -87,8 +94,8 @@ contains
         if (size(depth) == 0) depth = [0.0_wp]
         panel%x = padded([s(1), s(size(s))])
         panel%x_name = 'arc length of the nominal profile from the gauge side, mm'
-        call next_panel(panel, 'wear depth, mm', padded([min(minval(depth), -0.1_wp), &
-                                                         max(maxval(depth), 0.1_wp)]))
+        call next_panel(panel, 'wear depth, mm', padded([min(minval(depth), -least_wear), &
+                                                         max(maxval(depth), least_wear)]))
         call put_panel(writer, panel)
         first = 1
         do while (first <= size(s))
@@ -134,7 +141,7 @@ contains
 
         real(wp) :: margin
 
-        margin = max(0.04_wp*abs(range(2) - range(1)), 0.01_wp)
+        margin = max(share_of_margin*abs(range(2) - range(1)), least_margin)
         wider = range + [-margin, margin]*merge(1.0_wp, -1.0_wp, range(2) >= range(1))
     end function padded
 end module faststrip_command_profile_picture

@@ -30,11 +30,13 @@ module faststrip_command_profile
 
     public :: run_profile
 
+    ! Tuned [files]: on one command line. Origin: capacity.
     integer, parameter :: most_files = 100000
 
 
-    ! Points of a standard profile along y, and their distance along the arc, mm.
+    ! Tuned [points]: of a standard profile along y. Origin: chosen.
     integer, parameter :: nominal_points = 4001
+    ! Tuned [mm]: their distance along the arc. Origin: chosen.
     real(wp), parameter :: nominal_step = 0.2_wp
 
 contains

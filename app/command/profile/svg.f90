@@ -11,17 +11,24 @@ module faststrip_command_profile_svg
     !> Where a panel lies, in pixels, and what it shows.
     type :: panel_t
         real(wp) :: top = 0.0_wp                  !! pixels
+        ! Tuned [pixels]: height. Origin: chosen: a picture.
         real(wp) :: height = 200.0_wp             !! pixels
+        ! Given: the unit interval.
         real(wp) :: x(2) = [0.0_wp, 1.0_wp]       !! range along x
+        ! Given: the unit interval.
         real(wp) :: y(2) = [0.0_wp, 1.0_wp]       !! range along y, the lower end first
         character(len=60) :: x_name = ''          !! with its unit
         character(len=60) :: y_name = ''          !! with its unit
     end type panel_t
 
-    ! Pixels.
-    real(wp), parameter :: width = 900.0_wp, left = 80.0_wp, right = 20.0_wp
-    real(wp), parameter :: tick = 5.0_wp
+    ! Tuned [pixels]: of a picture: its width, margins, ticks, and how far numbers and names of an
+    ! axis are from it. Origin: chosen: a picture.
+    real(wp), parameter :: width = 900.0_wp, left = 80.0_wp, right = 20.0_wp, tick = 5.0_wp, &
+                           below = 15.0_wp, beside = 6.0_wp, far_below = 32.0_wp
+    ! Tuned [ticks]: the most of an axis. Origin: chosen: a picture.
     integer, parameter :: most_ticks = 9
+    ! Given: round steps are 1, 2, 5, 10.
+    real(wp), parameter :: five = 5.0_wp, ten = 10.0_wp
 
 contains
 
@@ -71,7 +78,7 @@ contains
             if (at > maxval(panel%x)) exit
             call put_line(writer, line_of(across(panel, at), panel%top + panel%height, &
                                           across(panel, at), panel%top + panel%height - tick))
-            call put_text(writer, across(panel, at), panel%top + panel%height + 15.0_wp, 'middle', &
+            call put_text(writer, across(panel, at), panel%top + panel%height + below, 'middle', &
                           short(at, step))
             at = at + step
         end do
@@ -80,10 +87,10 @@ contains
         do i = 1, most_ticks + 1
             if (at > maxval(panel%y)) exit
             call put_line(writer, line_of(left, up(panel, at), left + tick, up(panel, at)))
-            call put_text(writer, left - 6.0_wp, up(panel, at) + 4.0_wp, 'end', short(at, step))
+            call put_text(writer, left - beside, up(panel, at) + 4.0_wp, 'end', short(at, step))
             at = at + step
         end do
-        call put_text(writer, 0.5_wp*(left + width - right), panel%top + panel%height + 32.0_wp, &
+        call put_text(writer, 0.5_wp*(left + width - right), panel%top + panel%height + far_below, &
                       'middle', trim(panel%x_name))
         call put_line(writer, '<text transform="translate(16,' // &
                       pixel(panel%top + 0.5_wp*panel%height) // &
@@ -99,6 +106,7 @@ contains
         character(len=*), intent(in) :: color        !! of SVG
         logical, intent(in) :: dashed                !! else solid
 
+        ! Tuned [characters]: of a line of points. Origin: capacity.
         integer, parameter :: longest = 400
         character(len=:), allocatable :: points
         integer :: i, n
@@ -190,13 +198,13 @@ contains
 
         least = abs(range(2) - range(1))/most_ticks
         power = floor(log10(least))
-        step = 10.0_wp**power
+        step = ten**power
         if (step*2.0_wp >= least) then
             if (step < least) step = 2.0_wp*step
-        else if (step*5.0_wp >= least) then
-            step = 5.0_wp*step
+        else if (step*five >= least) then
+            step = five*step
         else
-            step = 10.0_wp*step
+            step = ten*step
         end if
     end function tick_step
 

@@ -25,6 +25,7 @@ contains
         integer(int64) :: rate
 
         call system_clock(count_rate=rate)
+        ! Given: us.
         microseconds = 1.0e6_wp*real(to - from, wp)/real(rate, wp)
     end function microseconds
 
@@ -32,7 +33,7 @@ contains
     !> not count.
     real(wp) function cpu_microseconds() result(time)
         call cpu_time(time)
-        time = 1.0e6_wp*time
+        time = 1.0e6_wp*time ! Given: us
     end function cpu_microseconds
 
     !> The middle value of a list, the mean of the middle two; zero for none.

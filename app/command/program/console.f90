@@ -19,9 +19,9 @@ module faststrip_command_program_console
     public :: name_program, program_name, version_text, put_origin, printable
     public :: exit_bad_input, exit_usage, exit_no_convergence
 
-    integer, parameter :: exit_bad_input = 1
-    integer, parameter :: exit_usage = 2
-    integer, parameter :: exit_no_convergence = 3
+    !> Exit codes.
+    !> Given: numbers that scripts know.
+    integer, parameter :: exit_bad_input = 1, exit_usage = 2, exit_no_convergence = 3
 
     ! Which of the two programs speaks.
     character(len=16) :: speaker = 'faststrip'
@@ -144,6 +144,7 @@ contains
     subroutine note(text)
         character(len=*), intent(in) :: text !! what to say
 
+        ! Tuned [characters]: of a line to people. Origin: capacity.
         integer, parameter :: longest = 2000
 
         if (len(text) > longest) then

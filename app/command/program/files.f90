@@ -24,8 +24,9 @@ module faststrip_command_program_files
         character(len=:), allocatable :: words !! one line
     end type trouble_t
 
-    ! A named pipe into which nobody writes would be waited for without end.
-    integer, parameter :: patience = 5 ! s
+    ! Tuned [s]: a named pipe into which nobody writes would be waited for without end. Origin:
+    ! chosen.
+    integer, parameter :: patience = 5
 
     !> A file of this run.
     type :: used_t

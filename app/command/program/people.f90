@@ -49,6 +49,7 @@ module faststrip_command_program_people
 
     ! Given: significant digits that people read, and between which powers of ten without exponent.
     integer, parameter :: digits = 4
+    ! Given: the same.
     real(wp), parameter :: least_plain = 1.0e-4_wp, most_plain = 1.0e7_wp
     ! Between two columns.
     character(len=*), parameter :: between = '  '

@@ -12,12 +12,10 @@ module faststrip_command_program_system
     public :: is_terminal, make_folders, new_folder, remove_folder
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
-    ! Kinds of files, as `system.c` numbers them.
-    integer, parameter :: kind_none = 0
-    integer, parameter :: kind_file = 1
-    integer, parameter :: kind_folder = 2
-    integer, parameter :: kind_pipe = 3
-
+    !> Kinds of files.
+    !> Given: as `system.c` numbers them.
+    integer, parameter :: kind_none = 0, kind_file = 1, kind_folder = 2, kind_pipe = 3
+    ! Given: PATH_MAX of Linux.
     integer, parameter :: longest_path = 4096
 
     !> What tells a file from all others, whatever its name.

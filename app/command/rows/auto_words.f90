@@ -61,6 +61,7 @@ contains
         real(wp), intent(in) :: value
         character(len=24) :: text
 
+        ! Given: between which numbers people read them without exponent.
         real(wp), parameter :: least_plain = 1.0e-6_wp, most_plain = 10.0_wp
         character(len=24) :: buffer, form
 

@@ -131,6 +131,7 @@ contains
         call put_wear_source(writer, case)
         call put_budget_note(writer, case)
         if (case%smoothing <= 0.0_wp) return
+        ! Given: um.
         call put_comment(writer, 'gap smoothed for a noise of ' &
                          // trim(number_text(1.0e3_wp*case%smoothing)) &
                          // ' um, rms; gap_change_um is by how much it changed, rms')

@@ -19,6 +19,7 @@ module faststrip_command_settings_friction
     !> The columns that a table may have for it.
     character(len=*), parameter :: friction_columns(5) = [character(len=20) :: &
         'friction_kind', falling_settings(2:)%key]
+    ! Given: of `friction_columns`.
     integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5
 
 contains

@@ -15,7 +15,7 @@ module faststrip_command_settings_methods
 
     public :: settings_t, put_setting, settle_wanted, in_core
 
-    ! Millimetres of a micrometre.
+    ! Given: millimetres of a micrometre.
     real(wp), parameter :: mm_per_um = 1.0e-3_wp
 
     !> A contact's case with what only people give, or need to be told.

@@ -77,7 +77,7 @@ contains
         character(len=*), intent(in) :: key               !! name in a case file
         type(value_t), intent(in) :: value                !! as the table of settings allows it
 
-        ! The first of two words is +1, the second -1.
+        ! Given: the first of two words is +1, the second -1.
         integer, parameter :: sense(0:2) = [0, 1, -1]
 
         if (.not. value%is_given) return

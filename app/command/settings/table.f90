@@ -24,12 +24,15 @@ module faststrip_command_settings_table
     public :: no_fault, wrong_kind, out_of_range
 
     !> What a value is: a text, a file, one of some words, a whole number, a number, numbers, yes.
+    !> Given: numbers of kinds.
     integer, parameter :: a_text = 1, a_path = 2, a_word = 3, a_whole = 4, a_number = 5, &
                           a_list = 6, a_flag = 7
     !> Where numbers must lie; all must be finite.
+    !> Given: numbers of kinds.
     integer, parameter :: anywhere = 0, above_0 = 1, from_0 = 2, below_half = 3, up_to_1 = 4, &
                           a_slope = 5
     !> What is wrong with a value: not of its kind, or not in its range.
+    !> Given: numbers of kinds.
     integer, parameter :: no_fault = 0, wrong_kind = 1, out_of_range = 2
 
     !> What norm starts from, `start_coarse` and `start_strips`: a coarser grid, which gives errors
@@ -38,7 +41,7 @@ module faststrip_command_settings_table
     ! What the user may ask for.
     ! Tuned [elements]. Origin: capacity: 10 GB of memory.
     integer, parameter :: most_elements = 20000000
-    ! Tuned [shifts]. Origin: capacity.
+    ! Tuned [shifts]: of a sweep. Origin: capacity.
     integer, parameter :: most_shifts = 1000
 
     character, parameter :: newline = new_line('a')
@@ -263,6 +266,7 @@ module faststrip_command_settings_table
                   most=most_shifts)]
 
     !> How many numbers a state has.
+    !> Given: as many as rows.
     integer, parameter :: n_state = 25
 
     ! The numbers of a state in the order of `take_state`, after the side.

@@ -257,7 +257,7 @@ contains
                 call put_cell(writer, basis_word(row%basis))
                 call put_cell(writer, row%degree)
                 call put_cell(writer, row%max_rel_err)
-                call put_cell(writer, 10.0_wp**row%max_at)
+                call put_cell(writer, 10.0_wp**row%max_at) ! Given: a decimal logarithm
                 call put_cell(writer, row%rms_rel_err)
                 call put_cell(writer, fit_word(fit))
                 call put_cell(writer, audit%fresh%max_rel_err)
@@ -304,6 +304,7 @@ contains
         n_misprints = 0
         do i = 1, size(audits)
             associate (audit => audits(i), row => audits(i)%row)
+                ! Given: a decimal logarithm.
                 write (line, '(i5, 3(1x, a), 1x, a, 1x, es9.1)') row%n, percent(row%max_rel_err), &
                     short(10.0_wp**row%max_at), percent(row%rms_rel_err), &
                     percent(audit%fresh%max_rel_err), audit%residual_max
@@ -321,6 +322,7 @@ contains
             end associate
         end do
         i = maxloc(audits%row%max_rel_err, dim=1)
+        ! Given: a decimal logarithm.
         call tell(to_stderr, 'worst: n = ' // integer_text(audits(i)%row%n) // ' with ' &
                   // trim(adjustl(percent(audits(i)%row%max_rel_err))) // ' at b = ' &
                   // trim(adjustl(short(10.0_wp**audits(i)%row%max_at))))
@@ -348,12 +350,15 @@ contains
         real(wp), intent(in) :: value
         character(len=8) :: text
 
-        if (abs(value) >= 100.0_wp .or. (abs(value) < 1.0e-4_wp .and. abs(value) > 0.0_wp)) then
-            write (text, '(es7.0, "%")') 100.0_wp*value
+        ! Given: the unit, and between which numbers people read them without exponent.
+        real(wp), parameter :: whole = 100.0_wp, most_plain = 100.0_wp, least_plain = 1.0e-4_wp
+
+        if (abs(value) >= most_plain .or. (abs(value) < least_plain .and. abs(value) > 0.0_wp)) then
+            write (text, '(es7.0, "%")') whole*value
         else if (abs(value) >= 1.0_wp) then
-            write (text, '(f7.1, "%")') 100.0_wp*value
+            write (text, '(f7.1, "%")') whole*value
         else
-            write (text, '(f7.3, "%")') 100.0_wp*value
+            write (text, '(f7.3, "%")') whole*value
         end if
     end function percent
 

@@ -23,7 +23,7 @@ contains
         integer, intent(in) :: n !! distance of the strips in strips, 0 to 20
 
         row%n = n
-        row%degree = 6
+        row%degree = 6 ! Given: of Table 1
         row%c(:6) = published_coefficients(6:0:-1, n)
     end function published_row
 
@@ -32,6 +32,7 @@ contains
         character(len=*), intent(in) :: path !! file, or - for stdout
         integer, intent(in) :: n(:)          !! strip distances; from 21 on nothing is published
 
+        ! Given: L from -4 to 3.
         integer, parameter :: first = -400, last = 300
         type(csv_writer_t) :: writer
         type(status_t) :: status
@@ -49,13 +50,14 @@ contains
         do i = 1, size(n)
             if (n(i) <= table_last_distance) row = published_row(n(i))
             do j = first, last
-                l = 0.01_wp*j
-                b = 10.0_wp**l
+                l = 0.01_wp*j ! Given: steps of L
+                b = 10.0_wp**l ! Given: a decimal logarithm
                 call put_cell(writer, n(i))
                 call put_cell(writer, l)
                 call put_cell(writer, b)
                 call put_cell(writer, strip_influence(n(i), b))
                 if (n(i) <= table_last_distance) then
+                    ! Given: as published.
                     call put_cell(writer, 2.0_wp*10.0_wp**polynomial_value(row%basis, row%c(:6), &
                                                                            -2.0_wp, 1.0_wp, l))
                     call put_cell(writer, row_relative_error(row, l))

@@ -14,7 +14,8 @@ module faststrip_command_table_files
 
     public :: write_table, basis_word, quantity_word, fit_word, most_array_rows
 
-    !> The most rows a Fortran include can hold within the language's 255 continuation lines.
+    !> The most rows a Fortran include can hold.
+    !> Given: within the language's 255 continuation lines.
     integer, parameter :: most_array_rows = 500
 
 contains
@@ -291,6 +292,7 @@ contains
 
         character(len=20) :: buffer
 
+        ! Given: people read larger numbers with exponent.
         if (abs(value) < 1.0e4_wp) then
             write (buffer, '(f12.4)') value
         else

@@ -22,7 +22,8 @@ module faststrip_command_table_integral
 
     public :: run_integral
 
-    !> Beyond this b and X off the centre line are refused: products would overflow.
+    !> Tuned [1]: beyond this b and X off the centre line are refused. Origin: safeguard: products
+    !> would overflow.
     real(wp), parameter :: largest = 1.0e100_wp
 
 contains

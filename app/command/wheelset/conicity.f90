@@ -30,9 +30,9 @@ module faststrip_command_wheelset_conicity
     ! A step counts to the last amplitude if it misses it by less than this part of a step.
     ! Tuned [1]. Origin: chosen; rounding of decimals.
     real(wp), parameter :: step_slack = 1.0e-9_wp
-    ! More amplitudes than this are a slip of the step.
+    ! Tuned [amplitudes]: more than this are a slip of the step. Origin: safeguard.
     integer, parameter :: most_amplitudes = 1000000
-    ! The same of shifts to one side.
+    ! Tuned [shifts]: the same of shifts to one side. Origin: safeguard.
     integer, parameter :: most_shifts = 100000
     ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
     ! Tuned [mm]. Origin: chosen.

@@ -116,7 +116,7 @@ contains
         call put_cell(writer, side)
         call put_cell(writer, 0)
         call put_cell(writer, word)
-        do i = 5, size(names) - 2
+        do i = 5, size(names) - 2 ! Given: behind the four above
             call put_cell(writer, '')
         end do
         call put_cell(writer, message)

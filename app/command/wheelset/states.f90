@@ -16,12 +16,12 @@ module faststrip_command_wheelset_states
     public :: given_state_t, state_columns_t
     public :: find_state_columns, read_state_row, take_state
 
-    integer, parameter :: n_needed = 6 ! numbers whose columns a table must have: the first
-    ! Where the numbers are.
+    ! Numbers whose columns a table must have: the first; those of a rail; where they are.
+    ! Given: of `state_names`.
+    integer, parameter :: n_needed = 6, n_rail = 6
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
                           at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20]
-    integer, parameter :: n_rail = 6 ! numbers of a rail
 
     !> A state as it was given.
     type :: given_state_t

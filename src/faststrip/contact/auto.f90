@@ -18,7 +18,7 @@ module faststrip_contact_auto
                                      st_bad_argument, st_workspace_too_small, st_more_strips, &
                                      st_fewer_strips
     use faststrip_normal_estimate_errors, only: normal_errors_t
-    use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch
+    use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch, usual_strips
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
     use faststrip_contact_case, only: contact_case_t
@@ -43,11 +43,9 @@ module faststrip_contact_auto
     integer, parameter :: most_own_steps = 8
     ! Tuned [strips]: Strips that find the patches. Origin: time: fewer are no cheaper.
     integer, parameter :: first_strips = 5
-    ! Tuned [strips]: Strips of a Hertz ellipse, which cost next to nothing. Origin: as
-    ! strips_per_patch.
-    integer, parameter :: hertz_strips = 15
-    ! Tuned [points]: Least points along a strip. Origin: as points_per_strip; they are cheap.
-    integer, parameter :: least_points = 15
+    ! Strips of a Hertz ellipse, which cost next to nothing; least points along a strip, which are
+    ! cheap.
+    integer, parameter :: hertz_strips = usual_strips, least_points = usual_strips
     ! Tuned [power]: Power of the number of strips by which estimates fall, where nothing else is
     ! known, and its bounds where two steps tell it. Origin: measured on 200 contacts, 5 to 31
     ! strips: 1.9 for pmax, 2.1 for the penetration, 1.7 for the area; next to none at kinks.

@@ -4,6 +4,7 @@ module faststrip_contact_methods
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument
     use faststrip_normal_strip, only: strips_auto
+    use faststrip_normal_strips, only: usual_strips
     use faststrip_tangential_types, only: most_points
     implicit none
     private
@@ -155,10 +156,9 @@ module faststrip_contact_methods
     type :: contact_methods_t
         integer :: normal = normal_strip             !! one of the `normal_` numbers
         integer :: tangential = tangential_faststrip !! one of the `tangential_` numbers
-        ! Tuned [strips]. Origin: see strip_options_t.
-        integer :: strips_per_patch = 15 !! strips across the largest patch, or `strips_auto`
-        ! Tuned [points]. Origin: see faststrip_tangential_faststrip.
-        integer :: points_per_strip = 15 !! points along a strip, faststrip...
+        integer :: strips_per_patch = usual_strips
+            !! strips across the largest patch, or `strips_auto`
+        integer :: points_per_strip = usual_strips !! points along a strip, faststrip...
         ! Tuned [points]. Origin: chosen.
         integer :: fastsim_nx = 50       !! points along a row, fastsim...
         ! Tuned [rows]. Origin: as fastsim_nx.

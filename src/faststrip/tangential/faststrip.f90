@@ -77,7 +77,7 @@ module faststrip_tangential_faststrip
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
     use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
@@ -99,9 +99,8 @@ module faststrip_tangential_faststrip
 
     public :: faststrip_tangential_solve, default_points, most_points
 
-    !> Points along each strip by default.
-    !> Tuned [points]. Origin: as many as strips.
-    integer, parameter :: default_points = 15
+    !> Points along each strip by default: as many as strips.
+    integer, parameter :: default_points = usual_strips
     ! Tuned [1]: Times that forces of several patches are found before those that count. Origin:
     ! measured: one less errs by half as much again, one more changes next to nothing.
     integer, parameter :: coupling_passes = 2

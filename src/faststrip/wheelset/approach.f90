@@ -25,7 +25,7 @@ module faststrip_wheelset_approach
     ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
     ! near_enough.
     real(wp), parameter :: telling = 1.0e-6_wp
-    ! Tuned [steps]. Origin: capacity; five are usual.
+    ! Tuned [steps]: of a search. Origin: capacity; five are usual.
     integer, parameter :: most_steps = 60
     ! Tuned [N/mm**1.5]: force over the approach to 3/2, for a first guess. Origin: a steel wheel of
     ! 460 mm on a rail of 300 mm.
@@ -40,9 +40,11 @@ module faststrip_wheelset_approach
         real(wp) :: approach = 0.0_wp      !! next one, mm
         logical :: goes_on = .true.        !! is another force wanted?
         real(wp) :: load = 0.0_wp          !! N
+        ! Given: none so far.
         real(wp) :: misfit = huge(1.0_wp)  !! smallest so far, of the load
         real(wp) :: best = 0.0_wp          !! approach of it, mm
         real(wp) :: low = 0.0_wp           !! too small, mm
+        ! Given: none so far.
         real(wp) :: high = huge(1.0_wp)    !! too large, mm
         real(wp) :: before = 0.0_wp        !! the last approach, mm
         real(wp) :: root_before = 0.0_wp   !! its force to 2/3

@@ -20,7 +20,7 @@ module faststrip_wheelset_balance
     ! Tuned [1]: equilibrium of two wheels, of the load. Origin: above the digits of a contact's
     ! solution.
     real(wp), parameter :: exact = 9.0e-11_wp
-    ! Tuned [steps]. Origin: capacity; five are usual.
+    ! Tuned [steps]: to the balance. Origin: capacity; five are usual.
     integer, parameter :: most_steps = 80
     ! Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp

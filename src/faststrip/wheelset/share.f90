@@ -24,7 +24,7 @@ module faststrip_wheelset_share
     real(wp), parameter :: near_a_jump = 1.0e-3_wp
     ! Tuned [1]: a bracket of the share that is closed. Origin: chosen: below near_enough.
     real(wp), parameter :: least_bracket = 1.0e-7_wp
-    ! Tuned [steps]. Origin: capacity; four are usual.
+    ! Tuned [steps]: to the share. Origin: capacity; four are usual.
     integer, parameter :: most_steps = 40
     ! Tuned [steps]: then halves. Origin: chosen: a moment that jumps is no straight line.
     integer, parameter :: most_secants = 8

@@ -24,8 +24,10 @@ module faststrip_wheelset_types
     !> Given: numbers of kinds.
     integer, parameter :: demand_position = 0
     !> Each wheel asked for has its own vertical force, with a z of its own; roll is the state's.
+    !> Given: a number of kinds.
     integer, parameter :: demand_loads = 1
     !> Both wheels carry the axle load together; z, and roll if it is free, are found.
+    !> Given: a number of kinds.
     integer, parameter :: demand_axle_load = 2
 
     !> Most contacts of one wheel.

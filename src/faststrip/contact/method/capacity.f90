@@ -6,7 +6,7 @@ module faststrip_contact_method_capacity
     use faststrip_base_status, only: status_t, set_status, is_error, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: reserve_gap_curve
     use faststrip_normal_strip, only: reserve_strip_workspace, strips_auto, strips_auto_most
-    use faststrip_normal_strips, only: reserve_strips
+    use faststrip_normal_strips, only: reserve_strips, usual_strips
     use faststrip_tangential_types, only: reserve_strip_forces
     use faststrip_contact_method, only: normal_method_t, workspace_t
     use faststrip_contact_methods, only: contact_methods_t, normal_auto
@@ -17,9 +17,6 @@ module faststrip_contact_method_capacity
     public :: per_point, per_strip
     public :: strip_capacity, check_capacity, ellipse_strips, reserve_for_strips, try_memory
 
-    ! Strips of Hertz, KPEC and ANALYN where the number is left to the solver.
-    ! Tuned [strips]. Origin: as strips_per_patch.
-    integer, parameter :: auto_ellipse_strips = 15
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
     !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip.
@@ -132,6 +129,6 @@ contains
         type(contact_methods_t), intent(in) :: methods !! their number, or `strips_auto`
 
         n = methods%strips_per_patch
-        if (n == strips_auto) n = auto_ellipse_strips
+        if (n == strips_auto) n = usual_strips
     end function ellipse_strips
 end module faststrip_contact_method_capacity

@@ -11,7 +11,7 @@
 !>     give_up   a limit was met; the best converged pass counts if its ends moved little
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strips, only: contact_strips_t, usual_strips
     use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, settle_at_once, &
                                               max_factorings, few_factorings
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
@@ -85,10 +85,8 @@ module faststrip_normal_strip_settle
 
     !> What a level is asked for.
     type :: level_t
-        ! Tuned [strips]. Origin: as that of `strip_options_t`.
-        integer :: strips_per_patch = 15  !! of the widest patch
-        ! Tuned [strips]. Origin: as that of `strip_options_t`.
-        integer :: most_strips = 15       !! of all levels, for the limit of the work
+        integer :: strips_per_patch = usual_strips !! of the widest patch
+        integer :: most_strips = usual_strips      !! of all levels, for the limit of the work
         ! Tuned [1]. Origin: far below the errors of any number of strips.
         real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
