@@ -11,7 +11,7 @@ module faststrip_tabulate_family
     implicit none
     private
 
-    public :: family_t, sampled_axis_t, judged_t, note_failure
+    public :: family_t, sampled_axis_t, judged_t, note_failure, keep_quiet
 
     !> The most numbers of a state, sums of a state, errors of a table.
     !> Given: the largest of the families.
@@ -192,15 +192,33 @@ module faststrip_tabulate_family
             type(lookup_t), intent(inout) :: lookup
         end subroutine keep_i
 
-        function describe_i(self, lookup) result(text)
+        ! No function: for the length of its result gfortran keeps a variable that threads share.
+        subroutine describe_i(self, lookup, text)
             import :: family_t, lookup_t
             class(family_t), intent(in) :: self
             type(lookup_t), intent(in) :: lookup
-            character(len=:), allocatable :: text
-        end function describe_i
+            character(len=:), allocatable, intent(out) :: text
+        end subroutine describe_i
     end interface
 
 contains
+
+    !> Nobody is told how far work is, nor what is of note.
+    subroutine keep_quiet(family)
+        class(family_t), intent(inout) :: family !! `progress` and `note` may be set afterwards
+
+        family%progress => pass_over_progress
+        family%note => pass_over_note
+    end subroutine keep_quiet
+
+    subroutine pass_over_progress(what, done, total)
+        character(len=*), intent(in) :: what
+        integer, intent(in) :: done, total
+    end subroutine pass_over_progress
+
+    subroutine pass_over_note(text)
+        character(len=*), intent(in) :: text
+    end subroutine pass_over_note
 
     !> Keep the failure of the first of many solutions that threads share.
     subroutine note_failure(i, found, first, status)

@@ -14,7 +14,7 @@ module faststrip_tabulate_forces
     private
 
     public :: choice_t, solve_forces
-    public :: force_methods, by_faststrip, by_fastsim, by_tang, by_auto
+    public :: force_methods, by_fastsim
 
     !> Methods, by their numbers.
     !> Given: places in the list of names.

@@ -17,7 +17,7 @@ module faststrip_tabulate_hertz
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
     use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz
     use faststrip_normal_simple_hertz, only: hertz_t
-    use faststrip_tabulate_family, only: family_t, sampled_axis_t, judged_t
+    use faststrip_tabulate_family, only: family_t, sampled_axis_t, judged_t, keep_quiet
     use faststrip_tabulate_forces, only: choice_t, solve_forces
     use faststrip_tabulate_parts, only: forget_values
     use faststrip_tabulate_points, only: scattered_point
@@ -92,15 +92,16 @@ contains
 
     !> Make the family ready to solve.
     subroutine make_hertz_family(choice, threads, ends, family, status)
-        type(choice_t), intent(in) :: choice               !! checked: how forces are solved
+        type(choice_t), intent(in) :: choice               !! how forces are solved, checked
         integer, intent(in) :: threads                     !! that solve, >= 1
         real(wp), intent(in) :: ends(2)                    !! least and largest ln(a/b)
-        type(hertz_family_t), intent(inout) :: family      !! for `release_hertz_family`
+        type(hertz_family_t), intent(inout) :: family      !! for `release_hertz_family`; quiet
         type(status_t), intent(out) :: status              !! those of `reserve_workspace`
 
         integer :: i
 
         call clear_status(status)
+        call keep_quiet(family)
         family%choice = choice
         family%threads = threads
         family%ends = ends
@@ -360,14 +361,14 @@ contains
     end subroutine keep_errors
 
     !> Nodes in a few words.
-    function describe_hertz(self, lookup) result(text)
+    subroutine describe_hertz(self, lookup, text)
         class(hertz_family_t), intent(in) :: self !! does not matter
         type(lookup_t), intent(in) :: lookup      !! begun
-        character(len=:), allocatable :: text
+        character(len=:), allocatable, intent(out) :: text !! a few words
 
         text = integer_text(lookup%q%n) // ' x ' // integer_text(lookup%ratio%n) // '^2, a/b ' &
                // integer_text(lookup%shape%n)
-    end function describe_hertz
+    end subroutine describe_hertz
 
     ! Phi of a place, solved directly.
     subroutine phi_at(self, me, log_ratio, scale, face, q, s, t, phi, status)

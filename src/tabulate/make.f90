@@ -112,6 +112,7 @@ contains
         real(wp) :: limits(2), found(2), best(2), step(2)
         real(wp) :: bounds(family%n_errors, 2, family%n_kinds)
         integer :: round, k, before(family%n_axes)
+        character(len=:), allocatable :: shape
         logical :: are_same_places
 
         limits = error*family%shares
@@ -140,8 +141,9 @@ contains
             if (is_error(status)) return
             found = 0.0_wp
             found(:family%n_kinds) = maxval(bounds(:, order, :), dim=1)
+            call family%describe(begun, shape)
             if (family%n_kinds > 1) &
-                call family%note('round ' // integer_text(round) // ': ' // family%describe(begun) &
+                call family%note('round ' // integer_text(round) // ': ' // shape &
                                  // ', 99 % ' // trim(number_text(found(states_all))) &
                                  // ', where contacts come or go ' &
                                  // trim(number_text(found(states_changing))))

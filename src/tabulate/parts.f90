@@ -15,18 +15,9 @@ module faststrip_tabulate_parts
     implicit none
     private
 
-    public :: forget_values, take_values, is_solved, units_of, write_work, work_name
+    public :: forget_values, take_values, is_solved, units_of, write_work
 
 contains
-
-    !> The file of work that goes on; empty where the table is no ordinary file.
-    pure function work_name(path) result(name)
-        character(len=*), intent(in) :: path !! of the table
-        character(len=:), allocatable :: name
-
-        name = ''
-        if (index(path, '/dev/') /= 1) name = path // '.unfinished'
-    end function work_name
 
     !> A table of which nothing is solved.
     subroutine forget_values(lookup)

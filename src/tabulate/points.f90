@@ -5,10 +5,10 @@ module faststrip_tabulate_points
     implicit none
     private
 
-    public :: scattered_point, most_coordinates
+    public :: scattered_point
 
-    !> The most coordinates of a point.
-    !> Given: as many bases.
+    ! The most coordinates of a point.
+    ! Given: as many bases.
     integer, parameter :: most_coordinates = 9
     ! Given: the first primes.
     integer, parameter :: bases(most_coordinates) = [2, 3, 5, 7, 11, 13, 17, 19, 23]

@@ -24,7 +24,7 @@ module faststrip_tabulate_wheel
     use faststrip_tabulate_contacts, only: wheel_solver_t, found_contacts_t, make_wheel_solver, &
                                            release_wheel_solver, solve_place, solve_creep
     use faststrip_tabulate_family, only: family_t, sampled_axis_t, judged_t, note_failure, &
-                                         states_changing
+                                         keep_quiet, states_changing
     use faststrip_tabulate_forces, only: choice_t
     use faststrip_tabulate_hertz, only: hertz_family_t, make_hertz_family, release_hertz_family
     use faststrip_tabulate_parts, only: forget_values
@@ -122,14 +122,15 @@ contains
     !> Make the family ready to solve.
     subroutine make_wheel_family(model, choice, threads, limits, family, status)
         type(wheelset_model_t), intent(in) :: model       !! made; its right wheel counts
-        type(choice_t), intent(in) :: choice              !! checked: how forces are solved
+        type(choice_t), intent(in) :: choice              !! how forces are solved, checked
         integer, intent(in) :: threads                    !! that solve, >= 1
         type(wheel_limits_t), intent(in) :: limits        !! of the axes that are refined
-        type(wheel_family_t), intent(inout) :: family     !! for `release_wheel_family`
+        type(wheel_family_t), intent(inout) :: family     !! for `release_wheel_family`; quiet
         type(status_t), intent(out) :: status             !! of the library
 
         integer :: i
 
+        call keep_quiet(family)
         family%choice = choice
         family%threads = threads
         family%limits = limits
@@ -747,14 +748,14 @@ contains
     end subroutine keep_errors
 
     !> Nodes in a few words.
-    function describe_wheel(self, lookup) result(text)
+    subroutine describe_wheel(self, lookup, text)
         class(wheel_family_t), intent(in) :: self !! does not matter
         type(lookup_t), intent(in) :: lookup      !! begun
-        character(len=:), allocatable :: text
+        character(len=:), allocatable, intent(out) :: text !! a few words
 
         text = integer_text(lookup%q%n) // ' x ' // integer_text(lookup%ratio%n) // '^2, y ' &
                // integer_text(lookup%wheel%y%n) // ', yaw ' // integer_text(lookup%wheel%yaw%n) &
                // ', load ' // integer_text(lookup%wheel%load%n) // ', ' &
                // integer_text(lookup%wheel%sets) // ' contacts'
-    end function describe_wheel
+    end subroutine describe_wheel
 end module faststrip_tabulate_wheel

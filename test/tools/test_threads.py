@@ -9,12 +9,11 @@ from harness import ROOT
 # Rooms of which a host's threads may call all there is. The C library for NetCDF serves one thread.
 ROOMS = [path for path in sorted((ROOT / "src").iterdir())
          if path.is_dir() and path.name not in ("build", "netcdf")]
-# What the threads of a batch, of a sweep and of tables run.
+# What the threads of a batch and of a sweep run; those of tables run what is in src/tabulate.
 THREADED = [ROOT / "app/command" / f"{name}.f90" for name in (
     "batch/rows", "settings/friction", "settings/table", "batch/gap_cache", "batch/worker",
     "contact/solver", "contact/prepared_case", "rows/auto_words", "rows/result_csv",
-    "rows/wear_figures", "lookup/direct", "lookup/fill", "lookup/grid", "lookup/wheel/solver",
-    "lookup/wheel/fill", "lookup/wheel/grid", "lookup/wheel/judge")]
+    "rows/wear_figures")]
 FUNCTION = re.compile(
     r"^ *(?:(?:pure|elemental|recursive|impure) +)*function +(?P<name>\w+) *\([^)]*\)"
     r"(?: *result *\((?P<result>\w+)\))?(?P<body>.*?)^ *end function", re.MULTILINE | re.DOTALL)

@@ -11,7 +11,7 @@ module faststrip_command_lookup_file
     implicit none
     private
 
-    public :: read_table, write_table, take_work
+    public :: read_table, write_table, work_name, take_work
 
 contains
 
@@ -41,6 +41,15 @@ contains
         call write_bytes(path, bytes, status)
         call fail_on_error(status)
     end subroutine write_table
+
+    !> The file of work that goes on; empty where the table is no ordinary file.
+    pure function work_name(path) result(name)
+        character(len=*), intent(in) :: path !! of the table
+        character(len=:), allocatable :: name
+
+        name = ''
+        if (index(path, '/dev/') /= 1) name = path // '.unfinished'
+    end function work_name
 
     !> Look at the file of work that goes on. What is there must be unfinished work, which is taken
     !> if it is wanted.

@@ -7,7 +7,7 @@ module faststrip_command_lookup_make
                                                  note, progress, exit_bad_input
     use faststrip_command_program_files, only: take_beside
     use faststrip_command_lookup_case, only: read_wheel_case, wheel_text
-    use faststrip_command_lookup_file, only: read_table, write_table, take_work
+    use faststrip_command_lookup_file, only: read_table, write_table, work_name, take_work
     use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
                                                 take_ends, choice_text
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
@@ -22,7 +22,6 @@ module faststrip_command_lookup_make
     use faststrip_tabulate_hertz, only: hertz_family_t, make_hertz_family, release_hertz_family
     use faststrip_tabulate_judge, only: judge_table
     use faststrip_tabulate_make, only: begin_table, solve_units, make_refined, first_seed
-    use faststrip_tabulate_parts, only: work_name
     use faststrip_tabulate_scatter, only: least_drawn
     use faststrip_tabulate_wheel, only: wheel_family_t, wheel_limits_t, make_wheel_family, &
                                         release_wheel_family
@@ -91,8 +90,8 @@ contains
         if (choice%nu >= 0.5_wp) &
             call refuse_value(command, '--nu', 'a number of at least 0 and below 0.5')
         call take_range(command, ends)
-        call read_nodes(command, [character(len=7) :: '--ab', '--error', '--nu'], &
-                        lookup_kind_hertz, 'a table of ellipses', other)
+        call check_nodes(command, [character(len=7) :: '--ab', '--error', '--nu'])
+        call read_nodes(command, lookup_kind_hertz, 'a table of ellipses', other)
         if (given(command, '--axes-of')) choice%nu = other%nu
         call make_hertz_family(choice, take_threads(command), ends, family, status)
         call fail_on_error(status)
@@ -145,9 +144,9 @@ contains
         call take_ends(command, '--load', '40000:120000', limits%ends(:, 3), above=0)
         limits%least = [option_number(command, '--least-step', usual_step, above=0), &
                         least_yaw, least_load*limits%ends(2, 3)]
-        call read_nodes(command, [character(len=7) :: '--y', '--load', '--yaw', '--error'], &
-                        lookup_kind_wheel, 'a table of a wheel', other)
+        call check_nodes(command, [character(len=7) :: '--y', '--load', '--yaw', '--error'])
         call read_wheel_case(command%arguments(1)%text, model)
+        call read_nodes(command, lookup_kind_wheel, 'a table of a wheel', other)
         call make_wheel_family(model, choice, take_threads(command), limits, family, status)
         call fail_on_error(status)
         call make_table(command, family, wheel_text(command%arguments(1)%text) &
@@ -166,13 +165,10 @@ contains
             call take_beside(work_name(option_text(command, '-o', '')), '-o')
     end subroutine check_output
 
-    ! The table whose nodes are taken, if there is one, with options that do not go with it.
-    subroutine read_nodes(command, others, kind, what, other)
+    ! Options that do not go with the nodes of another table, or only with them.
+    subroutine check_nodes(command, others)
         type(command_t), intent(in) :: command
         character(len=*), intent(in) :: others(:)
-        integer, intent(in) :: kind
-        character(len=*), intent(in) :: what
-        type(lookup_t), intent(out) :: other
 
         character(len=:), allocatable :: list
         integer :: i
@@ -191,6 +187,16 @@ contains
             if (given(command, trim(others(i)))) &
                 call usage_error('--axes-of must not be given with ' // list, command%name)
         end do
+    end subroutine check_nodes
+
+    ! The table whose nodes are taken, if there is one.
+    subroutine read_nodes(command, kind, what, other)
+        type(command_t), intent(in) :: command
+        integer, intent(in) :: kind
+        character(len=*), intent(in) :: what
+        type(lookup_t), intent(out) :: other
+
+        if (.not. given(command, '--axes-of')) return
         call read_table(option_text(command, '--axes-of', ''), other)
         if (other%kind /= kind) &
             call fail(exit_bad_input, 'must be ' // what // ' (' &

@@ -43,8 +43,8 @@
 !> ERR(3) estimated relative error of the area
 !> ERR(4) largest gap left inside, over the depth
 !> ERR(5) largest overlap outside, over the depth
-!> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of equal ellipses or by FSLIMT
-!>        The depth is D - h_lowest, below the lowest point of the gap.
+!> ERR(6) 1: ERR(1) to ERR(5) are known; 0: they are zero, of equal ellipses or by FSLIMT; the
+!>        depth is D - h_lowest, below the lowest point of the gap
 !> ERR(7) strips across the patch that has most, 0: no strips
 !> FERR(1) estimated error of Fx over mu N
 !> FERR(2) estimated error of Fy over mu N
