@@ -10,8 +10,8 @@
  *
  * A workspace serves one thread at a time; different workspaces are independent. A pointer to a
  * workspace is a number of this library's, not an address: one that was freed, or never made, is
- * told (100) in every function, however often, and its memory is not touched. Outside of workspaces
- * the library remembers which of them are in use, and nothing else. faststrip_new and
+ * rejected (100) in every function, however often, and its memory is not touched. Outside of
+ * workspaces the library remembers which of them are in use, and nothing else. faststrip_new and
  * faststrip_copy allocate, faststrip_free frees, nothing else does (but the like of wheelsets,
  * faststrip_solve_many, faststrip_check_case, which tries, the words of an error, made with a
  * little memory of the Fortran run-time library, and the forces of a patch with a neck of more than
@@ -223,7 +223,7 @@ int faststrip_check_case(const faststrip_case *contact, int max_points, char *te
 int faststrip_new(const faststrip_case *contact, int max_points, faststrip_workspace **workspace);
 
 /* Free a workspace; *workspace becomes null. One that is null already is left alone; one that was
- * freed through another pointer is told (100). */
+ * freed through another pointer is rejected (100). */
 int faststrip_free(faststrip_workspace **workspace);
 
 /* Copy gap, solution and capacity of one workspace into another, for a step that may be taken
@@ -232,7 +232,7 @@ int faststrip_copy(const faststrip_workspace *from, faststrip_workspace *to);
 
 /* The gap of the undeformed bodies that the next solutions are for: h(x, y) = h(y) + x^2 inv2r(y),
  * 5 to max_points points, y strictly increasing, mm, mm, 1/mm. inclination says how far the
- * surfaces have turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is told;
+ * surfaces have turned from the tangent plane at y = 0, rad, by which FASTSTRIP_CONFORMAL is known;
  * null: not known. All numbers must be finite; they are copied. With more points than there is
  * capacity for (110) nothing is read. With an error the workspace keeps the gap that it had. */
 int faststrip_set_gap(faststrip_workspace *workspace, int n, const double *y, const double *h,
@@ -312,7 +312,7 @@ typedef struct faststrip_wear_law {
  * sqrt(fx^2 + fy^2)/load - 2 area yield_shear/(3 load), with the yield stress in cyclic shear, MPa,
  * 0 where that is 0, not known; wear by the law in ug and in mm^3 per metre rolled, 0 where it is
  * null. A law needs the forces of strips, of FASTSTRIP and FASTSTRIP_PLAIN, and is refused of other
- * methods (100); one that ends below the T gamma/A of a strip is told (109). With an error all
+ * methods (100); one that ends below the T gamma/A of a strip is rejected (109). With an error all
  * figures are zero. */
 int faststrip_get_wear(faststrip_workspace *workspace, const faststrip_wear_law *law,
                        double yield_shear, double figures[6]);
@@ -357,8 +357,8 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
 /* A wheelset on a track: from its position and velocity to the forces of every contact. x ahead, y
  * to the right, z down, in the track, in the wheelset and in the contacts of both sides, which are
  * turned about x by their contact angle. A wheelset has the rules of a workspace: one thread at a
- * time, freed ones are told, faststrip_wheelset_new allocates, solutions do not. The setup's size
- * stands for all structs of wheelsets. */
+ * time, freed ones are rejected, faststrip_wheelset_new allocates, solutions do not. The setup's
+ * size stands for all structs of wheelsets. */
 
 /* The rail inclination is the tangent of the angle by which a rail leans to the track's centre:
  * 0.025 for 1:40, 0 for points that lie as in the track. This stands where none was said: rails by
@@ -653,7 +653,7 @@ typedef struct faststrip_lookup faststrip_lookup;
 enum faststrip_lookup_order { FASTSTRIP_LINEAR = 1, FASTSTRIP_CUBIC = 3 };
 
 /* Open a table from the bytes of its file, which are copied and may go. What is damaged, cut or of
- * another version is told (121), in words too if text is not null. This allocates,
+ * another version is rejected (121), in words too if text is not null. This allocates,
  * faststrip_lookup_free frees; a null table is left alone. */
 int faststrip_lookup_open(const void *bytes, size_t length, faststrip_lookup **lookup, char *text,
                           size_t text_length);

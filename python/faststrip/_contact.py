@@ -85,7 +85,7 @@ MOST_STRIPS = 1000
 MOST_POINTS = 1000
 MOST_ROWS = 10000
 GAP_POINTS = 5, 1000000
-# Of auto, where neither tolerance nor budget is told.
+# Of auto, where neither tolerance nor budget is given.
 TOLERANCE = 0.02
 
 # From here on a call may take more than a tenth of a second on a slow machine, and is made so that
@@ -267,7 +267,7 @@ class Contact:
     Parameters
     ----------
     normal : str
-        A name of ``NORMAL``, where they are told in one line each. With ``auto`` both methods are
+        A name of ``NORMAL``, where each has a line. With ``auto`` both methods are
         as fine as their estimated errors ask, see `solve`.
     tangential : str
         A name of ``TANGENTIAL``; some give forces alone, no elements.
@@ -386,7 +386,7 @@ class Contact:
             1/(2 R) with the local radius R along x, 1/mm.
         inclination : array_like, shape (n,) or (), optional
             How far the surfaces have turned from the tangent plane at y = 0, rad, by which
-            conformal contacts are told.
+            conformal contacts are named.
         turn : array_like, optional
             Old name of inclination.
 

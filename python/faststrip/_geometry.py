@@ -33,7 +33,7 @@ class ContactFunctions(Table):
     radius_right, radius_left : ndarray of float, shape (n,)
         Rolling radii, mm.
     angle_right, angle_left : ndarray of float, shape (n,)
-        Contact angles, rad; what is of the left side is told in its mirror, here and below.
+        Contact angles, rad; what is of the left side is given in its mirror, here and below.
     roll : ndarray of float, shape (n,)
         Right wheel down, rad.
     y_wheel_right, y_rail_right, y_wheel_left, y_rail_left : ndarray of float, shape (n,)

@@ -119,7 +119,7 @@ class Solver:
         return made
 
     def solve(self, case: Case, axis: str = "cksi") -> Outcome:
-        """Everything of a case; errors of a method are told in its place."""
+        """Everything of a case; errors of a method stand in its place."""
         outcome = Outcome(case, axis=axis)
         pair = case.wheel, case.rail
         outcome.profiles = self._once("profiles", (*pair, case.inclination), lambda: (

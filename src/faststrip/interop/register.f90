@@ -1,7 +1,7 @@
 !> Which workspaces are in use: the one thing the library remembers outside of them.
 !>
 !> A handle is a number, not an address: a place in this register, and how often that place was
-!> given out. So a handle that was freed, or never made, is told without touching memory that is
+!> given out. So a handle that was freed, or never made, is found without touching memory that is
 !> no longer its own, and does not become another one's.
 !>
 !> Entering and leaving go one at a time, by a mutex that a fork waits for (in C beside this).

@@ -139,7 +139,7 @@ contains
         call c_f_pointer(statuses, many%statuses, [n])
         call c_f_pointer(gaps, many%gaps, [n_gaps])
         if (c_associated(gap_of)) call c_f_pointer(gap_of, many%gap_of, [n])
-        ! What cannot be a gap is told of its contacts.
+        ! What cannot be a gap is an error of its contacts.
         many%max_points = max(min_gap_points, &
                               maxval(many%gaps%n, many%gaps%n <= most_gap_points))
         many%chain = min(int(chain, c_size_t), n)

@@ -3,7 +3,7 @@
 !> INTEGER is four bytes, DOUBLE PRECISION eight; FSINTS tells a host that was compiled with others,
 !> and where IOPT shows it, it is refused. Names carry the trailing underscore most Fortran
 !> compilers add; the installed library has them without it too. A workspace is an INTEGER array
-!> `IWORK` of the caller (`FSINIT` with `LIWORK = -1` tells its length) that holds a handle: FSINIT
+!> `IWORK` of the caller (`FSINIT` with `LIWORK = -1` gives its length) that holds a handle: FSINIT
 !> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
 !> own. `INFO` is a code of `faststrip_base_status`: 0, below 100 a result with a named limitation
 !> (1 fallback_used, 2 edge_of_data, 3 fewer_strips, 4 overlap_left, 5 flat_along_x, 6 conformal, 7
