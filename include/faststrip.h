@@ -157,12 +157,12 @@ typedef struct faststrip_case {
 typedef struct faststrip_result {
     size_t size;            /* of this struct; set by faststrip_solve */
     double load;            /* normal load, N */
-    double penetration;     /* penetration, mm */
+    double penetration;     /* penetration, the approach from h = 0, mm */
     double area;            /* contact area, mm^2 */
     double pmax;            /* maximum pressure, MPa */
     double y_min;           /* least y of the contact, mm */
     double y_max;           /* largest y of the contact, mm */
-    double x_max;           /* largest half-length of the contact, mm */
+    double x_max;           /* largest half-length of the contact, along x, mm */
     double fx;              /* longitudinal force on the rail, N */
     double fy;              /* lateral force on the rail, in the contact plane, N */
     double mz;              /* moment on the rail about the reference point, N mm */

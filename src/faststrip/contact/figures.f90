@@ -36,12 +36,12 @@ module faststrip_contact_figures
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
         figure_t('load', 'N_N', meaning='normal load'), &
-        figure_t('penetration', 'penetration_mm', meaning='penetration'), &
+        figure_t('penetration', 'penetration_mm', meaning='penetration, the approach from h = 0'), &
         figure_t('area', 'area_mm2', meaning='contact area'), &
         figure_t('pmax', 'pmax_MPa', meaning='maximum pressure'), &
         figure_t('y_min', 'ymin_mm', meaning='least y of the contact'), &
         figure_t('y_max', 'ymax_mm', meaning='largest y of the contact'), &
-        figure_t('x_max', 'xmax_mm', meaning='largest half-length of the contact'), &
+        figure_t('x_max', 'xmax_mm', meaning='largest half-length of the contact, along x'), &
         figure_t('fx', 'Fx_N', needs='forces', meaning='longitudinal force on the rail'), &
         figure_t('fy', 'Fy_N', needs='forces', &
                  meaning='lateral force on the rail, in the contact plane'), &

@@ -25,12 +25,12 @@
 !> PAR(6) load, N, or penetration, mm                  PAR(7) longitudinal creepage
 !> PAR(8) lateral creepage                             PAR(9) spin, rad/mm
 !> RES(1) normal load, N
-!> RES(2) penetration, mm
+!> RES(2) penetration, the approach from h = 0, mm
 !> RES(3) contact area, mm^2
 !> RES(4) maximum pressure, MPa
 !> RES(5) least y of the contact, mm
 !> RES(6) largest y of the contact, mm
-!> RES(7) largest half-length of the contact, mm
+!> RES(7) largest half-length of the contact, along x, mm
 !> RES(8) longitudinal force on the rail, N
 !> RES(9) lateral force on the rail, in the contact plane, N
 !> RES(10) moment on the rail about the reference point, N mm
