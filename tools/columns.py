@@ -115,6 +115,8 @@ def of_python(rows, structs):
     found = {row["member"]: row for row in rows if row["member"]}
     for name, row in found.items():
         lines.append(f'    "{name}": ("{row["unit"] or 1}", "{row["what"]}"),')
+    lines += ["}", "", "# As people write units.", "PLAIN: Dict[str, str] = {"]
+    lines += [f'    "{unit}": "{plain}",' for unit, plain in PLAIN.items()]
     lines += ["}", "", "# What must be there for a figure to be known.",
               "NEEDS: Dict[str, str] = {"]
     lines += [f'    "{name}": "{row["needs"]}",' for name, row in found.items() if row["needs"]]

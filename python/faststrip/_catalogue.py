@@ -102,6 +102,18 @@ QUANTITIES: Dict[str, Tuple[str, str]] = {
     "nonlinearity_regression": ("mm-1", "nonlinearity of the conicity by linear regression"),
 }
 
+# As people write units.
+PLAIN: Dict[str, str] = {
+    "mm2": "mm^2",
+    "mm-1": "1/mm",
+    "mm s-1": "mm/s",
+    "rad mm-1": "rad/mm",
+    "N mm-2": "N/mm^2",
+    "ug m-1": "ug per metre",
+    "mm3 m-1": "mm^3 per metre",
+    "1": "",
+}
+
 # What must be there for a figure to be known.
 NEEDS: Dict[str, str] = {
     "est_err_target": "target",

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Dict, Iterator, Mapping, TypeVar
 
 import numpy as np
 
-from ._catalogue import QUANTITIES
+from ._catalogue import PLAIN, QUANTITIES
 from ._tables import dataset, frame
 
 Self = TypeVar("Self", bound="Record")
@@ -46,9 +46,6 @@ def _shown(value: Any) -> str:
 KINDS = {"float": "float", "int": "int", "Optional[float]": "float or None",
          "Array": "ndarray of float", "Whole": "ndarray of int32",
          "npt.NDArray[np.int32]": "ndarray of int32"}
-# As people write units.
-PLAIN = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
-         "N mm-2": "N/mm^2", "1": "", "": ""}
 
 
 def described(cls: type) -> Any:

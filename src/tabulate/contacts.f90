@@ -9,7 +9,6 @@ module faststrip_tabulate_contacts
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text, st_ok
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t
-    use faststrip_contact_methods, only: tangential_none
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_kalker_methods, only: kalker_methods_t, add_kalker, release_kalker
     use faststrip_lookup_faces, only: n_forces

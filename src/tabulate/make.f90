@@ -141,12 +141,13 @@ contains
             if (is_error(status)) return
             found = 0.0_wp
             found(:family%n_kinds) = maxval(bounds(:, order, :), dim=1)
-            call family%describe(begun, shape)
-            if (family%n_kinds > 1) &
+            if (family%n_kinds > 1) then
+                call family%describe(begun, shape)
                 call family%note('round ' // integer_text(round) // ': ' // shape &
                                  // ', 99 % ' // trim(number_text(found(states_all))) &
                                  // ', where contacts come or go ' &
                                  // trim(number_text(found(states_changing))))
+            end if
             if (is_better(found, best, error)) then
                 lookup = begun
                 best = found

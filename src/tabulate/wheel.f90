@@ -99,7 +99,6 @@ module faststrip_tabulate_wheel
         type(wheelset_model_t), private :: model
         type(hertz_family_t), private :: ellipses !! on which axes of creepages are refined
         real(wp), private :: shear = 0.0_wp       !! combined modulus, MPa
-        real(wp), private :: nu = 0.0_wp          !! combined Poisson's ratio
         type(set_source_t), allocatable, private :: sources(:)
         type(solver_place_t), allocatable, private :: solver(:)
     contains
@@ -138,8 +137,7 @@ contains
         family%model%case%methods%tangential = tangential_none
         family%model%case%estimate = .false.
         family%shear = combined_shear_modulus(model%case%material)
-        family%nu = combined_poisson_ratio(model%case%material)
-        family%choice%nu = family%nu
+        family%choice%nu = combined_poisson_ratio(model%case%material)
         family%n_axes = n_axes
         family%n_face_axes = n_face_axes
         family%n_numbers = n_wheel_state
@@ -242,7 +240,7 @@ contains
             ! Creepages as of a contact of usual size under the load in the middle of the axis.
             load = sqrt(product(ends(:, 3)))
         end associate
-        call solve_place(self%model, self%solver(me)%at, self%nu, at, found, status)
+        call solve_place(self%model, self%solver(me)%at, self%choice%nu, at, found, status)
         if (is_error(status)) return
         c = usual_length*load**(1.0_wp/3.0_wp)
         do k = 1, found%n
@@ -319,7 +317,7 @@ contains
         lookup%kind = lookup_kind_wheel
         lookup%q = axes(1)
         lookup%ratio = axes(2)
-        lookup%nu = self%nu
+        lookup%nu = self%choice%nu
         associate (wheel => lookup%wheel)
             wheel%y = axes(axis_y)
             wheel%yaw = axes(axis_y + 1)
@@ -360,8 +358,8 @@ contains
         do me = 1, self%threads
             do i = me, size(found), self%threads
                 if (me == 1) call self%progress('places', i - 1, size(found))
-                call solve_place(self%model, self%solver(me)%at, self%nu, place_of(lookup, i), &
-                                 found(i), said)
+                call solve_place(self%model, self%solver(me)%at, self%choice%nu, &
+                                 place_of(lookup, i), found(i), said)
                 if (.not. is_error(said)) cycle
                 call note_failure(i, said, failed, status)
                 exit
@@ -498,7 +496,7 @@ contains
         integer :: side, face, i, j, k
 
         associate (source => self%sources(unit))
-            call solve_place(self%model, self%solver(me)%at, self%nu, &
+            call solve_place(self%model, self%solver(me)%at, self%choice%nu, &
                              place_of(lookup, source%node), found, status)
             if (is_error(status)) return
             associate (numbers => found%numbers(:, source%contact))
@@ -648,7 +646,7 @@ contains
         call clear_status(status)
         associate (place => state%state(:n_wheel_place), numbers => state%state(:n_wheel_state), &
                    mu => state%state(4))
-            call solve_place(self%model, self%solver(me)%at, self%nu, place, found, said)
+            call solve_place(self%model, self%solver(me)%at, self%choice%nu, place, found, said)
             if (is_error(said)) return
             call sums_of_found(self, me, found, mu, state%state(5:7), middle, state%sums(:, 0), &
                                said)

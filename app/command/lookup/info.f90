@@ -7,7 +7,6 @@ module faststrip_command_lookup_info
     use faststrip_command_program_console, only: say
     use faststrip_command_lookup_file, only: read_table
     use faststrip_command_program_options, only: command_t, parse_command
-    use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_faces, only: n_forces
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, at_load
     implicit none
