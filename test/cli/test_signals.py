@@ -2,6 +2,7 @@
 
 import functools
 import os
+import random
 import resource
 import signal
 import subprocess
@@ -19,6 +20,31 @@ from cli_program import (
     without_progress,
 )
 
+# Renaming and ending are slow, so that most signals come while a file has no name yet, and other
+# threads go on behind the handler.
+SLOW = r"""
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+static void nap(void)
+{
+    struct timespec time = { 0, 20000000 };
+    nanosleep(&time, NULL);
+}
+int rename(const char *old, const char *new)
+{
+    nap();
+    return (int)syscall(SYS_renameat2, AT_FDCWD, old, AT_FDCWD, new, 0);
+}
+void _exit(int code)
+{
+    nap();
+    for (;;)
+        syscall(SYS_exit_group, code);
+}
+"""
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
 
@@ -41,11 +67,12 @@ class Signals(ProgramTest):
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
 
-    def start(self, setup=None):
+    def start(self, setup=None, library=None):
         """A batch that takes long, once it has begun to write."""
+        environment = {**os.environ, **({"LD_PRELOAD": library} if library else {})}
         process = subprocess.Popen([PROGRAM, "batch", "cases.csv", "-o", "out.csv"],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   encoding="utf-8",
+                                   encoding="utf-8", env=environment,
                                    preexec_fn=functools.partial(as_from_a_shell, setup))
         while process.poll() is None and "out.csv.journal" not in self.names():
             time.sleep(0.01)
@@ -73,6 +100,21 @@ class Signals(ProgramTest):
             code, said = self.ended(process)
             self.assertEqual(code, 128 + number)
             self.assertRegex(said, rf"\Afaststrip: [^\n]* {number.name[3:]} [^\n]*\n\Z")
+            self.assertEqual(self.left(), names)
+
+    def test_a_signal_at_any_moment(self):
+        """Also while a later journal is written, by whichever thread."""
+        draw = random.Random(1)
+        self.write("slow.c", SLOW)
+        library = self.folder / "slow.so"
+        subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, "slow.c"], cwd=self.folder,
+                       check=True, capture_output=True)
+        names = self.names()
+        for _ in range(12):
+            process = self.start(library=str(library))
+            time.sleep(0.2 * draw.random())
+            process.terminate()
+            self.assertEqual(self.ended(process)[0], 128 + signal.SIGTERM)
             self.assertEqual(self.left(), names)
 
     def test_the_laboratory_speaks_by_its_own_name(self):

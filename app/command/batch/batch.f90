@@ -488,10 +488,11 @@ contains
             !$omp parallel num_threads(job%threads) default(shared) private(me)
             me = 1
             !$ me = omp_get_thread_num() + 1
-            !$omp single
+            ! Only the first thread makes files: signals are handled in it.
+            !$omp master
             call write_chunk(chunks(before), first, store, work, written)
             if (.not. is_error(written)) call read_chunk(job, chunks(next), last, written)
-            !$omp end single nowait
+            !$omp end master
             !$omp do schedule(dynamic, 1)
             do g = 1, groups
                 call solve_chain(job%workers(me), me, job%columns, job%cache, &

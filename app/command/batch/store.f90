@@ -552,7 +552,6 @@ contains
             code = c_remove(store%final // journal_word // c_null_char)
             code = c_remove(store%temporary // c_null_char)
         end if
-        call forget_file(store%temporary)
         deallocate (store%temporary)
     end subroutine name_partial
 

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -30,6 +31,9 @@ enum { most_temporaries = 64, longest_text = 200 };
 
 static char temporaries[most_temporaries][PATH_MAX];
 static volatile sig_atomic_t n_temporaries;
+
+/* The only thread that makes files. */
+static pthread_t first_thread;
 
 /* Two texts of what is being done, so that one is whole while the other is written. */
 static char speaker[32] = "faststrip";
@@ -283,16 +287,22 @@ static const struct known_signal known[] = {
 };
 enum { n_known = sizeof known / sizeof known[0], first_not_ignored = 6 };
 
+/* In the first thread, so that no file is made behind those that are removed; a fault of another
+ * thread, at once. */
 static void end_by_signal(int number)
 {
     char line[longest_text] = "";
     int i;
 
+    for (i = 0; i < n_known && known[i].number != number; i++)
+        ;
+    if (i < n_known && known[i].why != by_fault && !pthread_equal(pthread_self(), first_thread)
+        && pthread_kill(first_thread, number) == 0)
+        for (;;)
+            pause();
     remove_temporaries();
     append(line, sizeof line, speaker);
     append(line, sizeof line, ": ended by signal ");
-    for (i = 0; i < n_known && known[i].number != number; i++)
-        ;
     append(line, sizeof line, i < n_known ? known[i].name : "?");
     append(line, sizeof line, " (");
     append_number(line, sizeof line, number);
@@ -364,6 +374,7 @@ void faststrip_start_signals(const char *text)
     struct itimerval second = { { 1, 0 }, { 1, 0 } };
     int i;
 
+    first_thread = pthread_self();
     faststrip_set_progress(text);
     atexit(remove_temporaries);
     sigaltstack(&other, NULL);
