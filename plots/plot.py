@@ -12,7 +12,6 @@ import sys
 
 import conicity
 import wheelset
-
 from faststrip_plots import command, panels, style
 from faststrip_plots.results import (
     NORMAL_QUANTITIES,

@@ -1,8 +1,8 @@
 """Runs of a program that several tests look at: each is done once per run of the tests.
 
 What decides about a run is its key: the bytes of the program, its words, names and bytes of the
-files it finds. What it said and the files it made are kept in the folder that
-tools/run_pytests.py makes for a run of the tests, or in one of this process; the first who asks
+files it finds. What it said and the files it made are kept in the folder that conftest.py makes
+for a run of the tests, or in one of this process; the first who asks
 runs it, and who asks meanwhile, in this process or another, waits.
 """
 
@@ -18,7 +18,7 @@ import shutil
 import subprocess
 import tempfile
 
-# Where tools/run_pytests.py says that runs are kept.
+# Where conftest.py says that runs are kept.
 PLACE = "FASTSTRIP_SHARED_RUNS"
 
 

@@ -21,8 +21,9 @@ import json
 import pathlib
 import sys
 
-import force_network as net
 import numpy as np
+
+import force_network as net
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TARGET = ROOT / "reference" / "force_correction.json"

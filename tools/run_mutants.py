@@ -444,8 +444,7 @@ class Job:
             present = [name for name in what if (self.folder / name).exists()]
             if not present:
                 return None
-            part = only.split(".", 1)[-1] if only else ""
-            command = [str(self.base.python), "tools/run_pytests.py", "--filter", part, *present]
+            command = [str(self.base.python), "-m", "pytest", "--text", only or "", *present]
         limit = self.seconds.get(stage_name(kind, what))
         limit = None if limit is None else TIME_FACTOR * limit + TIME_EXTRA
         return first_failure(command, self.folder, {**environment(), **extra}, limit)

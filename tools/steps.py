@@ -568,15 +568,17 @@ def python_tests(text):
                if os.path.isdir(name)]
     if "test/cli" in folders:
         python_packages("test", "what the tests of the Python package and of NetCDF need")
-    # Two at a time at least: most of them wait for one program.
-    jobs = max(2, len(os.sched_getaffinity(0)))
-    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", str(jobs),
-                "--times", "--whole", "test/embed", *folders)
+    return pytest(text, folders)
 
 
 def quick_python_tests(text):
-    return told(sys.executable, "tools/run_pytests.py", "--filter", text, "--jobs", "2", "--times",
-                "--whole", "test/embed", *QUICK)
+    return pytest(text, QUICK)
+
+
+def pytest(text, names):
+    """Run Python tests, two at a time at least: most of them wait for one program."""
+    return told(sys.executable, "-m", "pytest", "-n", str(max(2, len(os.sched_getaffinity(0)))),
+                "--durations", "20", "--text", text, *names)
 
 
 def lint_checks(text):

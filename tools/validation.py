@@ -24,6 +24,7 @@ from pathlib import Path
 from measured import ROOT, Measured, condense, measured_csv  # first: it finds the plots' package
 from pages import FENCE
 
+# isort: split
 from faststrip_plots.tables import InputError, read_table
 from faststrip_plots.verdicts import (
     CHAPTERS,

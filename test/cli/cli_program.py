@@ -4,9 +4,10 @@ import csv
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
+
+from shared_runs import files_below, shared_run, write_files
 
 # Long enough for a machine ten times slower, s.
 PATIENCE = 600
@@ -15,9 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "bin" / "faststrip"
 LAB = ROOT / "bin" / "faststrip-lab"
 GAPS = ROOT / "reference" / "contact" / "gaps"
-sys.path.insert(0, str(ROOT / "test"))
 
-from shared_runs import files_below, shared_run, write_files  # noqa: E402
 
 BATCH_COLUMNS = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 RESULT_COLUMNS = (

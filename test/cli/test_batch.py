@@ -3,7 +3,6 @@
 import csv
 import importlib
 import statistics
-import sys
 
 from cli_program import (
     BATCH_COLUMNS,
@@ -217,8 +216,6 @@ class Batch(ProgramTest):
             words[words.index("example/traction_curve.csv")] = example
             done = self.run_program(*words)
             self.assertEqual(done.returncode, 0, done.stderr)
-        sys.path.insert(0, str(ROOT / "plots"))
-        self.addCleanup(sys.path.remove, str(ROOT / "plots"))
         verdicts = importlib.import_module("faststrip_plots.verdicts")
         rows = [row for row in verdicts.read_manifest(str(ROOT / "reference" / "comparisons.csv"))
                 if row["id"].startswith("traction-")]

@@ -1,12 +1,8 @@
 """`faststrip-lab bench rolling`: the rows that the report's manifest judges are there."""
 
-import sys
 
 from cli_program import GAPS, ROOT, LabTest
-
-sys.path.insert(0, str(ROOT / "plots"))
-
-from faststrip_plots.verdicts import judge, read_manifest  # noqa: E402
+from faststrip_plots.verdicts import judge, read_manifest
 
 CONTACTS = ROOT / "reference" / "contact"
 

@@ -106,9 +106,3 @@ class Catalogue(ProgramTest):
         for name, comment in found:
             if name in members and name != "limitations":
                 self.assertIn(members[name]["what"], re.sub(r"\s*\n \s*\* ", " ", comment))
-
-
-if __name__ == "__main__":
-    import unittest
-
-    unittest.main()

@@ -1,6 +1,5 @@
 """Each column holds what its name says: slip, sides of elements, lists of a sweep, profiles."""
 
-import unittest
 
 from cli_program import ProgramTest, gap_case, gap_text, numbers, parabola, profile_case
 
@@ -72,7 +71,3 @@ class Columns(ProgramTest):
         # z points down: the wheel lies above the rail and touches it once.
         self.assert_close(min(gaps), 0.0, 0, 5e-3)
         self.assertGreater(max(gaps), 0.1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -347,7 +347,3 @@ class ReferenceProfiles(ProgramTest):
                             if amplitude not in at_jumps), 0.05)
         deviations = self.deviations("E3", distance="1500.009")
         self.assertLess(max(abs(deviation) for deviation, _ in deviations.values()), 0.001)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """Inputs as they come from the field: written by other programs, printed rounded, stitched."""
 
-import unittest
 
 from cli_program import BATCH_COLUMNS, ProgramTest, gap_case, gap_text, profile_case, rows_of
 
@@ -191,7 +190,3 @@ class Field(ProgramTest):
         done = self.run_program("contact", "case.nml")
         self.assertEqual(rows_of(done.stdout)[0]["status"], "conformal")
         self.assertIn("a step of 0.100000E-1 mm", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,10 +2,10 @@
 
 import os
 import subprocess
-import sys
 import threading
 from unittest import mock
 
+import hostile
 from cli_program import (
     BATCH_COLUMNS,
     GAPS,
@@ -20,10 +20,6 @@ from cli_program import (
     profile_case,
     rows_of,
 )
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import hostile  # noqa: E402
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 

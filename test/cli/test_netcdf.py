@@ -4,17 +4,13 @@ import os
 import shutil
 import subprocess
 import sys
-import unittest
 
 import cf_units
 import numpy as np
 import xarray as xr
 
+import other_user
 from cli_program import BATCH_COLUMNS, PROGRAM, ROOT, ProgramTest, gap_text, parabola, profile_case
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import other_user  # noqa: E402
 
 PLUGIN = PROGRAM.with_name("faststrip_netcdf.so")
 UNITS = {
@@ -428,7 +424,3 @@ code = library.faststrip_write_netcdf(b"t.csv", b"t.csv", b"t.tmp", b"t.nc", b""
 print(code, said.raw.decode().strip())
 """], cwd=self.folder, stdout=subprocess.PIPE, encoding="utf-8", check=False).stdout
         self.assertEqual(said, "122 cannot write the file: t.nc: File too large\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,13 +1,9 @@
 """What the pages show is run and printed so, as users run it: in order, with nothing prepared."""
 
-import sys
 import unittest
 
+import blocks
 from cli_program import ROOT
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import blocks  # noqa: E402
 
 
 class Pages(unittest.TestCase):
@@ -21,7 +17,3 @@ def test_of(path):
 for page in blocks.pages():
     if not blocks.installs(page.read_text(encoding="utf-8")):
         setattr(Pages, f"test_{page.relative_to(ROOT).with_suffix('')}", test_of(page))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,7 +7,6 @@ import pty
 import select
 import shutil
 import subprocess
-import unittest
 
 from cli_program import (
     PATIENCE,
@@ -195,7 +194,3 @@ class TestPlot(PeopleTest):
         self.assertIn("--plot needs the scripts installed with the program", said())
         shutil.copytree(ROOT / "plots", self.folder / "share" / "faststrip" / "plots")
         self.assertIn("python3 with matplotlib and numpy: install", said(PATH=str(self.folder)))
-
-
-if __name__ == "__main__":
-    unittest.main()

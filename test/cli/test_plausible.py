@@ -278,7 +278,3 @@ class TestUnusual(ProgramTest):
                 done = self.run_program("contact", "case.nml")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertNotIn("should", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

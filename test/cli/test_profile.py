@@ -331,7 +331,3 @@ class Bank(ProgramTest):
         for one, other in zip(analytic, measured):
             self.assertAlmostEqual(float(one["pmax_MPa"]) / float(other["pmax_MPa"]), 1.0,
                                    delta=2e-3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,14 +1,9 @@
 """The figures that the README shows are today's; what it runs test_pages runs."""
 
-import sys
-import unittest
 
+import measured
+import validation
 from cli_program import ROOT, ProgramTest
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import measured  # noqa: E402
-import validation  # noqa: E402
 
 # How far a figure may be from the stored one before the stored one is stale, relative.
 STALE = 0.1
@@ -25,7 +20,3 @@ class Readme(ProgramTest):
             with self.subTest(row=row, column=column):
                 known = stored.number(table, row, column)
                 self.assert_close(float(value), known, STALE)
-
-
-if __name__ == "__main__":
-    unittest.main()

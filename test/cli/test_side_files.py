@@ -1,23 +1,19 @@
 """What lies where the program makes files of its own stays: inputs, links, and what others have."""
 
 import os
-import sys
 import threading
 import unittest
 
+import hostile
+import side_files
 from cli_program import (
     BATCH_COLUMNS,
     PATIENCE,
-    ROOT,
     ProgramTest,
     gap_case,
     gap_text,
     parabola,
 )
-
-sys.path.insert(0, str(ROOT / "tools"))
-import hostile  # noqa: E402
-import side_files  # noqa: E402
 
 ROW = "gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 

@@ -445,7 +445,3 @@ class Refused(unittest.TestCase):
         self.refuse(2, ["b.csv"], "--audit", "a.csv", "b.csv")
         self.refuse(2, ["--curves"], "--audit", "--curves", "-")
         self.refuse(2, ["-o"], "--curves", "-", "-o", "x.csv")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """T gamma, wear and fatigue: the columns, the strips, and what is refused."""
 
 import math
-import unittest
 
 from cli_program import ProgramTest, gap_case, gap_text, numbers, parabola, profile_case
 
@@ -147,7 +146,3 @@ class Wear(ProgramTest):
         self.refused(1, "contact", "yield.nml", says=["yield_shear_MPa", "-1"])
         self.refused(2, "contact", "case.nml", "--wear", "law.csv", "-o", "law.csv",
                      says=["law.csv"])
-
-
-if __name__ == "__main__":
-    unittest.main()

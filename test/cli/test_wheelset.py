@@ -2,7 +2,6 @@
 
 import csv
 import math
-import unittest
 
 from cli_program import ROOT, ProgramTest, numbers, rows_of
 
@@ -470,7 +469,3 @@ def height(profile, y, column):
             part = (y - before[0]) / (after[0] - before[0])
             return before[column] + part * (after[column] - before[column])
     raise ValueError(f"{y} is not on the profile")
-
-
-if __name__ == "__main__":
-    unittest.main()

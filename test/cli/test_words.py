@@ -1,14 +1,10 @@
 """What is said of bad input names the thing, the value and the place, in one line."""
 
-import pathlib
 import re
 import subprocess
-import sys
 
+import methods
 from cli_program import BATCH_COLUMNS, LAB, PROGRAM, ProgramTest, gap_case, gap_text, parabola
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-import methods  # noqa: E402
 
 ROW = "a,gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 

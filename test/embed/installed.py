@@ -11,11 +11,10 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+import blocks
+import page_in_browser  # noqa: F401
 
-import blocks  # noqa: E402
-import page_in_browser  # noqa: E402, F401
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 HOSTS = ROOT / "example" / "hosts"
 

@@ -1,7 +1,6 @@
 """The strip solver from a program of its own: no allocation, the same bits every time."""
 
 import re
-import unittest
 
 from installed import HostTest
 
@@ -291,7 +290,3 @@ class Solver(HostTest):
         _, rows, threads = self.solved("threads")
         self.assertEqual(len(rows), 75)
         self.assertEqual(threads, first)
-
-
-if __name__ == "__main__":
-    unittest.main()

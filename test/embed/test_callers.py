@@ -1,7 +1,6 @@
 """The callers of the README, compiled by its lines against the installation alone, and C++."""
 
 import re
-import unittest
 
 from installed import ROOT, HostTest, readme_blocks
 
@@ -92,7 +91,3 @@ class Callers(HostTest):
         for compiler in ("gcc -std=c90", "gcc -std=c11", "g++ -x c++ -std=c++98"):
             self.shell(f"{compiler} -Wall -Wextra -pedantic -Werror -c header.c -o header.o"
                        " $(pkg-config --cflags faststrip)")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -226,7 +226,3 @@ class Installed(Finding, CMakeTest):
     def public_names(self):
         text = self.command("nm", "--defined-only", "--extern-only", installation().archive)
         return {line.split()[-1] for line in text.splitlines() if len(line.split()) == 3}
-
-
-if __name__ == "__main__":
-    unittest.main()

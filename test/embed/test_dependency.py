@@ -135,7 +135,3 @@ class Dependency(unittest.TestCase):
             found[name] = build.get("link", [])
         self.assertEqual({name: link for name, link in found.items() if link},
                          {".": ["openblas"], "src/kalker": ["fftw3"], "src/tables": ["gsl"]})
-
-
-if __name__ == "__main__":
-    unittest.main()

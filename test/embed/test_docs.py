@@ -21,7 +21,3 @@ class Docstrings(unittest.TestCase):
         for path in sorted((ROOT / "src").rglob("*.f90")):
             with self.subTest(path.name):
                 self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?m)!! ?\w[\w-]*: ")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,7 +5,6 @@ import dataclasses
 import importlib
 import inspect
 import re
-import unittest
 
 from installed import HostTest
 
@@ -132,7 +131,3 @@ class Docstrings(HostTest):
         listed = self.faststrip.solve_many([gap], load=[1e5])
         contact.set_gap(*gap[:4])
         self.assertEqual((many.pmax[0], listed.pmax[0]), (contact.solve(load=1e5).pmax,) * 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """What no contact can be is named by the library too, in every interface; no status and no figure
 depends on it."""
 
-import unittest
 import warnings
 
 from installed import HostTest
@@ -123,7 +122,3 @@ class Doubts(HostTest):
                 self.assertWarns(faststrip.ImplausibleWarning):
             wheelset.solve(**state | {"yaw": 4.0})
         self.assertGreater(len(usual.contacts), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -571,7 +571,3 @@ class Ends(ExploreTest):
         finally:
             ended = served.end()
         self.assertEqual(ended, (0, ""))
-
-
-if __name__ == "__main__":
-    unittest.main()

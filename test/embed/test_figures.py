@@ -4,7 +4,6 @@ gaps without symmetry, all creepages, every method, every field of every struct 
 import math
 import random
 import sys
-import unittest
 
 from installed import HOSTS, HostTest
 
@@ -409,7 +408,3 @@ class Figures(HostTest):
                 contact.set_gap(y, h, inv2r)
                 results.append(contact.solve(load=8e4, creepage=(1e-3, 1e-3, 1e-4)))
             self.assertEqual(*results)
-
-
-if __name__ == "__main__":
-    unittest.main()

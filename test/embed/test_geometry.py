@@ -5,7 +5,6 @@ import csv
 import math
 import struct
 import subprocess
-import unittest
 
 from installed import HOSTS, HostTest
 
@@ -140,7 +139,3 @@ class Faces(HostTest):
         self.assertEqual([math.isnan(one) for one in found.tan_gamma_e],
                          [True, False, True, True])
         self.assertEqual(found.largest_amplitude, 2.0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -185,7 +185,3 @@ class Threads(HostTest):
         self.assertEqual(sum(line.startswith("side ") for line in lines), 6)
         carried = [float(line.split()[3]) for line in lines if line.startswith("side ")]
         self.assertAlmostEqual(sum(carried[2:4]), 1.6e5, delta=0.005)
-
-
-if __name__ == "__main__":
-    unittest.main()

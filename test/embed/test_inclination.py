@@ -4,7 +4,6 @@ import ctypes
 import pathlib
 import subprocess
 import sys
-import unittest
 
 from installed import ROOT, HostTest
 
@@ -272,7 +271,3 @@ class Inclination(HostTest):
         unset = sys.modules["faststrip._profile"].UNSET_INCLINATION
         self.assertIn(f"FASTSTRIP_INCLINATION_UNSET {unset}", header)
         self.assertIn(f"unset_inclination = {unset}_wp", source)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,7 +7,6 @@ import shutil
 import stat
 import subprocess
 import tomllib
-import unittest
 
 from installed import ROOT, HostTest
 
@@ -316,7 +315,3 @@ class Installed(HostTest):
                                   stderr=subprocess.PIPE, encoding="utf-8", check=False)
             self.assertEqual(done.returncode, 1)
             self.assertIn("--prefix FOLDER", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

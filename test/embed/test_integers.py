@@ -1,6 +1,5 @@
 """Fixed-form hosts whose INTEGER is eight bytes long are told, and refused where it shows."""
 
-import unittest
 
 from installed import HostTest
 
@@ -80,7 +79,3 @@ class Integers(HostTest):
         text = WHEELSET.format(wheels=0)
         self.assertEqual(self.ran(text), ["made 0", "solved 0 2", "asked 100 0"])
         self.assertEqual(self.ran(text, "-fdefault-integer-8"), ["made 100"])
-
-
-if __name__ == "__main__":
-    unittest.main()

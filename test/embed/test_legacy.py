@@ -3,7 +3,6 @@
 The tolerance of Klingel's wavelength is 4 %."""
 
 import math
-import unittest
 
 from installed import HOSTS, ROOT, HostTest
 
@@ -357,7 +356,3 @@ class Wheelset(HostTest):
                    " -o replay")
         found = self.findings("cd wheelset_out\n../replay")
         self.assertEqual(found, {"rows": [2800], "different": [0]})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -8,9 +8,9 @@ import sys
 import threading
 
 import numpy as np
-from test_allocation import COUNTER
 
 from installed import HOSTS, ROOT, HostTest
+from test_allocation import COUNTER
 
 # A state alone and many of them, by both orders; status and allocations.
 ALLOCATIONS = r"""

@@ -3,12 +3,11 @@
 import math
 import struct
 import subprocess
-import unittest
 
 import numpy as np
-from test_allocation import COUNTER
 
 from installed import HostTest
+from test_allocation import COUNTER
 
 CASE = ("&wheel\n profile = 's1002'\n/\n&rail\n profile = '60e1'\n/\n&material\n mu = 0.3\n/\n")
 PLACES, STATES = 6, 40
@@ -245,7 +244,3 @@ class WheelFaces(HostTest):
         for slot in (1.5, math.nan, 1e12):
             with self.assertRaisesRegex(error, "slot must be whole numbers"):
                 self.table(slot, 0.0, 0.0, 8e4, 0.3, (1e-3, 0.0, 0.0))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -269,7 +269,3 @@ class FromPython(HostTest):
                               env={**self.installed.environment, "PYTHONWARNINGS": "ignore",
                                    "PYTHONPATH": str(ROOT / "python"), "HOME": os.getcwd()})
         self.assertEqual((done.stdout, done.stderr), ("0\n", ""))
-
-
-if __name__ == "__main__":
-    unittest.main()

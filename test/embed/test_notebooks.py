@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import unittest
 from unittest import mock
 
 import nbformat
@@ -54,7 +53,3 @@ class Notebooks(HostTest):
                     self.assertEqual(cell.metadata, {})
                     for line in cell.source.splitlines():
                         self.assertLessEqual(len(line), 100)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -300,7 +300,3 @@ class OwnRoutines(unittest.TestCase):
         for name, error in worst.items():
             self.assertLessEqual(error, 0.0 if name == "beyond" else 1e-15, (name, worst))
         self.assertEqual(infos, [2, 3, 2, -1])
-
-
-if __name__ == "__main__":
-    unittest.main()

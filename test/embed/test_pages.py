@@ -34,7 +34,3 @@ class Docstrings(HostTest):
                            "sys.exit(found.failed or not found.attempted)'",
                            PYTHONPATH=str(ROOT / "python"))
         self.assertGreaterEqual(found, 3)
-
-
-if __name__ == "__main__":
-    unittest.main()

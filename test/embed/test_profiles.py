@@ -9,13 +9,12 @@ import pathlib
 import random
 import struct
 import subprocess
-import unittest
 from unittest import mock
 
 import numpy as np
-from mutated_profiles import good_files, mutated
 
 from installed import HostTest
+from mutated_profiles import good_files, mutated
 
 F77 = """\
       PROGRAM TRY
@@ -442,7 +441,3 @@ class Python(HostTest):
                                                        0)):
             self.assertEqual(call(), 100)
         self.assertEqual(text.value, b"the rail profile is missing")
-
-
-if __name__ == "__main__":
-    unittest.main()

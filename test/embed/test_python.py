@@ -12,7 +12,6 @@ import subprocess
 import sys
 import threading
 import time
-import unittest
 
 from installed import ROOT, HostTest
 
@@ -563,7 +562,3 @@ class Contacts(HostTest):
         self.refused("out_of_range", self.faststrip.kalker, 0.0)
         contact.close()
         self.refused("bad_argument", contact.solve, load=1e5)
-
-
-if __name__ == "__main__":
-    unittest.main()

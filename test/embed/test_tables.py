@@ -4,7 +4,6 @@ the types of the package."""
 import importlib
 import subprocess
 import sys
-import unittest
 
 from installed import ROOT, HostTest
 
@@ -287,7 +286,3 @@ class Others(HostTest):
              "--config-file", str(ROOT / "pyproject.toml")], cwd=ROOT, encoding="utf-8",
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         self.assertRegex(done.stdout, r"^Success: no issues found in \d+ source files\n$")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,7 +6,6 @@ import importlib
 import math
 import re
 import subprocess
-import unittest
 
 from installed import HostTest
 
@@ -247,7 +246,3 @@ class Values(HostTest):
         other = self.faststrip.Contact()
         other.set_gap(y, h, a)
         self.assertEqual(large.solve(load=LOAD), other.solve(load=LOAD))
-
-
-if __name__ == "__main__":
-    unittest.main()

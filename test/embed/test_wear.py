@@ -4,7 +4,6 @@ import csv
 import math
 import struct
 import subprocess
-import unittest
 
 from installed import HOSTS, HostTest
 
@@ -272,7 +271,3 @@ class Faces(HostTest):
 def rows_of(worn):
     rows = [bits(*worn[:4])]
     return rows if worn.mass is None else [*rows, bits(*worn[4:])]
-
-
-if __name__ == "__main__":
-    unittest.main()

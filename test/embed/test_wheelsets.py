@@ -4,7 +4,6 @@ import csv
 import ctypes
 import math
 import struct
-import unittest
 
 from installed import HOSTS, HostTest
 
@@ -268,7 +267,3 @@ def ask(package, i, z, roll):
     if i % 3 < 2 and i >= 9:
         wanted["wheels"] = "right" if i % 2 else "left"
     return wanted
-
-
-if __name__ == "__main__":
-    unittest.main()

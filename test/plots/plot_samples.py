@@ -6,12 +6,9 @@ import io
 import math
 import os
 import pathlib
-import sys
 import tempfile
 
 PLOTS = pathlib.Path(__file__).resolve().parents[2] / "plots"
-if str(PLOTS) not in sys.path:
-    sys.path.insert(0, str(PLOTS))
 
 STAMP = "# faststrip 0.1.0 rev abc1234\n# compiler gfortran 12.2\n"
 SWEEP_COLUMNS = (

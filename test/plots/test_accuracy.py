@@ -238,7 +238,3 @@ class BadInput(unittest.TestCase):
                 status, _, err = folder.run("accuracy", f"--mu={value}")
                 self.assertEqual(status, 2)
                 self.assertIn("--mu", err)
-
-
-if __name__ == "__main__":
-    unittest.main()

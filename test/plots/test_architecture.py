@@ -1,13 +1,10 @@
 """The picture of the architecture: its steps are those of the page, their modules are there."""
 
-import pathlib
 import unittest
 
 import matplotlib.image
 
 from plot_samples import Folder, load
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class Architecture(unittest.TestCase):

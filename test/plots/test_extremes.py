@@ -161,7 +161,3 @@ class Drawn(unittest.TestCase):
                             (9.95e-13, "$10^{-12}$"), (3.85e-16, "$3.9\\cdot 10^{-16}$"),
                             (1.000001, "$1+$$10^{-6}$")):
             self.assertEqual(short(value), text)
-
-
-if __name__ == "__main__":
-    unittest.main()

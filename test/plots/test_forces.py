@@ -2,7 +2,6 @@
 
 import contextlib
 import io
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,14 +9,12 @@ from pathlib import Path
 import matplotlib.image
 import numpy
 
+import forces
+import tractions
+from faststrip_plots import command
+from faststrip_plots.tables import read_table
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
-
-import forces  # noqa: E402
-import tractions  # noqa: E402
-
-from faststrip_plots import command  # noqa: E402
-from faststrip_plots.tables import read_table  # noqa: E402
 
 CONTACTS = ROOT / "reference" / "contact"
 
@@ -115,7 +112,3 @@ class Forces(unittest.TestCase):
             code = command.run(tractions.main, ["--fields", field, "--shift", "17", "-o", picture])
         self.assertEqual(code, 1)
         self.assertIn("17", refused.getvalue())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -449,7 +449,3 @@ class Scales(unittest.TestCase):
         scales.label_ends(axes, 1.0, [(50.0, "first", "k"), (51.0, "near", "k"),
                                       (90.0, "far", "k")])
         self.assertEqual(texts(axes), ["first", "far"])
-
-
-if __name__ == "__main__":
-    unittest.main()

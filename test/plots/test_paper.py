@@ -410,7 +410,3 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdicts["F6"], HOLDS)
         self.assertEqual(verdicts["F4"], FAILS)
         self.assertEqual(verdicts["F1"], HOLDS)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -313,7 +313,3 @@ class CommandLine(unittest.TestCase):
                 status, _, err = folder.run(command, "--nonsense")
                 self.assertEqual(status, 2)
                 self.assertIn("--nonsense", err)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,13 +7,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from faststrip_plots import promises
+from faststrip_plots.tables import InputError, read_table
+from promise_samples import METHODS, results, write_samples
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "plots"), str(Path(__file__).resolve().parent)]
-
-from promise_samples import METHODS, results, write_samples  # noqa: E402
-
-from faststrip_plots import promises  # noqa: E402
-from faststrip_plots.tables import InputError, read_table  # noqa: E402
 
 
 class Promises(unittest.TestCase):
@@ -137,7 +135,3 @@ class Promises(unittest.TestCase):
                     (self.folder / f"{name}.csv").write_text(text, encoding="utf-8")
                 with self.assertRaisesRegex(InputError, says):
                     promises.promise_rows(self.judged())
-
-
-if __name__ == "__main__":
-    unittest.main()

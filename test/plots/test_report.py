@@ -3,23 +3,21 @@
 import csv
 import math
 import os
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
-
-from faststrip_plots.document import Document  # noqa: E402
-from faststrip_plots.tables import InputError  # noqa: E402
-from faststrip_plots.verdicts import (  # noqa: E402
+from faststrip_plots.document import Document
+from faststrip_plots.tables import InputError
+from faststrip_plots.verdicts import (
     COLUMNS,
     judge,
     read_manifest,
     shown,
     shown_tolerance,
 )
+
+ROOT = Path(__file__).resolve().parents[2]
 
 VALUES = ("case,method,q,N_N,area_mm2\n1,a,1.0,10,3.141592653589793\n"
           "2,a,2.2,10,12.566370614359172\n3,b,,10,1\n")

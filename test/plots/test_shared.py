@@ -244,7 +244,3 @@ class Patches(unittest.TestCase):
         at = np.argmin(distance)
         self.assertAlmostEqual(y[at], 750.0, delta=0.02)
         self.assertAlmostEqual(distance[0], 900.0 * (1 / 500 + 1 / 600), places=10)
-
-
-if __name__ == "__main__":
-    unittest.main()

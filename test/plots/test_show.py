@@ -57,7 +57,3 @@ class Show(unittest.TestCase):
                             (("n", "--where", "n"), "--where takes COLUMN=WORD, got n")):
             self.assertEqual(self.shown(*words), (1, "", error(text)))
         self.assertEqual(self.shown("n", "--digits", "0")[0], 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

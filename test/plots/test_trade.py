@@ -6,12 +6,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import trade
+from faststrip_plots.tables import read_table
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
-
-import trade  # noqa: E402
-
-from faststrip_plots.tables import read_table  # noqa: E402
 
 HEADER = "set,case,stage,method,status,us,err_penetration,err_pmax,err_area,err_Fx,err_Fy,err_Mz\n"
 ROWS = (

@@ -10,12 +10,8 @@ import tempfile
 import unittest
 from unittest import mock
 
-from harness import ROOT
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import bare  # noqa: E402
-import debian  # noqa: E402
+import bare
+import debian
 
 
 class Bare(unittest.TestCase):
@@ -89,7 +85,3 @@ class Bare(unittest.TestCase):
         code, out, run = self.runs("--text", "a b", fails="./run test")
         self.assertEqual((code, len(run)), (1, 2))
         self.assertRegex(out, r"\nroot +\./run test 'a b' +exit code 1 +2 passed, 1 failed\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

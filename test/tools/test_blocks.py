@@ -3,15 +3,13 @@
 import os
 import pathlib
 import re
-import sys
 import tempfile
 import unittest
 from unittest import mock
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+import blocks
 
-import blocks  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def fence(language, text, note=""):
@@ -184,7 +182,3 @@ class Running(unittest.TestCase):
         self.assertEqual(re.findall(r"```output\n(.*?)```", self.page.read_text(encoding="utf-8"),
                                     re.DOTALL), ["a\n", "2.000\n", "c\n"])
         self.assertEqual(blocks.check(self.page), "")
-
-
-if __name__ == "__main__":
-    unittest.main()

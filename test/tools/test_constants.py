@@ -7,10 +7,10 @@ import sys
 import tempfile
 import unittest
 
+import constants
+import sensitivity
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import constants  # noqa: E402
-import sensitivity  # noqa: E402
 
 TAG = "! What it is. Tuned [mm]. Origin: chosen.\n"
 
@@ -118,7 +118,3 @@ class Halves(unittest.TestCase):
                              text.replace(old, double, 1))
         self.assertIn("b(2) = 2.0_wp*([0.1_wp, &", sensitivity.changed(text, b, "double"))
         self.assertIn("0.2_wp]) ! b", sensitivity.changed(text, b, "double"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,17 +2,15 @@
 
 import importlib.util
 import re
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+import document
+import pages
+import steps
 
-import document  # noqa: E402
-import pages  # noqa: E402
-import steps  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 PAGES = [ROOT / source for _, source, _ in document.PAGES]
 LABEL = r"- \*\*([NFSPLKV]\d+)\*\* "
@@ -246,7 +244,3 @@ class Tools(unittest.TestCase):
                 'x</script><script src="./own.js"></script><link href="./own.css">')
         self.assertEqual(document.LOADED.sub("", page),
                          '<script src="./own.js"></script><link href="./own.css">')
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,11 +5,8 @@ import subprocess
 import sys
 import unittest
 
+import f77_arguments
 from harness import ROOT
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import f77_arguments  # noqa: E402
 
 
 class Tables(unittest.TestCase):
@@ -60,7 +57,3 @@ class Tables(unittest.TestCase):
                     "| friction, wear | `YIELD` | in cyclic shear, MPa; 0: not known |"):
             self.assertIn(row, rows)
         self.assertEqual([row for row in rows if "  " in row], [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -285,7 +285,3 @@ class Words(unittest.TestCase):
 
     def test_an_order(self):
         self.assertIn("expected:   2 < 1", self.said("order"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -23,7 +23,3 @@ class GeneratedModules(unittest.TestCase):
         for name in SCRIPTS:
             with self.subTest(name):
                 self.assertEqual(2, self.run_script(name, "--chekc"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -130,7 +130,3 @@ class Lint(unittest.TestCase):
                                             "remark"])
         for line, name in zip(lines[1:], ("gfortran-12", "gfortran-N", "flang-N"), strict=True):
             self.assertRegex(line, rf"\A{name} +- +- +- +- +Debian offers no {name} here\Z")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,9 +7,9 @@ import sys
 import tempfile
 import unittest
 
+import methods
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import methods  # noqa: E402
 
 
 class Methods(unittest.TestCase):
@@ -89,7 +89,3 @@ class Methods(unittest.TestCase):
     def test_every_file_has_one_place(self):
         self.change("docs/usage.md", "<!-- END methods -->\n", "")
         self.assertIn("docs/usage.md must have one place", self.run_tool().stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

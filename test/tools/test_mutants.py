@@ -1,6 +1,5 @@
 """The lists of mutants fit their files, and the runner tells killed from survived."""
 
-import importlib.util
 import pathlib
 import shutil
 import subprocess
@@ -8,13 +7,10 @@ import sys
 import tempfile
 import unittest
 
+import run_mutants
 from harness import ROOT
 
 RUNNER = ROOT / "tools" / "run_mutants.py"
-sys.path.insert(0, str(RUNNER.parent))
-spec = importlib.util.spec_from_file_location("run_mutants", RUNNER)
-run_mutants = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(run_mutants)
 
 FEWEST = 150
 
@@ -37,7 +33,6 @@ import pathlib
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "plots"))
 import sums
 
 
@@ -221,7 +216,8 @@ class Verdicts(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
-        self.write("tools/run_pytests.py", (ROOT / "tools/run_pytests.py").read_text("utf-8"))
+        for name in ("test/conftest.py", "test/pytest.ini"):
+            self.write(name, (ROOT / name).read_text("utf-8"))
         self.write("plots/sums.py", MODULE)
         self.write("test/plots/test_sums.py", TEST)
 
@@ -244,7 +240,7 @@ class Verdicts(unittest.TestCase):
 
     def test_killed_endless_and_equivalent(self):
         said = self.judge(0, "plots", "--jobs", "2", text=LIST)
-        self.assertRegex(said, r"plots-smaller +killed +\S*test_plots_test_sums\.Sums\.test_larger")
+        self.assertRegex(said, r"plots-smaller +killed +plots/test_sums::Sums\.test_larger")
         self.assertRegex(said, r"plots-endless +killed +time-out")
         self.assertRegex(said, r"plots-equal +equivalent +equals are equal")
         self.assertEqual(said.splitlines()[-1],
@@ -313,7 +309,3 @@ class Verdicts(unittest.TestCase):
                           text=FORTRAN_LIST)
         self.assertRegex(said, r"numerics-other-offset +killed +numerics/test_caller::seven")
         self.assertRegex(said, r"numerics-squared +survived +tests of its room")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,13 +1,10 @@
 """What the net keeps of an output, and how it says that one is another."""
 
 import pathlib
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-
-import net  # noqa: E402
+import net
 
 TABLE = ("# faststrip 0.1.0 rev {}\n# rail {}\ncase,Fx_N,normal_us,choice\n"
          "a,{},{},strip 5: 0.02 in {} us\n")
@@ -63,7 +60,3 @@ class Net(unittest.TestCase):
         for tangential in listed["tangential"]:
             self.assertTrue(any(name.endswith(f"_{tangential.name}") for name in names),
                             tangential.name)
-
-
-if __name__ == "__main__":
-    unittest.main()

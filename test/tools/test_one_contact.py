@@ -88,7 +88,3 @@ class OneContact(unittest.TestCase):
         below = ("src/faststrip/contact/method/", "src/faststrip/normal/", "src/kalker/")
         self.assertGreater(len(callers), len(STUDIES))
         self.assertEqual({path for path in callers if not path.startswith(below)}, STUDIES)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -106,7 +106,3 @@ class States(unittest.TestCase):
         for state in self.states:
             self.assertRegex(self.text, rf"settling%state = (?:state_{state}\b|"
                              rf"merge\((?:state_{state}\b|state_\w+, state_{state}\b))", state)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -217,7 +217,3 @@ class Recompile(unittest.TestCase):
         self.assertEqual(self.build()[0], ["deep"])
         self.change("base", "base_number = 3", "base_number = 4")
         self.assertEqual(self.build()[1], "40 8\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -11,11 +11,8 @@ import tempfile
 import tomllib
 import unittest
 
+import steps
 from harness import ROOT
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import steps  # noqa: E402
 
 DATE = "2026-01-31"
 
@@ -193,7 +190,3 @@ class Release(unittest.TestCase):
             done = self.release()
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, rf"\Arelease: {re.escape(says)}[^\n]*\n\Z")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -159,7 +159,3 @@ class Report(unittest.TestCase):
         self.assertTrue((folder / "data" / "mine.csv").exists())
         self.report(runs, row)
         self.assertFalse((folder / "data" / "mine.csv").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -168,7 +168,3 @@ class Rooms(unittest.TestCase):
         for path in self.files[CORE]:
             text = without_comments(path.read_text(encoding="utf-8"))
             self.assertNotRegex(text, r"\bfftw_|\bgsl_|\buse faststrip_(kalker|tables)", path.name)
-
-
-if __name__ == "__main__":
-    unittest.main()

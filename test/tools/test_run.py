@@ -12,11 +12,8 @@ import tempfile
 import unittest
 from unittest import mock
 
+import steps
 from harness import ROOT, module, test
-
-sys.path.insert(0, str(ROOT / "tools"))
-
-import steps  # noqa: E402
 
 MAIN = """\
 program main
@@ -81,9 +78,9 @@ class Project(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
         for name in ("run", "fpm.toml", "src/files/fpm.toml", "test/funit/funit.f90",
-                     "test/funit/funit_runner.f90"):
+                     "test/funit/funit_runner.f90", "test/conftest.py", "test/pytest.ini"):
             self.copy(name)
-        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py", "run_pytests.py",
+        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py",
                      "netcdf_plugin.py"):
             self.copy(f"tools/{name}")
         self.manifest("app", 'faststrip-command.path = "command"')
@@ -467,7 +464,3 @@ class Testing(Building):
         self.check(PASSING, 0, "1 passed, 0 failed", "tools/test_good")
         self.check(PASSING, 0, "1 passed, 0 failed", "lint::")
         self.check(PASSING, 1, "0 passed, 1 failed", "unknown")
-
-
-if __name__ == "__main__":
-    unittest.main()

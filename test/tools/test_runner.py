@@ -157,7 +157,3 @@ class Filters(unittest.TestCase):
 
     def test_an_unknown_name_fails(self):
         self.check("test_c", 1, "0 passed, 0 failed")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,12 +7,10 @@ import tempfile
 import unittest
 from unittest import mock
 
+import scale
+from faststrip_plots.tables import InputError
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-import scale  # noqa: E402
-
-from faststrip_plots.tables import InputError  # noqa: E402
 
 PYTHON = sys.executable
 CELLS = {"contacts": 100, "processes": 1, "threads": 1, "cpu_s": 2.0, "elapsed_s": 4.0,

@@ -8,11 +8,8 @@ import tempfile
 import unittest
 from unittest import mock
 
+import shared_runs
 from harness import ROOT
-
-sys.path.insert(0, str(ROOT / "test"))
-
-import shared_runs  # noqa: E402
 
 # Notes each of its runs, says its words, copies in.txt twice and ends with its last word.
 PROGRAM = """\
@@ -120,7 +117,3 @@ class Shared(unittest.TestCase):
             self.assertIn("b'xx'", done.stdout)
         self.assertEqual(self.runs(), 2)
         self.assertEqual(list((self.folder / "kept").iterdir()), [])
-
-
-if __name__ == "__main__":
-    unittest.main()

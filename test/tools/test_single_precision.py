@@ -32,7 +32,3 @@ class SinglePrecision(unittest.TestCase):
                 self.assertLess(float(row["value"]), 1e-5, row)
             elif row["method"] in ("strips", "faststrip"):
                 self.assertLess(float(row["value"]), 1e-2, row)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,17 +4,14 @@ import contextlib
 import io
 import math
 import pathlib
-import sys
 import tempfile
 import unittest
 from unittest import mock
 
+import speed
+from faststrip_plots.tables import InputError
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-import speed  # noqa: E402
-
-from faststrip_plots.tables import InputError  # noqa: E402
 
 FASTSIM = {"shift_-5": 10.0, "shift_0": 20.0, "shift_5": 40.0}
 

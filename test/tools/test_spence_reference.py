@@ -43,7 +43,3 @@ class SpenceReference(unittest.TestCase):
         # int (1 - s^2)/(s - a) ds over 0 to 1
         wanted = (1 - at**2) * math.log((1 - at) / at) - at - 0.5
         self.assertAlmostEqual(float(found[0]), wanted, delta=1e-5)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -9,11 +9,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
+from faststrip_plots import style
+from faststrip_plots.stamps import History, stamp_of, stored_files, trouble_with
 
-from faststrip_plots import style  # noqa: E402
-from faststrip_plots.stamps import History, stamp_of, stored_files, trouble_with  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 LIST = ROOT / "reference" / "stored.csv"
 

@@ -68,7 +68,3 @@ class Threads(unittest.TestCase):
                                                                   re.MULTILINE)))
             called = set(re.findall(r"\b(\w+)\(", text))
             self.assertEqual(sorted(called & known & names), [], path)
-
-
-if __name__ == "__main__":
-    unittest.main()

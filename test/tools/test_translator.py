@@ -140,7 +140,3 @@ class Files(unittest.TestCase):
         text = module("test_x", test("one", "@assertTrue(undeclared)"))
         with Sample({"test_x.pf": text}) as sample:
             self.assertIn("test/pf/test_x.pf:9:", sample.build())
-
-
-if __name__ == "__main__":
-    unittest.main()

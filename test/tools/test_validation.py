@@ -4,18 +4,15 @@ import contextlib
 import io
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import measured
+import validation
+from faststrip_plots.tables import InputError
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-import measured  # noqa: E402
-import validation  # noqa: E402
-
-from faststrip_plots.tables import InputError  # noqa: E402
 
 STAMP = "# faststrip 0.1.0 rev 0123abc\n# compiler GCC, -O3\n"
 # Words of measured figures outside of marked places: errors, times.
@@ -225,7 +222,3 @@ class Condensing(unittest.TestCase):
         with self.assertRaisesRegex(InputError,
                                     "each figure must be given once, got t/a, b/d twice"):
             measured.Measured(path)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,14 +3,10 @@
 import contextlib
 import io
 import pathlib
-import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-import wheelset_smoothness  # noqa: E402
+import wheelset_smoothness
 
 CASE = "&wheel\n profile='s1002'\n/\n&rail\n profile='60e1'\n/\n&material\n mu=0.3\n/\n"
 
@@ -39,7 +35,3 @@ class Figures(unittest.TestCase):
             self.assertEqual(len(steps.read_text(encoding="utf-8").splitlines()), 12)
             with self.assertRaises(SystemExit):
                 wheelset_smoothness.main([str(case.with_name("none.nml"))])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,0 +1,76 @@
+"""What pytest does not know of these tests: which share an installation, where runs are shared
+(shared_runs.py), which a TEXT names, and how they are counted in one line."""
+
+import os
+import tempfile
+
+import pytest
+
+# Names the folder of shared runs to shared_runs.py, in all processes.
+SHARED_RUNS = "FASTSTRIP_SHARED_RUNS"
+
+
+def name_of(one):
+    """Of a test or a module: folder/module::class.test."""
+    module, _, test = one.nodeid.partition("@")[0].partition("::")
+    return f"{module.removesuffix('.py')}::{test.replace('::', '.')}"
+
+
+class Counts:
+    """Counts tests, not their subtests, and tells of a failure at once."""
+
+    def __init__(self, config):
+        self.config = config
+        self.started, self.bad, self.skipped = set(), set(), set()
+
+    def pytest_runtest_logreport(self, report):
+        self.add(report, report.outcome)
+
+    def pytest_collectreport(self, report):
+        # A module that cannot be imported is a failing test.
+        if report.failed:
+            self.add(report, report.outcome)
+
+    def add(self, report, outcome):
+        name = name_of(report)
+        self.started.add(name)
+        if outcome == "failed":
+            self.bad.add(name)
+            terminal = self.config.pluginmanager.get_plugin("terminalreporter")
+            terminal.write_line(f"\nFAILED {name}\n{report.longreprtext}", flush=True)
+        if outcome == "skipped" and not hasattr(report, "wasxfail"):
+            self.skipped.add(name)
+
+    def pytest_terminal_summary(self, terminalreporter):
+        skipped = self.skipped - self.bad
+        words = (f"{len(self.started - self.bad - skipped)} passed, {len(self.bad)} failed"
+                 + (f", {len(skipped)} skipped" if skipped else ""))
+        terminalreporter.write_line(f"{'all modules together:':43} {words}")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--text", default="", help="only tests whose folder/module::class.test has it")
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "xdist_group: tests of one process")
+    if hasattr(config, "workerinput"):
+        return
+    config.pluginmanager.register(Counts(config), "counts")
+    if SHARED_RUNS not in os.environ:
+        folder = tempfile.TemporaryDirectory()
+        os.environ[SHARED_RUNS] = folder.name
+        config.add_cleanup(folder.cleanup)
+        config.add_cleanup(lambda: os.environ.pop(SHARED_RUNS))
+
+
+def pytest_collection_modifyitems(config, items):
+    kept, others = [], []
+    for item in items:
+        (kept if config.option.text in f"test/{name_of(item)}" else others).append(item)
+        # Those of the interfaces share what they install.
+        module = item.nodeid.partition("::")[0]
+        group = "embed" if module.startswith("embed/") else module
+        item.add_marker(pytest.mark.xdist_group(group))
+    config.hook.pytest_deselected(items=others)
+    items[:] = kept
