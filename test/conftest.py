@@ -17,7 +17,7 @@ def name_of(one):
 
 
 class Counts:
-    """Counts tests, not their subtests, and tells of a failure at once."""
+    """Counts tests, not their subtests, and names those that fail at once."""
 
     def __init__(self, config):
         self.config = config
@@ -37,7 +37,7 @@ class Counts:
         if outcome == "failed":
             self.bad.add(name)
             terminal = self.config.pluginmanager.get_plugin("terminalreporter")
-            terminal.write_line(f"\nFAILED {name}\n{report.longreprtext}", flush=True)
+            terminal.write_line(f"\nFAILED {name}", flush=True)
         if outcome == "skipped" and not hasattr(report, "wasxfail"):
             self.skipped.add(name)
 

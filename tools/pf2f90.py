@@ -4,8 +4,9 @@
     pf2f90.py [--source test/pf] [--target build/tests]
 
 Every SOURCE/<room>/test_<thing>.pf becomes TARGET/generated_<room>_test_<thing>.f90, and
-TARGET/generated_runner.f90 calls them all. A generated file is written only when its content
-changes, and generated files without a source are removed.
+TARGET/generated_runner.f90 calls them all. What tests share, SOURCE/support/*.f90, comes with
+them. A generated file is written only when its content changes, and generated files without a
+source are removed.
 
 What is understood, each directive alone on its line:
 
@@ -257,6 +258,9 @@ def translate_all(source):
             raise Refused(f"{shown}:1: {twin[0].shown} has the same module name")
         translations.append(translation)
     files = {f"generated_{t.title.replace('/', '_')}.f90": t.text() for t in translations}
+    for path in source.glob("support/*.f90"):
+        files[f"generated_support_{path.name}"] = (f'# 1 "{path.as_posix()}"\n'
+                                                   + path.read_text(encoding="utf-8"))
     files["generated_runner.f90"] = runner_text(translations)
     return files
 

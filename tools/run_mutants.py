@@ -444,7 +444,8 @@ class Job:
             present = [name for name in what if (self.folder / name).exists()]
             if not present:
                 return None
-            command = [str(self.base.python), "-m", "pytest", "--text", only or "", *present]
+            command = [str(self.base.python), "-m", "pytest", "-c", "test/pytest.ini",
+                       f"--text={only or ''}", *present]
         limit = self.seconds.get(stage_name(kind, what))
         limit = None if limit is None else TIME_FACTOR * limit + TIME_EXTRA
         return first_failure(command, self.folder, {**environment(), **extra}, limit)

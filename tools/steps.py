@@ -564,11 +564,9 @@ def install_browser():
 
 def python_tests(text):
     page_packages(text)
-    folders = [name for name in ("test/tools", "test/cli", "test/plots", "test/embed")
-               if os.path.isdir(name)]
-    if "test/cli" in folders:
+    if os.path.isdir("test/cli"):
         python_packages("test", "what the tests of the Python package and of NetCDF need")
-    return pytest(text, folders)
+    return pytest(text, ["test/tools", "test/cli", "test/plots", "test/embed"])
 
 
 def quick_python_tests(text):
@@ -577,8 +575,9 @@ def quick_python_tests(text):
 
 def pytest(text, names):
     """Run Python tests, two at a time at least: most of them wait for one program."""
-    return told(sys.executable, "-m", "pytest", "-n", str(max(2, len(os.sched_getaffinity(0)))),
-                "--durations", "20", "--text", text, *names)
+    return told(sys.executable, "-m", "pytest", "-c", "test/pytest.ini", "--durations=20",
+                "-n", str(max(2, len(os.sched_getaffinity(0)))), f"--text={text}",
+                *filter(os.path.exists, names))
 
 
 def lint_checks(text):

@@ -4,6 +4,7 @@ import csv
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -104,6 +105,15 @@ class ProgramTest(unittest.TestCase):
 
     def read(self, name):
         return rows_of((self.folder / name).read_text(encoding="utf-8"))
+
+    def peak_memory(self, *words):
+        """Of a good run, kB. Under a small process: a new one inherits the peak of its parent."""
+        done = subprocess.run([sys.executable, "-c", (
+            "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True); "
+            "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"),
+            self.program, *words], cwd=self.folder, stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, encoding="utf-8", check=True)
+        return int(done.stdout)
 
     def run_program(self, *words):
         """Run the program; its stderr without the lines of progress."""

@@ -493,11 +493,8 @@ class Streams(Scale):
         sizes = []
         for count in (500, 8000):
             self.write("cases.csv", "\n".join([lines[0], *(lines[1:] * count)[:count]]) + "\n")
-            process = subprocess.Popen([PROGRAM, "batch", "cases.csv", "-o", "out.csv", "--normal",
-                                        "hertz", "--tangential", "none", "--threads", "2"],
-                                       cwd=self.folder, stderr=subprocess.DEVNULL)
-            sizes.append(os.wait4(process.pid, 0)[2].ru_maxrss)
-            process.returncode = 0
+            sizes.append(self.peak_memory("batch", "cases.csv", "-o", "out.csv", "--threads", "2",
+                                          "--normal", "hertz", "--tangential", "none"))
             self.assertEqual(len(self.read("out.csv")), count)
         self.assertLess(sizes[1], sizes[0] + 30000)
         self.assertLess(sizes[1], 100000)

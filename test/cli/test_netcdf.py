@@ -321,16 +321,7 @@ class Tables(Netcdf):
         for rows in (20000, 300000):
             self.write("t.csv", "case,y_mm,z_mm\n" + "".join(
                 f"c{i},{i / 7!r},{i / 3!r}\n" for i in range(rows)))
-            done = subprocess.run([sys.executable, "-c", """\
-import resource
-import subprocess
-import sys
-
-subprocess.run(sys.argv[1:], check=True)
-print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
-""", PROGRAM, "netcdf", "t.csv", "-o", "t.nc"], cwd=self.folder, stdout=subprocess.PIPE,
-                                  stderr=subprocess.DEVNULL, encoding="utf-8", check=True)
-            peak.append(int(done.stdout))
+            peak.append(self.peak_memory("netcdf", "t.csv", "-o", "t.nc"))
         # The longer table has 12 MB more.
         self.assertLess(peak[1] - peak[0], 6000, "kB")
 

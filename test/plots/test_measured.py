@@ -241,7 +241,7 @@ class BadInput(unittest.TestCase):
             ("integrals", dict(exact=-1), "exact must be above zero, got -1"),
             ("degrees", dict(basis="fourier"), "basis must be monomial or chebyshev, got fourier"),
             ("bench_integral", dict(ns=0), "ns must be above zero, got 0"),
-            ("bench_integral", dict(loop="both"), "loop must be scalar or row, got both"),
+            ("bench_integral", dict(loop="both"), "loop must be one of scalar, row, got both"),
             ("convergence", dict(strips=0), "strips must be at least 1, got 0"),
             ("bench_normal", dict(us=-1), "us must be above zero, got -1"),
             ("bench_normal", dict(strips=0), "strips must be above zero, got 0"),

@@ -63,7 +63,8 @@ class Sample:
         translation = self.translate()
         if translation.returncode != 0:
             return translation.stderr
-        sources = sorted(self.generated.glob("generated_*test_*.f90"))
+        sources = [*self.generated.glob("generated_support_*.f90"),
+                   *sorted(self.generated.glob("generated_*test_*.f90"))]
         sources.append(self.generated / "generated_runner.f90")
         funit = compile_funit()
         command = ["gfortran", *FLAGS, "-I", funit, "-o", "runner"]

@@ -412,7 +412,7 @@ class FromNothing(Building):
                                  text=True)
         self.assertEqual(program.stdout, "lab\n")
         self.assertEqual(sorted(path.name for path in self.folder.joinpath("test").iterdir()),
-                         ["build", "fpm.toml", "funit", "pf", "tools"])
+                         ["build", "conftest.py", "fpm.toml", "funit", "pf", "pytest.ini", "tools"])
 
 
 class Testing(Building):

@@ -110,6 +110,13 @@ class Files(unittest.TestCase):
             names = sorted(path.name for path in sample.generated.iterdir())
             self.assertEqual(names, ["generated_room_test_good.f90", "generated_runner.f90"])
 
+    def test_what_tests_share_is_compiled_with_them(self):
+        shared = "module shared\n    integer, parameter :: one = 1\nend module\n"
+        text = module("test_x", test("it", "use shared, only: one", "@assertEqual(1, one)"))
+        with Sample({"room/test_x.pf": text, "support/shared.f90": shared}) as sample:
+            self.assertEqual(sample.build(), "")
+            self.assertEqual(sample.run().returncode, 0)
+
     def test_an_unchanged_file_is_not_written_again(self):
         other = module("test_other", test("works", "@assertTrue(.true.)"))
         with Sample({"test_good.pf": GOOD, "test_other.pf": other}) as sample:
