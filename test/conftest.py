@@ -4,7 +4,7 @@
 import os
 import tempfile
 
-import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 # Names the folder of shared runs to shared_runs.py, in all processes.
 SHARED_RUNS = "FASTSTRIP_SHARED_RUNS"
@@ -12,8 +12,13 @@ SHARED_RUNS = "FASTSTRIP_SHARED_RUNS"
 
 def name_of(one):
     """Of a test or a module: folder/module::class.test."""
-    module, _, test = one.nodeid.partition("@")[0].partition("::")
+    module, _, test = one.nodeid.partition("::")
     return f"{module.removesuffix('.py')}::{test.replace('::', '.')}"
+
+
+def full_name(item):
+    """What a TEXT is looked for in."""
+    return f"test/{name_of(item)}"
 
 
 class Counts:
@@ -53,7 +58,6 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    config.addinivalue_line("markers", "xdist_group: tests of one process")
     if hasattr(config, "workerinput"):
         return
     config.pluginmanager.register(Counts(config), "counts")
@@ -65,12 +69,18 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    kept, others = [], []
-    for item in items:
-        (kept if config.option.text in f"test/{name_of(item)}" else others).append(item)
-        # Those of the interfaces share what they install.
-        module = item.nodeid.partition("::")[0]
-        group = "embed" if module.startswith("embed/") else module
-        item.add_marker(pytest.mark.xdist_group(group))
-    config.hook.pytest_deselected(items=others)
-    items[:] = kept
+    text = config.option.text
+    config.hook.pytest_deselected(items=[item for item in items if text not in full_name(item)])
+    items[:] = [item for item in items if text in full_name(item)]
+
+
+class ByModule(LoadScopeScheduling):
+    """A process takes a module, or all of the interfaces, which share what they install."""
+
+    def _split_scope(self, nodeid):
+        module = nodeid.partition("::")[0]
+        return "embed" if module.startswith("embed/") else module
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return ByModule(config, log)
