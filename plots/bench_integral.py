@@ -6,11 +6,10 @@ import sys
 import numpy as np
 from matplotlib.ticker import FixedLocator, NullFormatter
 
-from faststrip_plots import command, scales, style
+from faststrip_plots import bench, command, scales, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
-BENCH = "out/bench_integral.csv"
 FLOOR = 1e-17  # where an error of zero is drawn
 METHODS = {
     "polynomial": "published polynomial",
@@ -27,24 +26,11 @@ RUN = ("flags", "compiler", "cpu")
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--bench", default=BENCH, metavar="CSV",
-                        help="what `faststrip-lab bench integral` wrote")
-    parser.add_argument("-o", "--output", default="out/bench_integral.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.bench, ("method", "n", "b", "loop", "ns", "rel_err") + RUN)
+    options = bench.options(__doc__, "integral", arguments)
+    table = read_table(options.bench, ("method", "n", "b", "loop", "ns", "rel_err", *RUN))
     table.numbers("b")
-    ns = table.numbers("ns")
+    ns = table.positive("ns")
     error = np.maximum(np.abs(table.numbers("rel_err")), FLOOR)
-    for row in np.flatnonzero(ns <= 0.0):
-        raise InputError(f"ns must be above zero, got {ns[row]:g}"
-                         f" ({options.bench}:{table.lines[row]})")
-    for loop, line in zip(table.words("loop"), table.lines):
-        if loop not in LOOPS:
-            raise InputError(
-                f"loop must be scalar or row, got {loop} ({options.bench}:{line})"
-            )
     for name in RUN:
         if len(set(table.words(name))) > 1:
             raise InputError(f"{name} must be that of one run, got several: {options.bench}")
@@ -53,7 +39,7 @@ def main(arguments=None):
     axes = figure.subplots()
     dots = [
         (method, loop, spread(ns[rows]), spread(error[rows]))
-        for (method, loop), rows in scales.groups(table.words("method"), table.words("loop"))
+        for (method, loop), rows in scales.groups(table.words("method"), table.one_of("loop", LOOPS))
     ]
     obstacles = draw_dots(axes, dots)
     axes.set_xscale("log")

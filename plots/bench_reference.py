@@ -10,13 +10,11 @@ import math
 import sys
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
 
-from faststrip_plots import command, scales, style
+from faststrip_plots import bench, command, scales, style
 from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.tables import read_table
 
-BENCH = "out/bench_reference.csv"
 STARTS = {
     "cold": style.Look("cold", "#0b3c78", "-", 2.0),
     "coarse": style.Look("coarser grid", "#2e7d32", "-", 1.8),
@@ -34,31 +32,16 @@ CLASS = 2.0 ** 0.5  # elements within this factor belong together
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--bench", default=BENCH, metavar="CSV",
-                        help="what `faststrip-lab bench reference` wrote")
-    parser.add_argument("--contact", metavar="CSV",
-                        help="what CONTACT took, as reference/contact/s1002_uic60_B.csv")
-    parser.add_argument("-o", "--output", default="out/bench_reference.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
+    options = bench.options(__doc__, "reference", arguments, [
+        ("--contact", dict(metavar="CSV",
+                           help="what CONTACT took, as reference/contact/s1002_uic60_B.csv"))])
     table = read_table(options.bench, ("method", "start", "tolerance", "elements", "us",
                                        "iterations"))
-    values = {name: table.numbers(name) for name in ("tolerance", "elements", "us", "iterations")}
-    for name in ("tolerance", "elements", "us"):
-        for row in np.flatnonzero(values[name] <= 0.0):
-            raise InputError(
-                f"{name} must be above zero, got {values[name][row]:g}"
-                f" ({options.bench}:{table.lines[row]})"
-            )
-    for name, known in (("method", METHODS), ("start", STARTS)):
-        for word, line in zip(table.words(name), table.lines):
-            if word not in known:
-                raise InputError(
-                    f"{name} must be one of {', '.join(known)}, got {word} ({options.bench}:{line})"
-                )
+    values = {name: table.positive(name) for name in ("tolerance", "elements", "us")}
+    values["iterations"] = table.numbers("iterations")
     runs = [(*key, medians(rows, values)) for key, rows in
-            scales.groups(table.words("method"), table.words("start"), values["tolerance"])]
+            scales.groups(table.one_of("method", METHODS), table.one_of("start", STARTS),
+                          values["tolerance"])]
 
     contact = read_table(options.contact, ("n_contact", *CONTACT.values())) \
         if options.contact else None
@@ -76,7 +59,7 @@ def main(arguments=None):
     for axes in (*times, iterations):
         axes.set_xscale("log")
         axes.set_xlabel("elements in contact")
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+        axes.xaxis.set_major_formatter("{x:,.0f}")
     legend_in_rows(figure, times)
     style.save(figure, options.output, [revision(table)],
                "medians, one core; large ring: goal at 3700 elements")
@@ -103,23 +86,12 @@ def draw_times(axes, runs):
         if tolerance != finest(runs):
             continue
         look = STARTS[start]
-        axes.plot(run["elements"], 1e-3 * run["us"], color=look.colour, linestyle=look.line,
-                  linewidth=look.width, marker=MARKERS[method], markersize=3.6, label=look.label,
-                  zorder=3)
-        if start != "cold":
-            continue
-        for part in scales.ends(run["elements"], SLOPE_PART):
-            slope = scales.power(run["elements"][part], run["us"][part])
-            if math.isfinite(slope):
-                middle = part[len(part) // 2]
-                axes.annotate(f"∝ $N^{{{slope:.2f}}}$",
-                              (run["elements"][middle], 1e-3 * run["us"][middle]), (-12.0, 12.0),
-                              textcoords="offset points", ha="right", va="bottom",
-                              color=look.colour)
-        elements, goal = GOALS[method]
-        axes.plot(elements, goal, linestyle="none", marker="o", markersize=10, zorder=5,
-                  markerfacecolor="none", markeredgecolor=look.colour, markeredgewidth=1.6)
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
+        bench.draw_line(axes, run["elements"], 1e-3 * run["us"], look, marker=MARKERS[method])
+        if start == "cold":
+            bench.draw_slopes(axes, run["elements"], 1e-3 * run["us"], look, SLOPE_PART,
+                              (-12.0, 12.0), digits=2)
+            bench.draw_goal(axes, *GOALS[method], look)
+    axes.yaxis.set_major_formatter("{x:.12g}")
 
 
 def draw_iterations(axes, runs):
@@ -129,12 +101,12 @@ def draw_iterations(axes, runs):
             continue
         look = STARTS[start]
         filled = tolerance == finest([other for other in runs if other[0] == method])
-        axes.plot(run["elements"], run["iterations"], color=look.colour, linestyle=look.line,
-                  linewidth=look.width, marker=MARKERS[method], markersize=4.0, zorder=3,
-                  markerfacecolor=look.colour if filled else "white")
+        bench.draw_line(axes, run["elements"], run["iterations"], look, label=None,
+                        marker=MARKERS[method], markersize=4.0,
+                        markerfacecolor=look.colour if filled else "white")
     # iterations of TANG are many times those of NORM
     axes.set_yscale("log")
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    axes.yaxis.set_major_formatter("{x:,.0f}")
     style.title(axes, "Iterations: ● NORM, all grids; ■ TANG")
 
 

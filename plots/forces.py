@@ -4,7 +4,7 @@
 import sys
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import NullFormatter
 
 from faststrip_plots import command, style
 from faststrip_plots.results import revision
@@ -167,7 +167,7 @@ def trade_figure(errors, path):
         axes.set_yscale("log")
         axes.set_xlabel("forces of one contact, µs")
         for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(NullFormatter())
         axes.set_xticks((0.5, 1.0, 2.0, 5.0, 10.0))
         axes.set_xlim(0.5, 10.0)

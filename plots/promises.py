@@ -7,7 +7,7 @@ import os
 import sys
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
+from matplotlib.ticker import NullFormatter, NullLocator
 
 from faststrip_plots import command, style
 from faststrip_plots.document import write_text
@@ -145,7 +145,7 @@ def draw_promises(axes, solved, target, shares):
                     [f"{100.0 * each.method.tolerance:g} %" for each in solved])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("tolerance; above: promises kept of those given")
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_major_formatter("{x:g}")
     style.title(axes, HEADINGS[target])
 
 
@@ -236,7 +236,7 @@ def log_axes(axes):
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
 
 

@@ -22,10 +22,7 @@ def main(arguments=None):
                         help="picture to write")
     options = parser.parse_args(arguments)
     table = read_table(options.scale, ("group", "what", *NUMBERS))
-    numbers = {name: table.numbers(name, missing=True) for name in NUMBERS}
-    for name, values in numbers.items():
-        for row in np.flatnonzero(values <= 0.0):
-            raise InputError(f"{name} must be above zero ({options.scale}:{table.lines[row]})")
+    numbers = {name: table.positive(name, missing=True) for name in NUMBERS}
 
     def rows(*groups, name):
         found = [row for row, group in enumerate(table.words("group"))

@@ -4,7 +4,6 @@
 import sys
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
 
 from faststrip_plots import command, style
 from faststrip_plots.results import revision
@@ -69,7 +68,7 @@ def main(arguments=None):
                      label="FASTSIM, 50 × 50", zorder=1)
     axes.set_yticks(places, names)
     axes.set_ylim(at + 0.8, places[0] - 0.8)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
+    axes.xaxis.set_major_formatter("{x:.12g}")
     axes.set_xlabel("processor time, µs")
     axes.grid(axis="y", visible=False)
     style.legend_above(figure, axes)

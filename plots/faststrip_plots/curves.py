@@ -30,13 +30,9 @@ class Curve:
 def read_curves(path):
     """The curves by ascending strip distance, and the revision."""
     table = read_table(path, COLUMNS)
-    values = {name: table.numbers(name) for name in COLUMNS[:4]}
+    values = {name: (table.positive if name in ("b", "exact") else table.numbers)(name)
+              for name in COLUMNS[:4]}
     values.update({name: table.numbers(name, missing=True) for name in COLUMNS[4:]})
-    for name in ("b", "exact"):
-        for row in np.flatnonzero(values[name] <= 0.0):
-            raise InputError(
-                f"{name} must be above zero, got {values[name][row]:g} ({path}:{table.lines[row]})"
-            )
     n = values["n"]
     for row in np.flatnonzero((n != np.round(n)) | (n < 0) | (n > 20)):
         raise InputError(

@@ -183,19 +183,9 @@ def read_reference(path: str) -> Reference:
     table = read_table(path, ("yw_mm", "Fn_N") + names)
     yw = table.numbers("yw_mm")
     order = np.argsort(yw, kind="stable")
-    values = {
-        name: table.numbers(quantity.reference)[order] for name, quantity in QUANTITIES.items()
-    }
-    for name in NORMAL_QUANTITIES:
-        _check_positive(table, QUANTITIES[name].reference)
-    _check_positive(table, "Fn_N")
-    return Reference(path, yw[order], table.numbers("Fn_N")[order], values)
-
-
-def _check_positive(table, name):
-    for value, line in zip(table.numbers(name), table.lines):
-        if value <= 0.0:
-            raise InputError(f"{name} must be above zero, got {value:g} ({table.path}:{line})")
+    values = {name: (table.positive if name in NORMAL_QUANTITIES else table.numbers)(
+        quantity.reference)[order] for name, quantity in QUANTITIES.items()}
+    return Reference(path, yw[order], table.positive("Fn_N")[order], values)
 
 
 @dataclass(frozen=True)
@@ -294,7 +284,7 @@ def read_strips(path: str) -> Strips:
                 f"y_mm must be between the edges of its strip, got {columns[2][k]:g}"
                 f" ({path}:{line})"
             )
-    _check_positive(table, "half_length_mm")
+    table.positive("half_length_mm")
     patches = []
     for value in sorted(set(number)):
         rows = np.flatnonzero(number == value)

@@ -57,6 +57,22 @@ class Table:
             dtype=float,
         )
 
+    def positive(self, name: str, missing: bool = False) -> np.ndarray:
+        """The same, all above zero."""
+        values = self.numbers(name, missing)
+        for value, line in zip(values, self.lines):
+            if value <= 0.0:
+                raise InputError(f"{name} must be above zero, got {value:g} ({self.path}:{line})")
+        return values
+
+    def one_of(self, name: str, known: Iterable[str]) -> list[str]:
+        """The cells of a column, each of which is one of the words known."""
+        for word, line in zip(self.words(name), self.lines):
+            if word not in known:
+                raise InputError(
+                    f"{name} must be one of {', '.join(known)}, got {word} ({self.path}:{line})")
+        return self.words(name)
+
     def _number(self, name, text, line, missing):
         if text == "":
             if missing:
