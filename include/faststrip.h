@@ -66,7 +66,7 @@ enum faststrip_status {
     FASTSTRIP_FILE_FORMAT = 121
 };
 
-/* BEGIN methods, written by tools/methods.py */
+/* BEGIN methods, written by tools/generate/methods.py */
 enum faststrip_normal {
     FASTSTRIP_NORMAL_STRIP = 1,         /* strips, for any patch and any number of patches */
     FASTSTRIP_NORMAL_HERTZ = 2,         /* the Hertz ellipse where the gap is lowest */

@@ -30,6 +30,7 @@ def main(arguments=None):
     table = read_table(options.bench, ("method", "n", "b", "loop", "ns", "rel_err", *RUN))
     table.numbers("b")
     ns = table.positive("ns")
+    loops = table.one_of("loop", LOOPS)
     error = np.maximum(np.abs(table.numbers("rel_err")), FLOOR)
     for name in RUN:
         if len(set(table.words(name))) > 1:
@@ -39,7 +40,7 @@ def main(arguments=None):
     axes = figure.subplots()
     dots = [
         (method, loop, spread(ns[rows]), spread(error[rows]))
-        for (method, loop), rows in scales.groups(table.words("method"), table.one_of("loop", LOOPS))
+        for (method, loop), rows in scales.groups(table.words("method"), loops)
     ]
     obstacles = draw_dots(axes, dots)
     axes.set_xscale("log")

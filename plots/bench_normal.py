@@ -27,7 +27,8 @@ def main(arguments=None):
     table = read_table(options.bench, ("start", "strips", "us", *maybe))
     values = {name: table.positive(name) for name in ("strips", "us")}
     values |= {name: table.numbers(name, missing=True) for name in maybe}
-    runs = [(start, medians(rows, values)) for start, rows in scales.groups(table.one_of("start", STARTS))]
+    runs = [(start, medians(rows, values))
+            for start, rows in scales.groups(table.one_of("start", STARTS))]
 
     figure = style.new_figure(10.4, 5.8)
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1.0])

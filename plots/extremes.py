@@ -40,7 +40,8 @@ def main(arguments=None):
                         help="what `faststrip-lab bench extremes` wrote")
     parser.add_argument("--rounding", metavar="CSV",
                         help="the part `rounding` of a program without vector functions")
-    parser.add_argument("--single", metavar="CSV", help="what tools/single_precision.py wrote")
+    parser.add_argument("--single", metavar="CSV",
+                        help="what tools/building/single_precision.py wrote")
     parser.add_argument("--folder", default="out/extremes", metavar="FOLDER",
                         help="folder for the pictures")
     options = parser.parse_args(arguments)

@@ -163,7 +163,7 @@ faststrip-lab bench extremes -o {out}/extremes.csv
 EXTREMES_END = """
 {scalar} bench extremes --only rounding -o {out}/rounding.csv
 == single precision
-python tools/single_precision.py -o {out}/single.csv
+python tools/building/single_precision.py -o {out}/single.csv
 python plots/extremes.py --extremes {out}/extremes.csv --rounding {out}/rounding.csv \
     --single {out}/single.csv --folder {out}
 == done: tables and pictures are in {out}/
@@ -333,11 +333,11 @@ end module faststrip_command_revision
 
 
 def compiler():
-    """An environment in which gfortran is tools/recompile.py: it keeps what sees no change."""
+    """An environment in which gfortran is recompile.py: it keeps what sees no change."""
     real = shutil.which("gfortran")
     if real is None:
         raise Trouble("there is no gfortran")
-    words = [sys.executable, "-IS", str(ROOT / "tools" / "recompile.py"), real]
+    words = [sys.executable, "-IS", str(ROOT / "tools/building/recompile.py"), real]
     text = f'#!/bin/sh\nexec {shlex.join(words)} "$@"\n'
     path = COMPILER / "gfortran"
     if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -421,8 +421,8 @@ def build():
             # One that is running at the moment can be replaced, not written over.
             shutil.copy2(made, f"{target}.new")
             os.replace(f"{target}.new", target)
-    quietly("build-netcdf", [sys.executable, "tools/netcdf_plugin.py", "--flags", RELEASE_FLAGS,
-                             "-o", "bin/faststrip_netcdf.so"], "the build failed")
+    quietly("build-netcdf", [sys.executable, "tools/building/netcdf_plugin.py", "--flags",
+                             RELEASE_FLAGS, "-o", "bin/faststrip_netcdf.so"], "the build failed")
 
 
 # Testing
@@ -481,7 +481,7 @@ def told(*words):
 
 def fortran_tests(text, flags=TEST_FLAGS, twin="", left_out=()):
     pathlib.Path("build/tests").mkdir(parents=True, exist_ok=True)
-    code, said = told(sys.executable, "tools/pf2f90.py")
+    code, said = told(sys.executable, "tools/building/pf2f90.py")
     if code != 0:
         return code, said
     fpm_build("build-tests", "test", flags, twin)
@@ -551,6 +551,7 @@ def page_packages(text):
 def install_browser():
     """Chromium and what drives it, if they are not there; why they are not in one line, or
     nothing."""
+    sys.path.insert(0, "tools/building")
     import debian  # which nothing else here needs
 
     for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):
@@ -581,7 +582,7 @@ def pytest(text, names):
 
 
 def lint_checks(text):
-    return told(sys.executable, "tools/lint.py", "--filter", text)
+    return told(sys.executable, "tools/check/lint.py", "--filter", text)
 
 
 # The steps; each takes the words that follow its name.
@@ -615,20 +616,20 @@ def test(*words):
 
 
 def lint(text=""):
-    do(sys.executable, "tools/lint.py", "--install", "--filter", text)
+    do(sys.executable, "tools/check/lint.py", "--install", "--filter", text)
 
 
 def bare(*text):
-    do(sys.executable, "tools/bare.py", *(("--text", *text) if text else ()), "build/bare")
+    do(sys.executable, "tools/check/bare.py", *(("--text", *text) if text else ()), "build/bare")
 
 
 def mutants(*words):
-    do(sys.executable, "tools/run_mutants.py", *words)
+    do(sys.executable, "tools/check/run_mutants.py", *words)
 
 
 def hostile(*words):
     build()
-    do(sys.executable, "tools/hostile.py", *words)
+    do(sys.executable, "tools/check/hostile.py", *words)
 
 
 def fuzz(cases="100000"):
@@ -676,7 +677,7 @@ def corrections():
     contacts = []
     for family, seed, count in FORCE_DATA:
         out = pathlib.Path("out", "force_data", family or "all")
-        do(sys.executable, "tools/force_data.py", count, "--folder", out, "--seed", seed,
+        do(sys.executable, "tools/generate/force_data.py", count, "--folder", out, "--seed", seed,
            *(("--family", family) if family else ()))
         contacts += sorted(out.glob("*.csv"))
     features = []
@@ -687,9 +688,9 @@ def corrections():
         do("bin/faststrip-lab", "force-features", *some, "--strips", strips, "--points", points,
            "-o", features[-1])
     heading("fitting, first without some families")
-    do(sys.executable, "tools/fit_forces.py", *features,
+    do(sys.executable, "tools/generate/fit_forces.py", *features,
        *(word for families in LEFT_OUT for word in ("--leave-out", families)))
-    do(sys.executable, "tools/force_weights.py")
+    do(sys.executable, "tools/generate/force_weights.py")
     heading("done: src/faststrip/tangential/force/weights.f90")
 
 
@@ -739,7 +740,8 @@ def scenes():
 def stored(*names):
     """What the program itself has made and the repository holds; it carries the revision."""
     build()
-    if subprocess.run([sys.executable, "tools/stored.py", *names], check=False).returncode != 0:
+    if subprocess.run([sys.executable, "tools/measure/stored.py", *names],
+                      check=False).returncode != 0:
         raise Trouble("the stored results are not all new")
     heading("done: look at the changes and commit them")
 
@@ -747,15 +749,15 @@ def stored(*names):
 def report(*words):
     if not {"-h", "--help"} & set(words):
         build()
-    do(sys.executable, "tools/report_runs.py", *words)
+    do(sys.executable, "tools/measure/report_runs.py", *words)
 
 
 def speed(*words):
-    measured("tools/speed.py", *words)
+    measured("tools/measure/speed.py", *words)
 
 
 def scale(*words):
-    measured("tools/scale.py", *words)
+    measured("tools/measure/scale.py", *words)
 
 
 def page(*words):
@@ -765,7 +767,7 @@ def page(*words):
         if why:
             raise Trouble(f"no browser to measure in: {why}")
         install_below(ROOT / "build" / "embed")
-    do(sys.executable, "tools/bench_page.py", "--prefix", "build/embed", *from_start(words))
+    do(sys.executable, "tools/measure/bench_page.py", "--prefix", "build/embed", *from_start(words))
 
 
 def from_start(words):
@@ -783,13 +785,13 @@ def measured(tool, *words):
 def net(*words):
     if not {"-h", "--help"} & set(words):
         install_below(ROOT / "build" / "embed")
-    do(sys.executable, "tools/net.py", "--installed", "build/embed", *words)
+    do(sys.executable, "tools/check/net.py", "--installed", "build/embed", *words)
 
 
 def lookup(*words):
     if not {"-h", "--help"} & set(words):
         install_below(ROOT / "build" / "embed")
-    do(sys.executable, "tools/lookup.py", "--installed", "build/embed", *words)
+    do(sys.executable, "tools/measure/lookup.py", "--installed", "build/embed", *words)
     if not {"-h", "--help"} & set(words):
         do(sys.executable, "plots/lookup.py")
 
@@ -799,8 +801,9 @@ def install_below(prefix):
     shutil.rmtree("build/stage", ignore_errors=True)
     fpm("stage", "src/files", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix",
         str(ROOT / "build/stage"), trouble="fpm install failed", twin="app")
-    if subprocess.run([sys.executable, "tools/install.py", "--stage", "build/stage", "--program",
-                       "bin/faststrip", "--prefix", prefix], check=False).returncode != 0:
+    if subprocess.run([sys.executable, "tools/building/install.py", "--stage", "build/stage",
+                       "--program", "bin/faststrip", "--prefix", prefix],
+                      check=False).returncode != 0:
         raise Trouble("the installation failed")
 
 
@@ -826,38 +829,38 @@ def python_packages(name, what):
 def docs():
     python_packages("docs", "FORD")
     build()
-    do(sys.executable, "tools/document.py")
+    do(sys.executable, "tools/docs/document.py")
     heading("done: out/docs/index.html")
 
 
 def package():
     python_packages("test", "what builds the Python package")
-    do(sys.executable, "tools/package.py", "--folder", folder("package"))
+    do(sys.executable, "tools/building/package.py", "--folder", folder("package"))
     heading("done: pip install out/package/*.whl")
 
 
 def release(*words):
     if words not in ((), ("--check",)):
         raise Trouble(f"release takes nothing or --check, not {' '.join(words)}", code=2)
-    do(sys.executable, "tools/release.py", "--check")
+    do(sys.executable, "tools/building/release.py", "--check")
     if not words:
         docs()
         package()
-        do(sys.executable, "tools/release.py")
+        do(sys.executable, "tools/building/release.py")
         heading("done: out/release/")
 
 
 def embed():
     out = folder("embed")
     install_below(ROOT / "build" / "embed")
-    do(sys.executable, "tools/bench_embed.py", "--prefix", "build/embed", "-o",
+    do(sys.executable, "tools/measure/bench_embed.py", "--prefix", "build/embed", "-o",
        f"{out}/bench_embed.csv")
     heading(f"done: the table is {out}/bench_embed.csv")
 
 
 def compilers():
     write_revision()
-    do(sys.executable, "tools/compilers.py")
+    do(sys.executable, "tools/building/compilers.py")
 
 
 def clean(what=""):

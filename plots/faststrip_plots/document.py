@@ -16,7 +16,7 @@ SHORT = 12  # letters: a shorter one is never broken
 NUMBER = 24  # letters: with more a number has a text behind it
 MANY = 12  # columns: more are printed small
 
-# Also the style of the site: tools/document.py.
+# Also the style of the site: tools/docs/document.py.
 STYLE = Path(__file__).with_name("document.css")
 
 

@@ -1,4 +1,4 @@
-"""Units, meanings and structs of the library, written by tools/columns.py."""
+"""Units, meanings and structs of the library, written by columns.py."""
 
 from __future__ import annotations
 

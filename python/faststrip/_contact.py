@@ -45,7 +45,7 @@ from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, t
 
 Array = npt.NDArray[np.float64]
 
-# BEGIN methods, written by tools/methods.py
+# BEGIN methods, written by tools/generate/methods.py
 NORMAL = {
     "strip": 1,           # strips, for any patch and any number of patches
     "hertz": 2,           # the Hertz ellipse where the gap is lowest

@@ -78,7 +78,7 @@ class ManyResult(Shown):
     """
 
     status: Whole
-    # BEGIN figures, written by tools/columns.py
+    # BEGIN figures, written by tools/generate/columns.py
     load: Array
     penetration: Array
     area: Array

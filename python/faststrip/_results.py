@@ -73,7 +73,7 @@ class Result(Row):
 
     status: int
     word: str
-    # BEGIN figures, written by tools/columns.py
+    # BEGIN figures, written by tools/generate/columns.py
     load: float
     penetration: float
     area: float

@@ -180,7 +180,7 @@ class WheelContact(Record):
     cksi: float
     ceta: float
     cphi: float
-    # BEGIN figures, written by tools/columns.py
+    # BEGIN figures, written by tools/generate/columns.py
     load: float
     penetration: float
     area: float
@@ -197,7 +197,7 @@ class WheelContact(Record):
     force: Tuple[float, ...]
     force_wheelset: Tuple[float, ...]
     moment: Tuple[float, ...]
-    # BEGIN errors, written by tools/columns.py
+    # BEGIN errors, written by tools/generate/columns.py
     est_err_penetration: Optional[float]
     est_err_pmax: Optional[float]
     est_err_area: Optional[float]

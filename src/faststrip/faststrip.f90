@@ -83,7 +83,7 @@ module faststrip
     use faststrip_tangential_types, only: tangential_field_t
     ! Methods.
     use faststrip_contact_methods, only: contact_methods_t
-    ! BEGIN methods, written by tools/methods.py
+    ! BEGIN methods, written by tools/generate/methods.py
     use faststrip_contact_methods, only: normal_strip, normal_hertz, normal_equal_area, &
                                          normal_equal_moments, normal_norm, normal_auto, &
                                          normal_kpec, normal_analyn, normal_kpec_strips, &

@@ -1,6 +1,6 @@
 !> The catalogue of columns: what each column of a table holds and means, and what interfaces call
 !> it. Those of the figures of a contact are rows of `faststrip_contact_figures`. NetCDF, the
-!> command `faststrip columns` and, by `tools/columns.py`, documents and Python read it.
+!> command `faststrip columns` and, by `tools/generate/columns.py`, documents and Python read it.
 module faststrip_files_columns
     use faststrip_base_text, only: lower_case
     use faststrip_contact_figures, only: figures, n_figures

@@ -37,8 +37,8 @@ class Catalogue(ProgramTest):
                 self.assertEqual(row["unit"] == "", row["holds"] == "text")
 
     def test_pages_and_interfaces_say_what_it_says(self):
-        done = subprocess.run([sys.executable, ROOT / "tools/columns.py", PROGRAM, "--check"],
-                              capture_output=True, encoding="utf-8")
+        done = subprocess.run([sys.executable, ROOT / "tools/generate/columns.py", PROGRAM,
+                               "--check"], capture_output=True, encoding="utf-8")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_all_columns_of_all_tables_are_in_it(self):

@@ -52,7 +52,7 @@ class Examples(ProgramTest):
 
     def test_made_files_are_those_of_the_tool(self):
         self.example("tread_straight", "--shift", "0", "--profiles", str(self.folder / "p.csv"))
-        subprocess.run([sys.executable, str(ROOT / "tools" / "example_files.py"), "p.csv", "."],
+        subprocess.run([sys.executable, ROOT / "tools/generate/example_files.py", "p.csv", "."],
                        cwd=self.folder, check=True)
         for name in MADE:
             self.assertEqual((self.folder / name).read_text(encoding="utf-8"),

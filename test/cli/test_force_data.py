@@ -95,7 +95,7 @@ class ForceData(LabTest):
                 self.assertGreater(float(a["est_err_pmax"]), float(b["est_err_pmax"]))
 
     def test_files_that_are_there_are_not_made_again(self):
-        words = [sys.executable, ROOT / "tools" / "force_data.py", "--across", "8"]
+        words = [sys.executable, ROOT / "tools/generate/force_data.py", "--across", "8"]
         for contacts, folder in ((210, "parts"), (205, "whole"), (210, "whole")):
             if folder == "whole":
                 kept = self.folder / "whole" / "contacts_000001_000200.csv"

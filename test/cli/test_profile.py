@@ -225,7 +225,7 @@ class Profiles(ProgramTest):
 
 class Mutated(unittest.TestCase):
     def test_mutated_files_give_a_profile_or_one_line(self):
-        done = subprocess.run([sys.executable, str(ROOT / "tools" / "mutated_profiles.py"), "1200",
+        done = subprocess.run([sys.executable, ROOT / "tools/check/mutated_profiles.py", "1200",
                                "--seed", "3"], stdout=subprocess.PIPE, encoding="utf-8",
                               check=False)
         self.assertEqual(done.returncode, 0, done.stdout)

@@ -5,7 +5,7 @@ import sys
 
 from cli_program import PATIENCE, ROOT, ProgramTest
 
-TOOL = ROOT / "tools" / "scale.py"
+TOOL = ROOT / "tools/measure/scale.py"
 
 
 class Quick(ProgramTest):

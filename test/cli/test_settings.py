@@ -54,8 +54,8 @@ class Settings(ProgramTest):
                                            "fatigue_index"]]
 
     def test_the_pages_say_what_the_table_says(self):
-        done = subprocess.run([sys.executable, ROOT / "tools/settings.py", PROGRAM, "--check"],
-                              capture_output=True, encoding="utf-8")
+        done = subprocess.run([sys.executable, ROOT / "tools/generate/settings.py", PROGRAM,
+                               "--check"], capture_output=True, encoding="utf-8")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_what_is_told_is_what_happens(self):

@@ -6,7 +6,7 @@ import sys
 
 from cli_program import PATIENCE, ROOT, LabTest
 
-TOOL = ROOT / "tools" / "speed.py"
+TOOL = ROOT / "tools/measure/speed.py"
 HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fastsim_nx,"
           "fastsim_ny,element_mm\n")
 INFLUENCE = {"centre", "tip", "centre with derivatives", "tip with derivatives"}

@@ -59,7 +59,7 @@ class Dependency(unittest.TestCase):
         # Without links: what is relative is so to the place itself.
         cls.folder = pathlib.Path(temporary.name).resolve()
         cls.host = cls.folder / "host"
-        recompile = [sys.executable, "-IS", str(ROOT / "tools" / "recompile.py")]
+        recompile = [sys.executable, "-IS", str(ROOT / "tools/building/recompile.py")]
         for name, text in (
                 ("ld", LINKER.format(folder=cls.folder, linker=shutil.which("ld"))),
                 ("gfortran", COMPILER.format(

@@ -133,7 +133,7 @@ class Faces(HostTest):
 
     def test_the_tool_says_what_a_table_is_worth(self):
         words = f"--quick --folder '{self.folder}/worth' --installed '{self.installed.prefix}'"
-        self.shell(f"'{sys.executable}' '{ROOT}/tools/lookup.py' {words} 2>/dev/null")
+        self.shell(f"'{sys.executable}' '{ROOT}/tools/measure/lookup.py' {words} 2>/dev/null")
         with open(self.folder / "worth" / "figures.csv", encoding="utf-8") as file:
             found = {row["what"]: float(row["value"]) for row in csv.DictReader(file)}
         self.assertGreater(found["size"], 0.05)

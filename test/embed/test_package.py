@@ -47,7 +47,8 @@ class Package(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
-        cls.command(sys.executable, ROOT / "tools" / "package.py", "--fast", "--folder", cls.folder)
+        cls.command(sys.executable, ROOT / "tools/building/package.py", "--fast", "--folder",
+                    cls.folder)
         cls.wheel, = cls.folder.glob("*.whl")
         cls.source, = cls.folder.glob("*.tar.gz")
         with open(ROOT / "fpm.toml", "rb") as file:
@@ -144,8 +145,8 @@ class Package(unittest.TestCase):
             names = {"/".join(name.split("/")[1:]) for name in archive.getnames()}
         for name in ("CMakeLists.txt", "fpm.toml", "include/faststrip.h", "LICENSE",
                      "pyproject.toml", "python/faststrip/__init__.py",
-                     "src/faststrip/faststrip.f90", "tools/cmake/lapack_small.f90",
-                     "tools/cmake/public_names.cmake"):
+                     "src/faststrip/faststrip.f90", "tools/building/cmake/lapack_small.f90",
+                     "tools/building/cmake/public_names.cmake"):
             self.assertIn(name, names)
         folders = {name.split("/")[0] for name in names if "/" in name}
         self.assertEqual(folders, {"include", "python", "src", "tools"})
@@ -276,14 +277,14 @@ end program compare
 
 
 class OwnRoutines(unittest.TestCase):
-    """tools/cmake/lapack_small.f90 against LAPACK."""
+    """tools/building/cmake/lapack_small.f90 against LAPACK."""
 
     def test_they_agree_with_lapack(self):
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "compare.f90").write_text(COMPARE, encoding="utf-8")
             done = subprocess.run(
                 ["sh", "-euc", f"gfortran -O2 -std=f2018 '{ROOT}/src/faststrip/base/kinds.f90' "
-                 f"'{ROOT}/tools/cmake/lapack_small.f90' compare.f90 -o compare "
+                 f"'{ROOT}/tools/building/cmake/lapack_small.f90' compare.f90 -o compare "
                  "$(pkg-config --libs openblas) && ./compare"],
                 cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
                 check=False, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})

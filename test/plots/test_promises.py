@@ -1,4 +1,5 @@
-"""plots/promises.py and tools/promises.py: promises, bounds and times are those of the numbers."""
+"""Promises, bounds and times of plots/promises.py and tools/measure/promises.py are those of the
+numbers."""
 
 import csv
 import subprocess
@@ -97,8 +98,8 @@ class Promises(unittest.TestCase):
         self.assertAlmostEqual(promises.largest_gap(points), 30.0)
 
     def test_tables_and_pictures(self):
-        done = self.run_tool("tools/promises.py", "--take", "results.csv", "--truth", "truth.csv",
-                             "--methods", "methods.csv", "--folder", ".")
+        done = self.run_tool("tools/measure/promises.py", "--take", "results.csv", "--truth",
+                             "truth.csv", "--methods", "methods.csv", "--folder", ".")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         text = (self.folder / "promises.csv").read_text(encoding="utf-8")
         self.assertTrue(text.startswith("# faststrip 0.1.0 rev ababab\ntarget,tolerance,"), text)
@@ -108,7 +109,7 @@ class Promises(unittest.TestCase):
         self.assertEqual(rows[0]["Fx_mean"], "0.5")
         for name in ("kinds", "estimates"):
             self.assertGreater(len(read_table(str(self.folder / f"{name}.csv"))), 1)
-        done = self.run_tool("tools/promises.py", "results.csv", "--truth", "truth.csv",
+        done = self.run_tool("tools/measure/promises.py", "results.csv", "--truth", "truth.csv",
                              "--methods", "methods.csv")
         self.assertIn("3 (75.0 %)", done.stdout)
         done = self.run_tool("plots/promises.py", "--results", "results.csv", "--truth",

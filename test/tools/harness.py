@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TRANSLATOR = ROOT / "tools" / "pf2f90.py"
+TRANSLATOR = ROOT / "tools/building/pf2f90.py"
 FLAGS = (
     "-Og -g -frecursive -fimplicit-none -std=f2018 -Wall -Wextra -pedantic -Werror "
     "-Wno-compare-reals -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow "

@@ -27,7 +27,7 @@ class OfTheProject(unittest.TestCase):
         self.assertEqual(len({constant.key for constant in found}), len(found))
 
     def test_the_page_is_as_the_sources_say(self):
-        done = subprocess.run([sys.executable, ROOT / "tools" / "constants.py", "--check"],
+        done = subprocess.run([sys.executable, ROOT / "tools/check/constants.py", "--check"],
                               capture_output=True, encoding="utf-8", check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -49,7 +49,7 @@ class OfTheProject(unittest.TestCase):
             path = copy / "src/faststrip/normal/strip/newton.f90"
             text = path.read_text(encoding="utf-8")
             path.write_text(text.replace("p_scale = 1.0_wp", "p_scale = 1.7_wp"), encoding="utf-8")
-            done = subprocess.run([sys.executable, ROOT / "tools" / "constants.py", "--bare",
+            done = subprocess.run([sys.executable, ROOT / "tools/check/constants.py", "--bare",
                                    "--root", copy], capture_output=True, encoding="utf-8",
                                   check=False)
         self.assertEqual(done.returncode, 1)

@@ -17,7 +17,7 @@ class Tables(unittest.TestCase):
                      for call in f77_arguments.calls(name, constants)]
 
     def test_the_page_is_what_the_tool_writes(self):
-        done = subprocess.run([sys.executable, ROOT / "tools" / "f77_arguments.py", "--check"],
+        done = subprocess.run([sys.executable, ROOT / "tools/generate/f77_arguments.py", "--check"],
                               capture_output=True, encoding="utf-8", check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 

@@ -11,7 +11,7 @@ SCRIPTS = ("kalker_table.py", "force_weights.py")
 
 class GeneratedModules(unittest.TestCase):
     def run_script(self, name, option):
-        return subprocess.run([sys.executable, ROOT / "tools" / name, option], check=False,
+        return subprocess.run([sys.executable, ROOT / "tools/generate" / name, option], check=False,
                               stderr=subprocess.PIPE).returncode
 
     def test_the_modules_are_up_to_date(self):

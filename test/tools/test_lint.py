@@ -1,4 +1,4 @@
-"""tools/lint.py: what it finds, what it leaves alone, and how it counts."""
+"""tools/check/lint.py: what it finds, what it leaves alone, and how it counts."""
 
 import pathlib
 import shutil
@@ -9,7 +9,7 @@ import unittest
 
 from harness import ROOT
 
-SCRIPT = ROOT / "tools" / "lint.py"
+SCRIPT = ROOT / "tools/check/lint.py"
 GOOD = {
     "a.py": "import sys\n\nprint(sys.argv)\n",
     "run": "#!/bin/sh\necho \"$1\"\n",
@@ -122,8 +122,9 @@ class Lint(unittest.TestCase):
                                       r"all modules together: +0 passed, 0 failed, 1 skipped\n\Z")
 
     def test_compilers_that_cannot_be_had_are_told(self):
-        done = subprocess.run([sys.executable, ROOT / "tools" / "compilers.py"], encoding="utf-8",
-                              capture_output=True, check=False, env={"PATH": "/nowhere"})
+        done = subprocess.run([sys.executable, ROOT / "tools/building/compilers.py"],
+                              encoding="utf-8", capture_output=True, check=False,
+                              env={"PATH": "/nowhere"})
         self.assertEqual(done.returncode, 1)
         lines = done.stdout.splitlines()
         self.assertEqual(lines[0].split(), ["compiler", "version", "core", "command", "programs",

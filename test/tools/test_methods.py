@@ -23,7 +23,7 @@ class Methods(unittest.TestCase):
 
     def run_tool(self, *words):
         return subprocess.run(
-            [sys.executable, ROOT / "tools" / "methods.py", "--root", self.copy, *words],
+            [sys.executable, ROOT / "tools/generate/methods.py", "--root", self.copy, *words],
             capture_output=True, encoding="utf-8", check=False)
 
     def change(self, path, old, new):

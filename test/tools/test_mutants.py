@@ -10,7 +10,7 @@ import unittest
 import run_mutants
 from harness import ROOT
 
-RUNNER = ROOT / "tools" / "run_mutants.py"
+RUNNER = ROOT / "tools/check/run_mutants.py"
 
 FEWEST = 150
 
@@ -164,7 +164,7 @@ why = "the same at 2"
 
 class Lists(unittest.TestCase):
     def test_every_text_stands_where_it_says(self):
-        mutants = run_mutants.read_lists(ROOT / "tools" / "mutants")
+        mutants = run_mutants.read_lists(ROOT / "tools/check/mutants")
         self.assertGreaterEqual(len(mutants), FEWEST)
         self.assertEqual({mutant.room for mutant in mutants}, set(run_mutants.OWN_STAGES))
         for mutant in mutants:
@@ -207,7 +207,7 @@ class Lists(unittest.TestCase):
 
     def test_no_change_stands_twice(self):
         changes = [(mutant.file, mutant.applied((ROOT / mutant.file).read_text(encoding="utf-8")))
-                   for mutant in run_mutants.read_lists(ROOT / "tools" / "mutants")]
+                   for mutant in run_mutants.read_lists(ROOT / "tools/check/mutants")]
         self.assertEqual(len(changes), len(set(changes)))
 
 
@@ -228,7 +228,7 @@ class Verdicts(unittest.TestCase):
 
     def judge(self, code, *words, room="plots", text=""):
         if text:
-            self.write(f"tools/mutants/{room}.toml", text)
+            self.write(f"tools/check/mutants/{room}.toml", text)
         # Seconds without a mutant are few: what does not end is told soon.
         shorter = (f"import sys; sys.path.insert(0, {str(RUNNER.parent)!r}); import run_mutants; "
                    "run_mutants.TIME_EXTRA = 3.0; sys.exit(run_mutants.main())")
@@ -290,7 +290,7 @@ class Verdicts(unittest.TestCase):
         self.assertIn("not in plots/sums.py",
                       self.judge(2, text=SURVIVOR.replace("a + 1", "a + 2")))
         self.assertIn("no such room", self.judge(2, room="cellar", text=SURVIVOR))
-        (self.folder / "tools/mutants/cellar.toml").unlink()
+        (self.folder / "tools/check/mutants/cellar.toml").unlink()
         self.judge(2, "--only", "nobody", text=SURVIVOR)
         self.write("test/plots/test_sums.py", TEST.replace("sums.half(4), 2", "sums.half(4), 3"))
         self.assertIn("a test fails without a mutant", self.judge(2, text=LIST))
@@ -301,7 +301,8 @@ class Verdicts(unittest.TestCase):
         self.write("src/faststrip/arithmetic.f90", ARITHMETIC)
         self.write("src/faststrip/caller.f90", CALLER)
         self.write("test/pf/numerics/test_caller.pf", FORTRAN_TEST)
-        for name in ("tools/pf2f90.py", "test/funit/funit.f90", "test/funit/funit_runner.f90"):
+        for name in ("tools/building/pf2f90.py", "test/funit/funit.f90",
+                     "test/funit/funit_runner.f90"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
         (self.folder / ".venv").symlink_to(ROOT / ".venv")

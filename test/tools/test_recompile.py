@@ -70,7 +70,7 @@ class Recompile(unittest.TestCase):
             self.folder.joinpath(name).write_text(text, encoding="utf-8")
 
     def compiler(self, *words, gfortran=None):
-        return subprocess.run([sys.executable, "-IS", ROOT / "tools" / "recompile.py",
+        return subprocess.run([sys.executable, "-IS", ROOT / "tools/building/recompile.py",
                                gfortran or shutil.which("gfortran"), *words], cwd=self.folder,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=600, check=False)

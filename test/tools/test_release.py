@@ -65,8 +65,8 @@ class Release(unittest.TestCase):
         cls.write(name, text.replace(old, new, 1))
 
     def release(self, *words):
-        return subprocess.run([sys.executable, "tools/release.py", *words], cwd=self.folder,
-                              capture_output=True, encoding="utf-8", check=False)
+        return subprocess.run([sys.executable, "tools/building/release.py", *words],
+                              cwd=self.folder, capture_output=True, encoding="utf-8", check=False)
 
     def refused(self, says, *words):
         """One thing is wrong, told in one line; nothing is made."""

@@ -1,4 +1,4 @@
-"""tools/report_runs.py: runs, verdicts and the files it leaves; exit 1 where one fails."""
+"""tools/measure/report_runs.py: runs, verdicts and the files it leaves; exit 1 where one fails."""
 
 import csv
 import os
@@ -10,7 +10,7 @@ import unittest
 
 from harness import ROOT
 
-STEP = ROOT / "tools" / "report_runs.py"
+STEP = ROOT / "tools/measure/report_runs.py"
 RUNS = "id,when,program,words\n"
 MANIFEST = ("id,chapter,case,method,quantity,value_file,reference_file,metric,tolerance,figure,"
             "source\n")

@@ -50,14 +50,14 @@ class Good(unittest.TestCase):
     def test_good(self):
         pass
 """
-# Stands for tools/lint.py: one check.
+# Stands for tools/check/lint.py: one check.
 LINT = """\
 import sys
 
 found = sys.argv[-1] in "lint::form"
 print(f"all modules together: {int(found)} passed, 0 failed")
 """
-# Stands for tools/install.py: says what it is asked for.
+# Stands for tools/building/install.py: says what it is asked for.
 INSTALL = """\
 import pathlib
 import sys
@@ -80,14 +80,14 @@ class Project(unittest.TestCase):
         for name in ("run", "fpm.toml", "src/files/fpm.toml", "test/funit/funit.f90",
                      "test/funit/funit_runner.f90", "test/conftest.py", "test/pytest.ini"):
             self.copy(name)
-        for name in ("requirements.txt", "steps.py", "pf2f90.py", "recompile.py",
-                     "netcdf_plugin.py"):
+        for name in ("requirements.txt", "steps.py", "building/pf2f90.py", "building/recompile.py",
+                     "building/netcdf_plugin.py"):
             self.copy(f"tools/{name}")
         self.manifest("app", 'faststrip-command.path = "command"')
         self.manifest("app/command", 'faststrip.path = "../.."')
         self.manifest("test", 'faststrip.path = ".."')
-        self.write("tools/lint.py", LINT)
-        self.write("tools/install.py", INSTALL)
+        self.write("tools/check/lint.py", LINT)
+        self.write("tools/building/install.py", INSTALL)
         self.write("app/programs/faststrip.f90", MAIN)
         self.write("app/programs/faststrip_lab.f90", LAB)
         self.write("src/faststrip/base/kinds.f90", LIBRARY)
@@ -436,10 +436,10 @@ class Testing(Building):
                         ignore=shutil.ignore_patterns(".venv"), dirs_exist_ok=True)
 
     def test_lint_counts(self):
-        self.write("tools/lint.py", "print('all modules together: 4 passed, 2 failed, 3 skipped')\n"
-                                    "raise SystemExit(1)\n")
+        self.write("tools/check/lint.py", "raise SystemExit("
+                   "print('all modules together: 4 passed, 2 failed, 3 skipped') or 1)\n")
         self.check(PASSING, 1, "6 passed, 2 failed, 3 skipped")
-        self.write("tools/lint.py", "raise SystemExit(1)\n")
+        self.write("tools/check/lint.py", "raise SystemExit(1)\n")
         self.check(PASSING, 1, "2 passed, 1 failed")
 
     def test_a_failing_test_fails_the_run(self):

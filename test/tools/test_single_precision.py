@@ -9,7 +9,7 @@ from pathlib import Path
 
 from harness import ROOT
 
-SCRIPT = ROOT / "tools" / "single_precision.py"
+SCRIPT = ROOT / "tools/building/single_precision.py"
 
 
 class SinglePrecision(unittest.TestCase):

@@ -7,7 +7,7 @@ import unittest
 
 from harness import ROOT
 
-TOOL = ROOT / "tools/spence_reference.py"
+TOOL = ROOT / "tools/generate/spence_reference.py"
 spec = importlib.util.spec_from_file_location("spence_reference", TOOL)
 spence_reference = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(spence_reference)

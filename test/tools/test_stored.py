@@ -126,7 +126,7 @@ class InAFolder(unittest.TestCase):
         self.assertEqual(stamp_of(path).revision, "0123abc")
 
     def test_the_command_refuses_what_is_not_committed_and_names_it(self):
-        for name in ("tools/stored.py", "plots/faststrip_plots/__init__.py",
+        for name in ("tools/measure/stored.py", "plots/faststrip_plots/__init__.py",
                      "plots/faststrip_plots/stamps.py", "plots/faststrip_plots/tables.py"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
@@ -142,8 +142,9 @@ class InAFolder(unittest.TestCase):
             "name,stamped,files,command\none,r.csv,r.csv,python make.py\n", encoding="utf-8")
 
         def run(*words):
-            return subprocess.run([sys.executable, "tools/stored.py", *words], cwd=self.folder,
-                                  capture_output=True, encoding="utf-8", check=False)
+            return subprocess.run([sys.executable, "tools/measure/stored.py", *words],
+                                  cwd=self.folder, capture_output=True, encoding="utf-8",
+                                  check=False)
 
         self.assertIn("no git history", run().stderr)
         self.git("init", "-q")

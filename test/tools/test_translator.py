@@ -1,4 +1,4 @@
-"""What tools/pf2f90.py accepts, refuses and writes."""
+"""What tools/building/pf2f90.py accepts, refuses and writes."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""tools/wheelset_smoothness.py: its figures by hand, and a short sweep of the program."""
+"""tools/check/wheelset_smoothness.py: its figures by hand, and a short sweep of the program."""
 
 import contextlib
 import io

@@ -1,6 +1,6 @@
 !> The figures of one contact, one row each: what interfaces and tables call it, what it is, what
 !> must be there for it to be known. Tables, NetCDF, the F77 rows, Python and the documents have
-!> names and meanings from here, by `faststrip columns` and `tools/columns.py`.
+!> names and meanings from here, by `faststrip columns` and `tools/generate/columns.py`.
 module faststrip_contact_figures
     implicit none
     private

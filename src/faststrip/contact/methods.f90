@@ -33,7 +33,7 @@ module faststrip_contact_methods
         logical :: takes_falling = .false.            !! friction that falls with slip?
     end type method_t
 
-    ! Numbers of the methods, from the tables below; written by tools/methods.py.
+    ! Numbers of the methods, from the tables below; written by tools/generate/methods.py.
     ! BEGIN methods
     public :: normal_strip, normal_hertz, normal_equal_area, normal_equal_moments, normal_auto, &
               normal_kpec, normal_analyn, normal_kpec_strips
@@ -86,9 +86,9 @@ module faststrip_contact_methods
     ! END methods
 
     ! The one list of the methods. From it come the names of the command line and its help; and,
-    ! written by tools/methods.py, the numbers above, what `use faststrip` gives, the enumerations
-    ! of the C header, the comment of the F77 interface, Python's dictionaries, the README's tables.
-    ! A number stays for ever: host programs know it.
+    ! written by tools/generate/methods.py, the numbers above, what `use faststrip` gives, the
+    ! enumerations of the C header, the comment of the F77 interface, Python's dictionaries, the
+    ! README's tables. A number stays for ever: host programs know it.
 
     !> The normal methods, in the order that people see.
     type(method_t), parameter :: normal_table(*) = [ &

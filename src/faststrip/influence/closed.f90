@@ -10,7 +10,7 @@
 !>
 !> G is one odd function of one variable: `c [A(c^2) - B(c^2) ln c]` for c <= 1 and
 !> `(pi/2)(ln 4c + 1/2) + R(1/c^2)/c^2` for c >= 0.7, with polynomials made by
-!> tools/influence_coefficients.py. Differences are formed from divided differences of the
+!> tools/generate/influence_coefficients.py. Differences are formed from divided differences of the
 !> polynomials, so that no digit cancels for far or thin strips.
 !>
 !> Arguments that are not finite give a quiet NaN; nothing here raises a floating-point exception.

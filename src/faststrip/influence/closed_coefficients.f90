@@ -1,4 +1,4 @@
-!> Coefficients of the influence primitive; made by tools/influence_coefficients.py.
+!> Coefficients of the influence primitive; made by tools/generate/influence_coefficients.py.
 module faststrip_influence_closed_coefficients
     use faststrip_base_kinds, only: wp
     implicit none

@@ -1,4 +1,4 @@
-!> Kalker's creepage coefficients: the table. Written by tools/kalker_table.py from
+!> Kalker's creepage coefficients: the table. Written by tools/generate/kalker_table.py from
 !> reference/kalker_table.csv; change those, not this.
 module faststrip_tangential_kalker_table
     use faststrip_base_kinds, only: wp

@@ -1,6 +1,6 @@
 !> The networks of the force correction and of its errors: their numbers. Written by
-!> tools/force_weights.py from reference/force_correction.json, which tools/fit_forces.py has
-!> fitted; change those, not this.
+!> tools/generate/force_weights.py from reference/force_correction.json, which
+!> tools/generate/fit_forces.py has fitted; change those, not this.
 module faststrip_tangential_force_weights
     use faststrip_base_kinds, only: wp
     implicit none
