@@ -4,6 +4,7 @@ the lateral place on the body it wears; without a law T gamma over the area."""
 
 import sys
 
+import matplotlib
 import numpy as np
 
 from faststrip_plots import command, style
@@ -62,7 +63,7 @@ def draw(path, strips, profiles, body):
     width = strips.numbers("y_right_mm") - strips.numbers("y_left_mm")
     sides = [name for name in ("left", "right") if name in profiles.words("side")]
     cases = list(dict.fromkeys(case))
-    colours = style.plt.get_cmap(style.MAP)(np.linspace(0.15, 1.0, len(cases)))
+    colours = matplotlib.colormaps[style.MAP](np.linspace(0.15, 1.0, len(cases)))
     figure = style.new_figure(max(6.4, 5.0 * len(sides)), 6.8)
     grid = figure.subplots(2, len(sides), squeeze=False, sharex="col", sharey="row")
     for column, name in enumerate(sides):

@@ -8,11 +8,10 @@ import pathlib
 import sys
 
 import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-
-from .tables import InputError  # noqa: E402
+from .tables import InputError
 
 
 def _package_style():
@@ -39,8 +38,9 @@ def luminance(colour: str) -> float:
 
 def new_figure(width: float, height: float):
     """An empty figure in the common style, size in inches."""
-    plt.rcParams.update(_style.PARAMETERS)
-    figure = plt.figure(figsize=(width, height), layout="constrained")
+    matplotlib.rcParams.update(_style.PARAMETERS)
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
     figure.get_layout_engine().set(w_pad=0.08, h_pad=0.06)
     return figure
 
@@ -96,5 +96,3 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
                                metadata={"Date": None})
     except OSError as error:
         raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
-    finally:
-        plt.close(figure)

@@ -153,7 +153,6 @@ class Drawn(unittest.TestCase):
         np.testing.assert_allclose(grid, [[2e-3, np.nan], [np.nan, 4e-3]])
         self.assertEqual([each.get_text() for each in axes.texts],
                          ["largest 0.004; 1 × out of range"])
-        style.plt.close(figure)
 
     def test_short_numbers(self):
         short = load("extremes").short

@@ -329,7 +329,6 @@ class Drawn(unittest.TestCase):
         self.assertIn("worst, $n$ = 2: \N{MINUS SIGN}2.16 % at $L$ = \N{MINUS SIGN}1.75",
                       texts(figure.axes[0]))
         self.assertIn("errors above 1000 not shown", note)
-        style.plt.close(figure)
 
     def test_labels_of_the_trade_keep_clear(self):
         bench = load("bench_integral")
@@ -365,7 +364,6 @@ class Drawn(unittest.TestCase):
             self.assertTrue(frame.y0 <= box.y0 and box.y1 <= frame.y1)
         # an error of zero stands at the floor
         self.assertEqual(list(dots[4][3]), [bench.FLOOR] * 3)
-        style.plt.close(figure)
 
     def test_times_with_units(self):
         duration = load("bench_integral").duration

@@ -193,7 +193,6 @@ class Pictures(unittest.TestCase):
             axes.plot([0.0, 1.0, 2.0], [1.0, ratio, np.nan])
             paper_figures.fit_ratios(axes)
             self.assertEqual(axes.get_ylim(), (1.0 - span, 1.0 + span))
-            style.plt.close(axes.figure)
 
 
     def test_what_is_compared_with_is_called_what_it_is(self):
@@ -213,7 +212,6 @@ class Pictures(unittest.TestCase):
                 self.assertNotIn("TANG", words)
             self.assertIn("over CONTACT's", ratios[0].get_title(loc="left"))
             self.assertIn("over CONTACT's", ratios[0].get_ylabel())
-            style.plt.close(picture.figure)
 
 
 class BadInput(unittest.TestCase):
