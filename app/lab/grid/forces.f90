@@ -10,14 +10,13 @@
 module faststrip_lab_grid_forces
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_text, &
-                                   csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, open_csv, put_comment, &
+                                   put_header, put_cell, end_row, close_csv
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_normal_simple_hertz, only: hertz_strips
-    use faststrip_files_gap, only: read_gap_file
-    use faststrip_lab_grid_cases, only: read_columns
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases, &
+                                        read_columns
     use faststrip_command_program_console, only: fail_on_error, note, put_origin
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
@@ -41,7 +40,7 @@ module faststrip_lab_grid_forces
     !> What CONTACT finds.
     type :: reference_t
         real(wp) :: size = 0.0_wp                             ! mm
-        real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp     ! N, N mm
+        real(wp) :: forces(3) = 0.0_wp                        ! Fx, Fy, N, Mz, N mm
         real(wp) :: stick = 0.0_wp
     end type reference_t
 
@@ -80,8 +79,8 @@ contains
                                  'stick_err'])
         call compare_hertz(folder, writer, tally)
         call tell('Hertz contacts', tally)
-        call compare_shifts(folder, 's1002_uic60_B', writer, tally)
-        call compare_shifts(folder, 's1002_uic60_A', writer, tally)
+        call compare_shifts(folder, 'B', writer, tally)
+        call compare_shifts(folder, 'A', writer, tally)
         call compare_scenes(table, writer, tally)
         call tell('scenes', tally)
         call close_csv(writer, status)
@@ -94,98 +93,70 @@ contains
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(out) :: tally
 
-        character(len=*), parameter :: names(14) = [character(len=9) :: 'a_mm', 'b_mm', 'mu', 'N', &
-            'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap', 'n_adh', 'n_con', &
-            'G', 'nu']
-        type(csv_table_t) :: table
+        type(bench_case_t), allocatable :: cases(:)
         type(contact_case_t) :: contact
         type(workspace_t) :: workspace
-        type(reference_t) :: reference
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :)
-        character(len=method_name_length) :: group
-        integer :: i, case_column
+        integer :: i
 
         tally = tally_t()
-        call read_csv(folder // '/hertz_creep.csv', table, status)
-        call fail_on_error(status)
-        call require_column(table, 'case', case_column, status)
-        call fail_on_error(status)
-        call read_columns(table, names, v, status)
+        call read_ellipse_cases(folder, cases, status)
         call fail_on_error(status)
         contact%methods%normal = normal_hertz
-        contact%estimate = .false.
         call reserve_workspace(workspace, contact%methods, min_gap_points, status)
         call fail_on_error(status)
         workspace%solved_by = normal_hertz
         workspace%is_ellipse = .true.
-        do i = 1, table%n_rows
-            associate (hertz => workspace%hertz)
-                hertz%a = v(i, 1)
-                hertz%b = v(i, 2)
-                hertz%load = v(i, 4)
-                hertz%area = pi*hertz%a*hertz%b
+        do i = 1, size(cases)
+            associate (case => cases(i), hertz => workspace%hertz)
+                hertz%a = case%a
+                hertz%b = case%b
+                hertz%load = case%load
+                hertz%area = case%truth%area
                 hertz%pmax = 1.5_wp*hertz%load/hertz%area
-                reference = reference_t(sqrt(hertz%a*hertz%b), v(i, 8), v(i, 9), v(i, 10), &
-                                        v(i, 11)/v(i, 12))
+                contact = case%contact_case_t
+                contact%methods%normal = normal_hertz
+                contact%estimate = .false.
+                call hertz_strips(hertz, contact%methods%strips_per_patch, workspace%strips, status)
+                call fail_on_error(status)
+                call compare(workspace, contact, reference_t(sqrt(case%a*case%b), case%forces, &
+                                                             case%stick_fraction), &
+                             'hertz', case%name, i, writer, tally)
             end associate
-            contact%mu = v(i, 3)
-            contact%load = v(i, 4)
-            contact%creepage = creepage_t(v(i, 5), v(i, 6), v(i, 7))
-            contact%material%e_wheel = 2.0_wp*v(i, 13)*(1.0_wp + v(i, 14))
-            contact%material%e_rail = contact%material%e_wheel
-            contact%material%nu_wheel = v(i, 14)
-            contact%material%nu_rail = v(i, 14)
-            call hertz_strips(workspace%hertz, contact%methods%strips_per_patch, &
-                              workspace%strips, status)
-            call fail_on_error(status)
-            group = cell_text(table, i, case_column)
-            call compare(workspace, contact, reference, 'hertz', trim(group), i, writer, tally)
         end do
         call total_group(tally)
     end subroutine compare_hertz
 
     !> The paper's contacts, the normal problem by strips and by Hertz.
-    subroutine compare_shifts(folder, name, writer, tally)
-        character(len=*), intent(in) :: folder, name
+    subroutine compare_shifts(folder, signs, writer, tally)
+        character(len=*), intent(in) :: folder
+        character(len=1), intent(in) :: signs ! of the creepages
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(out) :: tally
 
-        character(len=*), parameter :: names(10) = [character(len=16) :: 'Fn_N', 'cksi', 'ceta', &
-            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_extrap_mm2', &
-            'n_adhesion', 'n_contact']
-        type(csv_table_t) :: table
+        type(bench_case_t), allocatable :: cases(:)
         type(contact_case_t) :: contact
         type(workspace_t) :: workspace
         type(contact_result_t) :: figures
-        type(reference_t) :: reference
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :)
-        integer :: i, shift_column
+        integer :: i
 
         tally = tally_t()
-        call read_csv(folder // '/' // name // '.csv', table, status)
+        call read_bench_cases(folder, cases, status, signs)
         call fail_on_error(status)
-        call require_column(table, 'yw_mm', shift_column, status)
-        call fail_on_error(status)
-        call read_columns(table, names, v, status)
-        call fail_on_error(status)
-        contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
-        contact%mu = 0.3_wp
-        contact%estimate = .false.
-        do i = 1, table%n_rows
-            call read_gap_file(folder // '/gaps/shift_' // cell_text(table, i, shift_column) &
-                               // '.csv', contact%gap, status)
-            call fail_on_error(status)
-            contact%load = v(i, 1)
-            contact%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
+        do i = 1, size(cases)
+            contact = cases(i)%contact_case_t
+            contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
+            contact%mu = 0.3_wp
+            contact%estimate = .false.
             call solve_pressures(workspace, contact, figures, status)
             if (is_error(status)) call fail_on_error(status)
-            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), &
-                                    v(i, 9)/v(i, 10))
-            call compare(workspace, contact, reference, name, 'all', i, writer, tally)
+            call compare(workspace, contact, &
+                         reference_t(sqrt(cases(i)%truth%area/pi), cases(i)%forces, &
+                                     cases(i)%stick_fraction), &
+                         's1002_uic60_' // signs, 'all', i, writer, tally)
         end do
-        call tell(name, tally)
+        call tell('s1002_uic60_' // signs, tally)
     end subroutine compare_shifts
 
     !> Contacts of many kinds.
@@ -214,7 +185,7 @@ contains
             scene%estimate = .false.
             call solve_pressures(workspace, scene, figures, status)
             if (is_error(status)) call fail_on_error(status)
-            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5), v(i, 6), v(i, 7), v(i, 9))
+            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5:7), v(i, 9))
             call compare(workspace, scene%contact_case_t, reference, 'scenes', &
                          trim(merge('even', 'odd ', modulo(scene%number, 2) == 0)), scene%number, &
                          writer, tally)
@@ -241,23 +212,23 @@ contains
 
         case = contact
         force = contact%mu*contact%load
-        power = -(reference%fx*contact%creepage%cksi + reference%fy*contact%creepage%ceta &
-                  + reference%mz*contact%creepage%cphi)
+        associate (creepage => contact%creepage)
+            power = -dot_product(reference%forces, [creepage%cksi, creepage%ceta, creepage%cphi])
+        end associate
         do m = 1, size(tangential_methods)
             case%methods%tangential = tangential_methods(m)%number
             call solve_contact_forces(workspace, case, found, status)
             if (is_error(status)) call fail_on_error(status)
             associate (result => found%tangential)
-                error(1) = (result%fx - reference%fx)/force
-                error(2) = (result%fy - reference%fy)/force
+                error(:2) = ([result%fx, result%fy] - reference%forces(:2))/force
                 error(3) = hypot(error(1), error(2))
-                error(4) = (result%mz - reference%mz)/(force*reference%size)
+                error(4) = (result%mz - reference%forces(3))/(force*reference%size)
                 error(5) = result%friction_power/power - 1.0_wp
                 error(6) = result%stick_fraction - reference%stick
             end associate
             error = 100.0_wp*error
             counts = .true.
-            counts(5) = hypot(reference%fx, reference%fy) > smallest_share*force
+            counts(5) = norm2(reference%forces(:2)) > smallest_share*force
             counts(6) = tangential_methods(m)%gives_stick
             call put_cell(writer, set)
             call put_cell(writer, group)

@@ -55,7 +55,7 @@ contains
         call read_method_list(methods_file, entries)
         call read_wheelset_cases(folder, wheelset, status)
         call fail_on_error(status)
-        call read_hertz_cases(folder // '/hertz_creep.csv', hertz, status)
+        call read_hertz_cases(folder, hertz, status)
         call fail_on_error(status)
         call read_scene_cases(scenes_file, scenes, status)
         call fail_on_error(status)

@@ -1,15 +1,15 @@
 !> The contacts on which accuracy is traded for time, with the figures of a reference.
 module faststrip_lab_grid_trade_cases
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_text
-    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_files_csv, only: csv_table_t, read_csv
+    use faststrip_base_material, only: normal_compliance
     use faststrip_base_creepage, only: creepage_t
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
-    use faststrip_files_gap, only: read_gap_file
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_lab_grid_cases, only: read_columns
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases, &
+                                        read_columns
     use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
@@ -40,65 +40,42 @@ contains
         type(trade_case_t), allocatable, intent(out) :: cases(:) !! one a row
         type(status_t), intent(out) :: status                    !! of the readers
 
-        character(len=*), parameter :: names(10) = [character(len=16) :: &
-            'Fn_N', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
-            'area_extrap_mm2', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm']
-        type(csv_table_t) :: table
-        real(wp), allocatable :: values(:, :)
-        integer :: i, column
+        type(bench_case_t), allocatable :: solved(:)
+        integer :: i
 
-        call read_csv(folder // '/s1002_uic60_B.csv', table, status)
-        if (.not. is_error(status)) call read_columns(table, names, values, status)
-        allocate (cases(table%n_rows))
-        if (is_error(status)) return
-        call require_column(table, 'yw_mm', column, status)
-        if (is_error(status)) return
+        call read_bench_cases(folder, solved, status)
+        allocate (cases(size(solved)))
         do i = 1, size(cases)
+            cases(i)%contact_case_t = solved(i)%contact_case_t
             cases(i)%set = 's1002_uic60'
-            cases(i)%name = 'shift_' // cell_text(table, i, column)
+            cases(i)%name = solved(i)%name
             cases(i)%mu = 0.3_wp
-            cases(i)%load = values(i, 1)
-            cases(i)%creepage = creepage_t(values(i, 2), values(i, 3), values(i, 4))
-            cases(i)%truth = values(i, 5:10)
-            call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
-            if (is_error(status)) return
+            associate (truth => solved(i)%truth)
+                cases(i)%truth = [truth%penetration, truth%pmax, truth%area, solved(i)%forces]
+            end associate
         end do
     end subroutine read_wheelset_cases
 
     !> Hertz ellipses under many creepages, the forces by CONTACT, the rest exact.
-    subroutine read_hertz_cases(file, cases, status)
-        character(len=*), intent(in) :: file                     !! `hertz_creep.csv`
+    subroutine read_hertz_cases(folder, cases, status)
+        character(len=*), intent(in) :: folder                   !! with `hertz_creep.csv`
         type(trade_case_t), allocatable, intent(out) :: cases(:) !! one a row
         type(status_t), intent(out) :: status                    !! of the reader
 
-        character(len=*), parameter :: names(12) = [character(len=9) :: &
-            'a_mm', 'b_mm', 'G', 'nu', 'mu', 'N', 'cksi', 'ceta', 'cphi', 'Fx_extrap', &
-            'Fy_extrap', 'Mz_extrap']
-        type(csv_table_t) :: table
-        real(wp), allocatable :: values(:, :)
-        real(wp) :: a, b, young, inv2r_x, inv2r_y
+        type(bench_case_t), allocatable :: solved(:)
+        real(wp) :: inv2r_x, inv2r_y
         integer :: i, k
 
-        call read_csv(file, table, status)
-        if (.not. is_error(status)) call read_columns(table, names, values, status)
-        allocate (cases(table%n_rows))
-        if (is_error(status)) return
+        call read_ellipse_cases(folder, solved, status)
+        allocate (cases(size(solved)))
         do i = 1, size(cases)
-            associate (case => cases(i), row => values(i, :))
+            associate (case => cases(i), b => solved(i)%b)
+                case%contact_case_t = solved(i)%contact_case_t
                 case%set = 'hertz'
                 case%name = 'row_' // integer_text(i)
-                a = row(1)
-                b = row(2)
-                young = 2.0_wp*row(3)*(1.0_wp + row(4))
-                case%material = material_t(young, young, row(4), row(4))
-                case%mu = row(5)
-                case%load = row(6)
-                case%creepage = creepage_t(row(7), row(8), row(9))
-                call ellipse_gap(a, b, case%load*normal_compliance(case%material), inv2r_x, &
-                                 inv2r_y, case%truth(1))
-                case%truth(2) = 1.5_wp*case%load/(pi*a*b)
-                case%truth(3) = pi*a*b
-                case%truth(4:6) = row(10:12)
+                call ellipse_gap(solved(i)%a, b, case%load*normal_compliance(case%material), &
+                                 inv2r_x, inv2r_y, case%truth(1))
+                case%truth(2:) = [solved(i)%truth%pmax, solved(i)%truth%area, solved(i)%forces]
                 allocate (case%gap%y(hertz_points), case%gap%h(hertz_points), &
                           case%gap%inv2r(hertz_points))
                 do k = 1, hertz_points

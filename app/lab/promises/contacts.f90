@@ -57,8 +57,7 @@ contains
         type(ellipses_t), intent(out) :: ellipses
         type(status_t), intent(out) :: status !! of the reader
 
-        call read_hertz_cases(in_checkout('reference/contact/hertz_creep.csv'), ellipses%cases, &
-                              status)
+        call read_hertz_cases(in_checkout('reference/contact'), ellipses%cases, status)
     end subroutine read_ellipses
 
     !> A contact, if it is drawn but for its creepages.

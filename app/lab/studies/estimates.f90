@@ -16,12 +16,10 @@ module faststrip_lab_studies_estimates
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, cell_text, &
-                                   open_csv, put_comment, put_header, put_cell, end_row, &
-                                   close_csv
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
-    use faststrip_files_gap, only: read_gap_file
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors, &
@@ -30,6 +28,7 @@ module faststrip_lab_studies_estimates
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_estimates_tally, only: tally_t, start_tally, count_in, count_out, &
                                                        print_tally, figures, n_figures
@@ -183,35 +182,26 @@ contains
     subroutine try_gaps(study)
         type(study_t), intent(inout) :: study
 
-        character(len=:), allocatable :: folder
-        type(csv_table_t) :: table
+        type(bench_case_t), allocatable :: cases(:)
         type(norm_workspace_t) :: norm
         type(studied_case_t) :: contact
         type(truth_t) :: truth
         logical :: is_found
         type(status_t) :: status
-        real(wp), allocatable :: load(:), penetration(:), pmax(:), area(:)
         integer :: i
 
-        folder = in_checkout('reference/contact') // '/'
-        call read_csv(folder // 's1002_uic60_B.csv', table, status)
+        call read_bench_cases(in_checkout('reference/contact'), cases, status)
         call fail_on_error(status)
-        call column_numbers(table, 'Fn_N', load, status)
-        call fail_on_error(status)
-        call column_numbers(table, 'penetration_mm', penetration, status)
-        call fail_on_error(status)
-        call column_numbers(table, 'pmax_MPa', pmax, status)
-        call fail_on_error(status)
-        call column_numbers(table, 'area_extrap_mm2', area, status)
-        call fail_on_error(status)
-        do i = 1, table%n_rows
-            contact = named('shift_' // cell_text(table, i, 1), load(i))
-            call read_gap_file(folder // 'gaps/' // contact%name // '.csv', contact%gap, status)
-            call fail_on_error(status)
+        do i = 1, size(cases)
+            contact = named(cases(i)%name, cases(i)%load)
+            contact%gap = cases(i)%gap
             call solve_all(study, contact)
             call find(study, norm, contact, truth, is_found)
             if (is_found) call enter(study, contact, set_gaps, truth)
-            truth = figures_alone([penetration(i) - contact%h_lowest, pmax(i), area(i)])
+            associate (known => cases(i)%truth)
+                truth = figures_alone([known%penetration - contact%h_lowest, known%pmax, &
+                                       known%area])
+            end associate
             call enter(study, contact, set_contact, truth)
         end do
         call release_norm(norm)

@@ -2,10 +2,8 @@
 module faststrip_lab_studies_rolling
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
-                                   cell_text, open_csv, put_comment, put_header, &
-                                   put_cell, end_row, close_csv
-    use faststrip_base_creepage, only: creepage_t
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
+                                   end_row, close_csv
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, reserve_norm, &
                                        set_norm_gap, norm_solve
@@ -16,7 +14,7 @@ module faststrip_lab_studies_rolling
                                            scheme_first_order, scheme_second_order, edges_of_norm, &
                                            edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_ellipse
-    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_columns
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases
     use faststrip_command_program_console, only: fail_on_error, note, put_origin
     implicit none
     private
@@ -35,15 +33,6 @@ module faststrip_lab_studies_rolling
         integer :: failed = 0
         real(wp) :: total(3) = 0.0_wp, largest(3) = 0.0_wp, seconds = 0.0_wp
     end type group_t
-
-    !> One contact to compare with CONTACT.
-    type :: contact_t
-        character(len=:), allocatable :: group_name, name
-        integer :: edges = edges_sampled
-        real(wp) :: load = 0.0_wp, area = 0.0_wp  ! N, mm^2
-        type(creepage_t) :: creepage
-        real(wp) :: forces(3) = 0.0_wp            ! Fx, Fy, Mz of CONTACT, N, N, N mm
-    end type contact_t
 
 contains
 
@@ -83,13 +72,10 @@ contains
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
         type(status_t) :: status
-        type(contact_t) :: contact
         integer :: i, k, points, side
 
         call read_bench_cases(folder, cases, status, signs)
         call fail_on_error(status)
-        contact%group_name = 'paper_' // signs
-        contact%edges = edges_of_norm
         points = 0
         do i = 1, size(cases)
             points = max(points, size(cases(i)%gap%y))
@@ -106,13 +92,9 @@ contains
                     call norm_solve(norm, normal_compliance(material_t()), cases(i)%load, &
                                     norm_options, normal, status)
                 call fail_on_error(status)
-                contact%name = cases(i)%name
-                contact%load = cases(i)%load
-                contact%area = cases(i)%truth%area
-                contact%creepage = cases(i)%creepage
-                contact%forces = cases(i)%forces
                 do k = 1, size(schemes)
-                    call compare(contact, k, norm%grid, tang, groups(k), writer)
+                    call compare('paper_' // signs, cases(i), cases(i)%name, edges_of_norm, k, &
+                                 norm%grid, tang, groups(k), writer)
                 end do
             end do
             do k = 1, size(schemes)
@@ -127,39 +109,26 @@ contains
         character(len=*), intent(in) :: folder
         type(csv_writer_t), intent(inout) :: writer
 
-        character(len=*), parameter :: names(9) = [character(len=9) :: 'a_mm', 'b_mm', 'N', &
-            'cksi', 'ceta', 'cphi', 'Fx_extrap', 'Fy_extrap', 'Mz_extrap']
-        type(csv_table_t) :: table
-        real(wp), allocatable :: values(:, :)
+        type(bench_case_t), allocatable :: cases(:)
         type(contact_grid_t) :: grid
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
         type(status_t) :: status
-        type(contact_t) :: contact
-        integer :: i, k, n, case_column
+        integer :: i, k, n
 
-        contact%group_name = 'hertz'
-        call read_csv(folder // '/hertz_creep.csv', table, status)
-        call fail_on_error(status)
-        call read_columns(table, names, values, status)
-        call fail_on_error(status)
-        call require_column(table, 'case', case_column, status)
+        call read_ellipse_cases(folder, cases, status)
         call fail_on_error(status)
         do n = 1, size(sides)
             groups = group_t()
-            do i = 1, table%n_rows
-                associate (a => values(i, 1), b => values(i, 2), load => values(i, 3))
-                    call sample_ellipse(a, b, 0.0_wp, load, sides(n), sides(n), most_elements, &
-                                        grid, status)
+            do i = 1, size(cases)
+                associate (case => cases(i))
+                    call sample_ellipse(case%a, case%b, 0.0_wp, case%load, sides(n), sides(n), &
+                                        most_elements, grid, status)
                     call fail_on_error(status)
-                    contact%name = cell_text(table, i, case_column) // ' a/b ' // &
-                                   trim(number_text(a/b))
-                    contact%load = load
-                    contact%area = pi*a*b
-                    contact%creepage = creepage_t(values(i, 4), values(i, 5), values(i, 6))
-                    contact%forces = values(i, 7:9)
                     do k = 1, size(schemes)
-                        call compare(contact, k, grid, tang, groups(k), writer)
+                        call compare('hertz', case, case%name // ' a/b ' // &
+                                     trim(number_text(case%a/case%b)), edges_sampled, k, grid, &
+                                     tang, groups(k), writer)
                     end do
                 end associate
             end do
@@ -171,9 +140,11 @@ contains
     end subroutine ellipses
 
     !> Solve one contact and write its row.
-    subroutine compare(contact, k, grid, tang, group, writer)
-        type(contact_t), intent(in) :: contact
-        integer, intent(in) :: k !! of the schemes
+    subroutine compare(set, contact, name, edges, k, grid, tang, group, writer)
+        character(len=*), intent(in) :: set, name
+        type(bench_case_t), intent(in) :: contact
+        integer, intent(in) :: edges !! of the patch, how they are known
+        integer, intent(in) :: k     !! of the schemes
         type(contact_grid_t), intent(in) :: grid
         type(tang_workspace_t), intent(inout) :: tang
         type(group_t), intent(inout) :: group
@@ -186,12 +157,12 @@ contains
         integer :: j
 
         options%scheme = schemes(k)
-        options%edges = contact%edges
+        options%edges = edges
         call cpu_time(before)
         call tang_solve(tang, grid, material_t(), mu, contact%creepage, options, result, status)
         call cpu_time(after)
-        call put_cell(writer, contact%group_name)
-        call put_cell(writer, contact%name)
+        call put_cell(writer, set)
+        call put_cell(writer, name)
         call put_cell(writer, trim(scheme_names(k)))
         call put_cell(writer, grid%dx)
         call put_cell(writer, grid%dy)
@@ -204,7 +175,7 @@ contains
             end do
         else
             errors = 100.0_wp*([result%fx, result%fy, result%mz] - contact%forces) &
-                     /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%area/pi)])
+                     /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%truth%area/pi)])
             do j = 1, 3
                 call put_cell(writer, errors(j))
             end do
