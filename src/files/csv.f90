@@ -10,8 +10,8 @@
 module faststrip_files_csv
     use faststrip_files_csv_table, only: csv_text_t, csv_table_t, read_csv, column_index, &
                                          require_column, cell_text, cell_number, cell_integer, &
-                                         column_numbers, several_columns, take_only_row, &
-                                         refuse_misspelt
+                                         read_cell, column_numbers, several_columns, &
+                                         take_only_row, refuse_misspelt
     use faststrip_files_csv_stream, only: csv_stream_t, csv_scan_t, row_place_t, open_stream, &
                                           find_row, row_place, go_to_row, close_stream, scan_csv, &
                                           find_row_place
@@ -27,7 +27,7 @@ module faststrip_files_csv
 
     public :: csv_text_t, csv_table_t, csv_writer_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers, several_columns, take_only_row, refuse_misspelt
+    public :: read_cell, column_numbers, several_columns, take_only_row, refuse_misspelt
     public :: csv_stream_t, csv_scan_t, row_place_t
     public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
     public :: find_prefix, temporary_ending, most_temporaries, name_temporary

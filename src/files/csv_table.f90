@@ -13,7 +13,7 @@ module faststrip_files_csv_table
 
     public :: csv_text_t, csv_table_t
     public :: read_csv, column_index, require_column, cell_text, cell_number, cell_integer
-    public :: column_numbers, several_columns, refuse_misspelt
+    public :: read_cell, column_numbers, several_columns, refuse_misspelt
     public :: start_table, find_content, take_names, take_only_row, leave_blanks
 
     !> One text of its own length.
@@ -48,6 +48,11 @@ module faststrip_files_csv_table
     character(len=*), parameter :: separators = ',;' // tab // ' '
     ! A first line that begins so tells it, as spreadsheets write it.
     character(len=*), parameter :: separator_line = 'sep='
+
+    !> What stands in the column of a name, unless there was an error before.
+    interface read_cell
+        module procedure read_number, read_integer, read_text
+    end interface read_cell
 
 contains
 
@@ -613,6 +618,45 @@ contains
                                   table%file, table%line(row))
         end if
     end subroutine cell_integer
+
+    pure subroutine read_number(table, row, name, value, status)
+        type(csv_table_t), intent(in) :: table   !! a table that was read
+        integer, intent(in) :: row               !! 1 to n_rows
+        character(len=*), intent(in) :: name     !! of the column
+        real(wp), intent(inout) :: value         !! 0 where the cell holds none
+        type(status_t), intent(inout) :: status  !! `st_bad_argument`, `st_file_format`
+        integer :: column
+
+        if (status%code /= 0) return
+        call require_column(table, name, column, status)
+        if (status%code == 0) call cell_number(table, row, column, value, status)
+    end subroutine read_number
+
+    pure subroutine read_integer(table, row, name, value, status)
+        type(csv_table_t), intent(in) :: table   !! a table that was read
+        integer, intent(in) :: row               !! 1 to n_rows
+        character(len=*), intent(in) :: name     !! of the column
+        integer, intent(inout) :: value          !! 0 where the cell holds none
+        type(status_t), intent(inout) :: status  !! `st_bad_argument`, `st_file_format`
+        integer :: column
+
+        if (status%code /= 0) return
+        call require_column(table, name, column, status)
+        if (status%code == 0) call cell_integer(table, row, column, value, status)
+    end subroutine read_integer
+
+    pure subroutine read_text(table, row, name, text, status)
+        type(csv_table_t), intent(in) :: table   !! a table that was read
+        integer, intent(in) :: row               !! 1 to n_rows
+        character(len=*), intent(in) :: name     !! of the column
+        character(len=:), allocatable, intent(inout) :: text !! of the cell
+        type(status_t), intent(inout) :: status  !! `st_file_format`
+        integer :: column
+
+        if (status%code /= 0) return
+        call require_column(table, name, column, status)
+        if (status%code == 0) text = cell_text(table, row, column)
+    end subroutine read_text
 
     pure subroutine parse_cell(table, row, column, value, valid)
         type(csv_table_t), intent(in) :: table

@@ -1,11 +1,10 @@
 !> The audit of a coefficient table: from a CSV file, or the published one.
 module faststrip_command_table_audit
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, set_status, st_file_format
+    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
-                                   column_index, cell_text, cell_number, cell_integer, open_csv, &
-                                   put_header, put_comment, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_index, read_cell, &
+                                   open_csv, put_header, put_comment, put_cell, end_row, close_csv
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_influence_polynomial, only: table_last_distance
     use faststrip_tables_refit, only: table_row_t, check_row, fit_lsq, fit_author, most_degree
@@ -110,7 +109,9 @@ contains
 
         integer :: at, index
 
-        call cell_integer(table, i, column_index(table, 'index'), index, status)
+        call clear_status(status)
+        index = 0
+        call read_cell(table, i, 'index', index, status)
         if (is_error(status)) return
         if (modulo(index, 2) /= 0) then
             call set_place_status(status, st_file_format, 'the index must be even, twice the ' // &
@@ -129,8 +130,7 @@ contains
             return
         end if
         do at = 0, row%degree
-            call take_coefficient(table, i, 'a', at, row, status)
-            if (is_error(status)) return
+            call read_cell(table, i, 'a' // integer_text(at), row%c(at), status)
         end do
     end subroutine take_published_row
 
@@ -143,19 +143,15 @@ contains
 
         integer :: k
 
-        call take_integer(table, i, 'n', row%n, status)
-        if (is_error(status)) return
-        call take_number(table, i, 'L_min', row%l_min, status)
-        if (is_error(status)) return
-        call take_number(table, i, 'L_max', row%l_max, status)
-        if (is_error(status)) return
-        call take_word(table, i, 'quantity', 'half', 'full', k, status)
-        if (is_error(status)) return
+        call clear_status(status)
+        call read_cell(table, i, 'n', row%n, status)
+        call read_cell(table, i, 'L_min', row%l_min, status)
+        call read_cell(table, i, 'L_max', row%l_max, status)
+        call read_word(table, i, 'quantity', 'half', 'full', k, status)
         row%half = k == 1
-        call take_word(table, i, 'basis', 'monomial', 'chebyshev', k, status)
-        if (is_error(status)) return
+        call read_word(table, i, 'basis', 'monomial', 'chebyshev', k, status)
         row%basis = merge(basis_monomial, basis_chebyshev, k == 1)
-        call take_integer(table, i, 'degree', row%degree, status)
+        call read_cell(table, i, 'degree', row%degree, status)
         if (is_error(status)) return
         if (row%degree < 0 .or. row%degree > most_degree) then
             call set_place_status(status, st_file_format, 'the degree must be 0 to ' // &
@@ -164,70 +160,29 @@ contains
             return
         end if
         do k = 0, row%degree
-            call take_coefficient(table, i, 'c', k, row, status)
-            if (is_error(status)) return
+            call read_cell(table, i, 'c' // integer_text(k), row%c(k), status)
         end do
     end subroutine take_row
 
-    subroutine take_coefficient(table, i, letter, k, row, status)
-        type(csv_table_t), intent(in) :: table
-        integer, intent(in) :: i, k
-        character(len=1), intent(in) :: letter
-        type(table_row_t), intent(inout) :: row
-        type(status_t), intent(out) :: status
-
-        call take_number(table, i, letter // integer_text(k), row%c(k), status)
-    end subroutine take_coefficient
-
-    subroutine take_number(table, i, name, value, status)
-        type(csv_table_t), intent(in) :: table
-        integer, intent(in) :: i
-        character(len=*), intent(in) :: name
-        real(wp), intent(inout) :: value
-        type(status_t), intent(out) :: status
-
-        integer :: column
-
-        call require_column(table, name, column, status)
-        if (is_error(status)) return
-        call cell_number(table, i, column, value, status)
-    end subroutine take_number
-
-    subroutine take_integer(table, i, name, value, status)
-        type(csv_table_t), intent(in) :: table
-        integer, intent(in) :: i
-        character(len=*), intent(in) :: name
-        integer, intent(inout) :: value
-        type(status_t), intent(out) :: status
-
-        integer :: column
-
-        call require_column(table, name, column, status)
-        if (is_error(status)) return
-        call cell_integer(table, i, column, value, status)
-    end subroutine take_integer
-
     ! One of two words: 1 or 2.
-    subroutine take_word(table, i, name, first, second, which, status)
+    subroutine read_word(table, i, name, first, second, which, status)
         type(csv_table_t), intent(in) :: table
         integer, intent(in) :: i
         character(len=*), intent(in) :: name, first, second
         integer, intent(out) :: which
-        type(status_t), intent(out) :: status
+        type(status_t), intent(inout) :: status
 
         character(len=:), allocatable :: word
-        integer :: column
 
         which = 0
-        call require_column(table, name, column, status)
+        call read_cell(table, i, name, word, status)
         if (is_error(status)) return
-        word = cell_text(table, i, column)
         if (word == first) which = 1
         if (word == second) which = 2
         if (which == 0) call set_place_status(status, st_file_format, 'column ' // name // &
             ' must be ' // first // ' or ' // second, "'" // word // "'", table%file, &
             table%line(i))
-    end subroutine take_word
+    end subroutine read_word
 
     subroutine write_findings(path, name, fit, audits)
         character(len=*), intent(in) :: path, name

@@ -9,7 +9,7 @@ module faststrip_lab_forces_contacts
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_lab_random_gaps, only: random_t, start_random, uniform, chance, normal
+    use faststrip_lab_random_numbers, only: random_t, start_random, uniform, chance, normal
     use faststrip_lab_random_force_gaps, only: draw_force_gap, force_family
     implicit none
     private

@@ -3,12 +3,12 @@
 !> by blanks.
 module faststrip_lab_forces_record
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, set_status, st_file_format
+    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_file_format
     use faststrip_base_text, only: integer_text, parse_real, trim_blanks
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
-                                   real_text, require_column, cell_text, cell_number, cell_integer
+                                   real_text, read_cell
     use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
@@ -116,22 +116,19 @@ contains
 
         real(wp), allocatable :: values(:, :)
         real(wp) :: e, nu
-        integer :: column, n
+        integer :: n
 
-        call require_column(table, 'seed', column, status)
-        if (.not. is_error(status)) call cell_integer(table, row, column, record%seed, status)
-        if (.not. is_error(status)) call require_column(table, 'number', column, status)
-        if (.not. is_error(status)) call cell_integer(table, row, column, record%number, status)
-        if (.not. is_error(status)) call require_column(table, 'family', column, status)
-        if (is_error(status)) return
-        record%family = cell_text(table, row, column)
-        call require_column(table, 'status', column, status)
-        if (is_error(status)) return
-        record%status = cell_text(table, row, column)
-        call take_number(table, row, 'load_N', record%load, status)
-        call take_number(table, row, 'mu', record%mu, status)
-        call take_number(table, row, 'E_MPa', e, status)
-        call take_number(table, row, 'nu', nu, status)
+        call clear_status(status)
+        e = 0.0_wp
+        nu = 0.0_wp
+        call read_cell(table, row, 'seed', record%seed, status)
+        call read_cell(table, row, 'number', record%number, status)
+        call read_cell(table, row, 'family', record%family, status)
+        call read_cell(table, row, 'status', record%status, status)
+        call read_cell(table, row, 'load_N', record%load, status)
+        call read_cell(table, row, 'mu', record%mu, status)
+        call read_cell(table, row, 'E_MPa', e, status)
+        call read_cell(table, row, 'nu', nu, status)
         if (is_error(status)) return
         record%material = material_t(e, e, nu, nu)
         call take_lists(table, row, state_lists, values, status)
@@ -160,22 +157,6 @@ contains
         end associate
     end subroutine take_record
 
-    !> The number in the column of a name, unless there was an error before.
-    subroutine take_number(table, row, name, value, status)
-        type(csv_table_t), intent(in) :: table
-        integer, intent(in) :: row
-        character(len=*), intent(in) :: name
-        real(wp), intent(out) :: value
-        type(status_t), intent(inout) :: status
-
-        integer :: column
-
-        value = 0.0_wp
-        if (is_error(status)) return
-        call require_column(table, name, column, status)
-        if (.not. is_error(status)) call cell_number(table, row, column, value, status)
-    end subroutine take_number
-
     !> Lists of one length from several columns.
     subroutine take_lists(table, row, names, values, status)
         type(csv_table_t), intent(in) :: table
@@ -185,13 +166,13 @@ contains
         type(status_t), intent(out) :: status
 
         character(len=:), allocatable :: text
-        integer :: i, column, n
+        integer :: i, n
         logical :: is_valid
 
+        call clear_status(status)
         do i = 1, size(names)
-            call require_column(table, trim(names(i)), column, status)
+            call read_cell(table, row, trim(names(i)), text, status)
             if (is_error(status)) return
-            text = cell_text(table, row, column)
             n = count_words(text)
             if (i == 1) allocate (values(n, size(names)))
             is_valid = n == size(values, 1)

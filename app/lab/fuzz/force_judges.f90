@@ -14,7 +14,8 @@ module faststrip_lab_fuzz_force_judges
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_solve, only: solve_contact_forces
-    use faststrip_lab_random_gaps, only: fuzz_case_t, random_t, start_random, log_uniform, chance
+    use faststrip_lab_random_gaps, only: fuzz_case_t
+    use faststrip_lab_random_numbers, only: random_t, start_random, log_uniform, chance
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_bound, &
                                          judge_moment, judge_power, judge_saturation, &
                                          judge_force_mirror, judge_force_sign

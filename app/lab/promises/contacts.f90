@@ -17,7 +17,7 @@ module faststrip_lab_promises_contacts
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_lab_grid_trade_cases, only: trade_case_t, read_hertz_cases
     use faststrip_lab_checkout, only: in_checkout
-    use faststrip_lab_random_gaps, only: random_t, start_random, uniform, log_uniform, chance
+    use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
     use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
     implicit none

@@ -2,12 +2,13 @@
 !> row of `reference/promises/truth.csv`.
 module faststrip_lab_promises_record
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, is_error, set_status, number_text, st_file_format
+    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, number_text, &
+                                     st_file_format
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
-                                   require_column, cell_text, cell_number, cell_integer
+                                   read_cell
     use faststrip_lab_promises_contacts, only: promise_kinds
     implicit none
     private
@@ -114,21 +115,22 @@ contains
             !! `st_file_format`: a column that is missing, a cell that is no number, a kind that is
             !! none
 
+        character(len=:), allocatable :: kind
         real(wp) :: numbers(7)
-        integer :: column
 
-        call require_column(table, 'kind', column, status)
+        call clear_status(status)
+        call read_cell(table, row, 'kind', kind, status)
         if (is_error(status)) return
-        record%kind = findloc(promise_kinds == cell_text(table, row, column), .true., dim=1)
+        record%kind = findloc(promise_kinds == kind, .true., dim=1)
         if (record%kind == 0) then
             call set_status(status, st_file_format, 'no such kind of contact: ' &
-                            // cell_text(table, row, column) // ' (' // table%file // ', line ' &
+                            // kind // ' (' // table%file // ', line ' &
                             // integer_text(table%line(row)) // ')')
             return
         end if
-        call take_integer('number', record%number)
-        call take_integer('state', record%state)
-        call take_integer('patches', record%patches)
+        call read_cell(table, row, 'number', record%number, status)
+        call read_cell(table, row, 'state', record%state, status)
+        call read_cell(table, row, 'patches', record%patches, status)
         call take_numbers(case_columns, numbers)
         record%load = numbers(1)
         record%mu = numbers(2)
@@ -140,17 +142,6 @@ contains
 
     contains
 
-        !> Unless there was an error before.
-        subroutine take_integer(name, value)
-            character(len=*), intent(in) :: name
-            integer, intent(out) :: value
-
-            value = 0
-            if (is_error(status)) return
-            call require_column(table, name, column, status)
-            if (.not. is_error(status)) call cell_integer(table, row, column, value, status)
-        end subroutine take_integer
-
         subroutine take_numbers(names, values)
             character(len=*), intent(in) :: names(:)
             real(wp), intent(out) :: values(:)
@@ -159,10 +150,7 @@ contains
 
             values = 0.0_wp
             do i = 1, size(names)
-                if (.not. is_error(status)) &
-                    call require_column(table, trim(names(i)), column, status)
-                if (.not. is_error(status)) &
-                    call cell_number(table, row, column, values(i), status)
+                call read_cell(table, row, trim(names(i)), values(i), status)
             end do
         end subroutine take_numbers
     end subroutine take_truth

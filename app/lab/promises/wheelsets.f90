@@ -11,7 +11,7 @@ module faststrip_lab_promises_wheelsets
                                                 find_rigid_contacts, shift_creepage, &
                                                 creepage_set_b
     use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_height, standard_gap_step
-    use faststrip_lab_random_gaps, only: random_t, uniform, chance
+    use faststrip_lab_random_numbers, only: random_t, uniform, chance
     implicit none
     private
 

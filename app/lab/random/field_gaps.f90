@@ -9,8 +9,9 @@ module faststrip_lab_random_field_gaps
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
-    use faststrip_lab_random_gaps, only: fuzz_case_t, random_t, start_random, uniform, &
-                                         log_uniform, chance, pick, normal
+    use faststrip_lab_random_gaps, only: fuzz_case_t
+    use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance, &
+                                            pick, normal
     implicit none
     private
 

@@ -8,7 +8,7 @@ module faststrip_lab_random_force_gaps
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
-    use faststrip_lab_random_gaps, only: random_t, uniform, log_uniform, chance, pick
+    use faststrip_lab_random_numbers, only: random_t, uniform, log_uniform, chance, pick
     implicit none
     private
 

@@ -11,8 +11,8 @@ module faststrip_lab_random_promise_gaps
     use faststrip_geometry_gap_smoothing, only: smooth_gap
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_lab_random_force_gaps, only: curvature_ratio
-    use faststrip_lab_random_gaps, only: random_t, uniform, log_uniform, chance, normal, &
-                                         draw_family_gap, family_names
+    use faststrip_lab_random_gaps, only: draw_family_gap, family_names
+    use faststrip_lab_random_numbers, only: random_t, uniform, log_uniform, chance, normal
     implicit none
     private
 

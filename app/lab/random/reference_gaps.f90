@@ -8,7 +8,7 @@ module faststrip_lab_random_reference_gaps
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_lab_random_gaps, only: random_t, start_random, uniform, log_uniform, chance
+    use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     implicit none
     private
 
