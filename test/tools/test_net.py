@@ -1,10 +1,13 @@
 """What the net keeps of an output, and how it says that one is another."""
 
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
 import net
+from harness import ROOT
 
 TABLE = ("# faststrip 0.1.0 rev {}\n# rail {}\ncase,Fx_N,normal_us,choice\n"
          "a,{},{},strip 5: 0.02 in {} us\n")
@@ -31,6 +34,12 @@ class Net(unittest.TestCase):
                 if text is not None:
                     (folder / name).write_text(text, encoding="utf-8")
         return net.compare(*folders)
+
+    def test_the_contacts_of_the_hosts_are_found_outside_the_tests(self):
+        done = subprocess.run([sys.executable, "-c",
+                               "import net; print(len(net.input_of_figures().splitlines()))"],
+                              cwd=ROOT / "tools/check", stdout=subprocess.PIPE, check=True)
+        self.assertGreater(int(done.stdout), 10)
 
     def test_stamps_and_times_do_not_count(self):
         first = self.kept("abc", "60e1", "-1.5", "12.0", "104")
