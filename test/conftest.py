@@ -26,27 +26,30 @@ class Counts:
 
     def __init__(self, config):
         self.config = config
-        self.started, self.bad, self.skipped = set(), set(), set()
+        self.started, self.bad, self.named, self.skipped = set(), set(), set(), set()
 
     def pytest_runtest_logreport(self, report):
-        self.add(report, report.outcome)
+        name = name_of(report)
+        self.started.add(name)
+        if report.failed:
+            self.bad.add(name)
+        if report.skipped and not hasattr(report, "wasxfail"):
+            self.skipped.add(name)
+
+    def pytest_runtest_logfinish(self):
+        # Not before: what a subtest says while its test runs is captured.
+        terminal = self.config.pluginmanager.get_plugin("terminalreporter")
+        for name in sorted(self.bad - self.named):
+            terminal.write_line(f"\nFAILED {name}", flush=True)
+        self.named |= self.bad
 
     def pytest_collectreport(self, report):
         # A module that cannot be imported is a failing test.
         if report.failed:
-            self.add(report, report.outcome)
-
-    def add(self, report, outcome):
-        name = name_of(report)
-        self.started.add(name)
-        if outcome == "failed":
-            self.bad.add(name)
-            terminal = self.config.pluginmanager.get_plugin("terminalreporter")
-            terminal.write_line(f"\nFAILED {name}", flush=True)
-        if outcome == "skipped" and not hasattr(report, "wasxfail"):
-            self.skipped.add(name)
+            self.pytest_runtest_logreport(report)
 
     def pytest_terminal_summary(self, terminalreporter):
+        self.pytest_runtest_logfinish()
         skipped = self.skipped - self.bad
         words = (f"{len(self.started - self.bad - skipped)} passed, {len(self.bad)} failed"
                  + (f", {len(skipped)} skipped" if skipped else ""))

@@ -83,12 +83,15 @@ class Counted(unittest.TestCase):
             said = self.check({"a/test_mixed.py": MIXED}, 1, "1 passed, 5 failed, 1 skipped",
                               "-n", jobs)
             self.assertIn("ValueError: on purpose", said)
-            self.assertRegex(said, r"(?m)^FAILED a/test_mixed::Mixed\.test_breaks$")
+            for name in ("Mixed.test_breaks", "Mixed.test_fails_in_parts",
+                         "Unready.test_never_starts"):
+                self.assertEqual(said.count(f"\nFAILED a/test_mixed::{name}\n"), 1, said)
 
     def test_a_module_that_cannot_be_imported_fails(self):
         files = {"a/test_bad.py": "import no_such_module\n"}
         said = self.check(files, 2, "0 passed, 1 failed")
         self.assertIn("no_such_module", said)
+        self.assertIn("\nFAILED a/test_bad::\n", said)
 
     def test_a_test_that_ends_its_process_fails(self):
         files = {"a/test_end.py": GOOD.replace("pass\n", "import os; os._exit(3)\n"),
