@@ -551,7 +551,7 @@ def page_packages(text):
 def install_browser():
     """Chromium and what drives it, if they are not there; why they are not in one line, or
     nothing."""
-    sys.path.insert(0, "tools/building")
+    sys.path.append("tools/building")
     import debian  # which nothing else here needs
 
     for program, package in (("chromium", "chromium"), ("chromedriver", "chromium-driver")):

@@ -8,6 +8,7 @@ import unittest
 from unittest import mock
 
 import scale
+import speed
 from faststrip_plots.tables import InputError
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -97,7 +98,7 @@ class File(unittest.TestCase):
                  "bytes_per_contact": 1e4}]
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "sub", "scale.csv")
-            scale.write(path, scale.scale_csv(["faststrip 0.1.0 rev abc"],
+            speed.write(path, scale.scale_csv(["faststrip 0.1.0 rev abc"],
                                               rows + scale.paper_rows(rows)))
             self.assertTrue(path.read_text(encoding="utf-8").startswith("# faststrip 0.1.0 rev"))
             read = scale.read_scale(path)

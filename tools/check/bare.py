@@ -23,7 +23,7 @@ import sys
 
 import lint
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "building"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "building"))
 import debian  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

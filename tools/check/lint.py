@@ -22,7 +22,7 @@ import shutil
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "building"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "building"))
 import debian  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

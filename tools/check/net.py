@@ -30,7 +30,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "generate"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "generate"))
 import methods  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

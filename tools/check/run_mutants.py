@@ -47,7 +47,7 @@ import time
 import tomllib
 
 # With traps, as the tests' own build, but without its checks, which cost compilation time.
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "building"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "building"))
 from netcdf_plugin import plugin_sources, where_netcdf_is  # noqa: E402
 
 FLAGS = "-Og -fopenmp -fPIC -frecursive -fimplicit-none -std=f2018"

@@ -17,7 +17,7 @@ though not on the short interval).
 
     influence_coefficients.py           write the Fortran module
     influence_coefficients.py --check   compare it with the committed one, byte for
-                                                      byte; exit 1 if it differs
+                                        byte; exit 1 if it differs
 
 Both ways the coefficients, rounded to doubles as the compiler will round them, are compared at
 points off the nodes with G by 60-digit quadrature (a formula the fit of A and B does not use) and

@@ -16,7 +16,7 @@ distances in proportion to the edges; di_n/db by elliptic integrals in 150; 20 d
 
     influence_reference.py           write the files
     influence_reference.py --check   compare them with the committed ones; exit 1 if
-                                                   one differs
+                                     one differs
 """
 import argparse
 import pathlib

@@ -7,7 +7,7 @@ penetration, pmax; share (tractions over their bounds, sums).
 
     spence_reference.py           write the file
     spence_reference.py --check   compare with the committed one; exit 1 if
-                                                         a number differs by more than 2e-5
+                                  a number differs by more than 2e-5
 
 With the contact's radius and the compliance 1, Hankel transforms of pressure and traction
 int g cos(kt) dt and int h sin(kt) dt over 0 < t < 1, Abel's operators make of the displacements

@@ -21,7 +21,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.append(str(ROOT / "plots"))
 
 from faststrip_plots.promises import (  # noqa: E402
     ALL,

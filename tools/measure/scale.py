@@ -2,7 +2,7 @@
 """Measure `faststrip batch` on many contacts: `./run scale`.
 
     scale.py [--quick] [-o FILE]    measure; the table on stdout, the same as CSV in FILE,
-                                          its picture beside it (FILE's name with .png)
+                                    its picture beside it (FILE's name with .png)
     scale.py --read FILE            print the table of such a file
 
 Contacts are those of the paper's 20 gaps in turn, each under its own load and creepages. Groups of
@@ -16,7 +16,6 @@ are. On a machine that does other things too only the former is steady.
 
 from __future__ import annotations
 
-import argparse
 import csv
 import io
 import json
@@ -29,10 +28,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from speed import digits, write
+from speed import digits, measured_table
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.append(str(ROOT / "plots"))
 
 from faststrip_plots.tables import InputError, read_table  # noqa: E402
 
@@ -67,29 +66,9 @@ print(json.dumps([max(map(abs, codes)), sum(seconds), time.monotonic() - start, 
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="./run scale", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true",
-                        help="a tenth of the contacts, one round: half a minute")
-    parser.add_argument("-o", "--output", default="out/scale.csv", metavar="FILE",
-                        help="the CSV to write (default out/scale.csv)")
-    parser.add_argument("--no-picture", action="store_true", help="the CSV only")
-    parser.add_argument("--read", metavar="FILE", help="print the table of such a file")
-    options = parser.parse_args(arguments)
-    if options.read:
-        print(shown(read_scale(options.read)), end="")
-        return 0
-    output = Path(options.output)
-    stamps, rows = measure(options.quick)
-    write(output, scale_csv(stamps, rows))
-    print(shown(read_scale(output)), end="")
-    print(output)
-    if not options.no_picture:
-        picture = output.with_suffix(".png")
-        run([[sys.executable, str(ROOT / "plots" / "scale.py"), "--scale", str(output),
-              "-o", str(picture)]])
-        print(picture)
-    return 0
+    return measured_table(
+        "scale", __doc__, "a tenth of the contacts, one round: half a minute",
+        lambda quick: scale_csv(*measure(quick)), lambda path: shown(read_scale(path)), arguments)
 
 
 # Measuring

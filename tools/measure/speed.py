@@ -2,7 +2,7 @@
 """Time everything in one run and set it beside FASTSIM and CONTACT: `./run speed`.
 
     speed.py [--quick] [-o FILE]    measure; the table on stdout, the same as CSV in FILE,
-                                          its picture beside it (FILE's name with .png)
+                                    its picture beside it (FILE's name with .png)
     speed.py --read FILE            print the table of such a file
 
 Methods are those of reference/speed_methods.csv on the paper's 20 contacts, then steps of a
@@ -27,7 +27,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.append(str(ROOT / "plots"))
 
 from faststrip_plots.tables import InputError, read_table  # noqa: E402
 
@@ -57,26 +57,32 @@ BATCH_MATERIAL = "209920,0.28,0.3"
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="./run speed", description=__doc__,
+    return measured_table(
+        "speed", __doc__, "few methods, few contacts, one round: half a minute at most",
+        lambda quick: speed_csv(*measure(quick)), lambda path: shown(read_speed(path)), arguments)
+
+
+def measured_table(name, description, quick, measured, shown_of, arguments):
+    """The options of `./run NAME`, and what it does: `measured(is_quick)` is the text of a CSV,
+    `shown_of(path)` that as people read it; `plots/NAME.py` draws it."""
+    parser = argparse.ArgumentParser(prog=f"./run {name}", description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true",
-                        help="few methods, few contacts, one round: half a minute at most")
-    parser.add_argument("-o", "--output", default="out/speed.csv", metavar="FILE",
-                        help="the CSV to write (default out/speed.csv)")
+    parser.add_argument("--quick", action="store_true", help=quick)
+    parser.add_argument("-o", "--output", default=f"out/{name}.csv", metavar="FILE",
+                        help=f"the CSV to write (default out/{name}.csv)")
     parser.add_argument("--no-picture", action="store_true", help="the CSV only")
     parser.add_argument("--read", metavar="FILE", help="print the table of such a file")
     options = parser.parse_args(arguments)
     if options.read:
-        print(shown(read_speed(options.read)), end="")
+        print(shown_of(options.read), end="")
         return 0
     output = Path(options.output)
-    stamps, rows = measure(options.quick)
-    write(output, speed_csv(stamps, rows))
-    print(shown(read_speed(output)), end="")
+    write(output, measured(options.quick))
+    print(shown_of(output), end="")
     print(output)
     if not options.no_picture:
         picture = output.with_suffix(".png")
-        command([sys.executable, str(ROOT / "plots" / "speed.py"), "--speed", str(output),
+        command([sys.executable, str(ROOT / "plots" / f"{name}.py"), f"--{name}", str(output),
                  "-o", str(picture)])
         print(picture)
     return 0

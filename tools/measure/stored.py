@@ -21,7 +21,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.append(str(ROOT / "plots"))
 
 from faststrip_plots.stamps import History, stamp_of, stored_files, trouble_with  # noqa: E402
 

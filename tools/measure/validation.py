@@ -4,8 +4,8 @@
     validation.py                 write docs/validation.md and fill the marked places
     validation.py --check         exit 1 and name what is not as this tool would write it
     validation.py --take FOLDER   before that, condense the full report in FOLDER, with
-                                        data/estimates.csv of `bench estimates`, into
-                                        reference/measured.csv
+                                  data/estimates.csv of `bench estimates`, into
+                                  reference/measured.csv
 
 A marked place of README.md or docs/*.md is `<!-- measured: NAME -->...<!-- end -->`. NAME is a
 table of TABLES here, or TABLE/ROW/COLUMN of reference/measured.csv: two digits of that number, or
@@ -24,7 +24,7 @@ from pathlib import Path
 from measured import ROOT, Measured, condense, measured_csv  # first: it finds the plots' package
 
 # isort: split
-sys.path.insert(0, str(ROOT / "tools" / "docs"))
+sys.path.append(str(ROOT / "tools" / "docs"))
 from faststrip_plots.tables import InputError, read_table  # noqa: E402
 from faststrip_plots.verdicts import (  # noqa: E402
     CHAPTERS,

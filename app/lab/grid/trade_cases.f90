@@ -45,6 +45,7 @@ contains
 
         call read_bench_cases(folder, solved, status)
         allocate (cases(size(solved)))
+        if (is_error(status)) return
         do i = 1, size(cases)
             cases(i)%contact_case_t = solved(i)%contact_case_t
             cases(i)%set = 's1002_uic60'
@@ -68,6 +69,7 @@ contains
 
         call read_ellipse_cases(folder, solved, status)
         allocate (cases(size(solved)))
+        if (is_error(status)) return
         do i = 1, size(cases)
             associate (case => cases(i), b => solved(i)%b)
                 case%contact_case_t = solved(i)%contact_case_t
