@@ -1,5 +1,7 @@
 """`faststrip-lab bench trade`: errors against the references, times, bad lists refused."""
 
+import shutil
+
 from cli_program import ROOT, LabTest, numbers
 
 CONTACTS = ROOT / "reference" / "contact"
@@ -60,6 +62,16 @@ class Trade(LabTest):
         said = [row["status"] for row, error in zip(both, errors) if error > 0.1]
         self.assertGreater(len(said), 4)
         self.assertEqual(set(said), {"under_resolved"})
+
+    def test_a_gap_or_a_table_that_is_not_there(self):
+        shutil.copytree(CONTACTS, self.folder / "contacts")
+        self.write("methods.csv", HEADER + "normal,fine,always,strip,faststrip,15,,,,\n")
+        for name in ("gaps/shift_0.csv", "hertz_creep.csv"):
+            (self.folder / "contacts" / name).unlink()
+            self.refused(1, "bench", "trade", "--quick", "--methods", "methods.csv", "--contacts",
+                         "contacts", "--scenes", SCENES, "-o", "trade.csv",
+                         says=["no such file", name])
+            shutil.copy(CONTACTS / name, self.folder / "contacts" / name)
 
     def test_bad_lists(self):
         for line, says in (("sideways,x,always,strip,fastsim,,,,,\n", "stage must be"),
