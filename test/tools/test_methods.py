@@ -82,9 +82,11 @@ class Methods(unittest.TestCase):
             with self.subTest(new):
                 self.setUp()
                 self.change(methods.LIST, old, new)
-                done = self.run_tool("--check")
+                before = {path: self.read(path) for path in methods.TARGETS}
+                done = self.run_tool()
                 self.assertEqual(done.returncode, 1)
                 self.assertIn(says, done.stderr)
+                self.assertEqual({path: self.read(path) for path in methods.TARGETS}, before)
 
     def test_every_file_has_one_place(self):
         self.change("docs/usage.md", "<!-- END methods -->\n", "")

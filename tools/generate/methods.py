@@ -175,19 +175,19 @@ def main():
     parser.add_argument("--root", type=pathlib.Path, default=ROOT, help=argparse.SUPPRESS)
     options = parser.parse_args()
     methods = read_methods((options.root / LIST).read_text(encoding="utf-8"))
-    stale = []
+    texts = {}
     for path, lines in TARGETS.items():
-        file = options.root / path
-        text = file.read_text(encoding="utf-8")
+        text = (options.root / path).read_text(encoding="utf-8")
         new = rewritten(text, lines(methods), path)
-        if new == text:
-            continue
-        stale.append(path)
-        if not options.check:
-            file.write_text(new, encoding="utf-8")
-    if stale and options.check:
+        if new != text:
+            texts[path] = new
+    if not options.check:
+        # All or none: a line that is too long for one of them ends the rest, too.
+        for path, text in texts.items():
+            (options.root / path).write_text(text, encoding="utf-8")
+    elif texts:
         sys.exit("methods: not as the list says, run tools/generate/methods.py: "
-                 + ", ".join(stale))
+                 + ", ".join(texts))
 
 
 if __name__ == "__main__":
